@@ -1,14 +1,9 @@
 """The map S that the mapper draws while it explores.
 
 Mirrors: algorithms/chart.py, `Chart`. Differs: U is a mark at each dart with a count at each
-vertex, so that vertices without a dart of U are passed over. The tree rooted at v0 is kept from one
-e to the next (`chart.has_tree`), and made anew only after an edge that may change it:
-
-- A new vertex hangs at vk. It comes into the queue somewhere, and leaves the others in their order.
-- An edge between vertices at one distance is in no breadth-first tree.
-- Any other edge may give a vertex another way to v0, and so another place in the queue.
-
-Source: docs/semantics.md, section 3.
+vertex. The tree rooted at v0 is kept (`chart.has_tree`) until an edge may change it. A new vertex,
+hung at vk, leaves the others in their order; an edge between vertices at one distance is in no
+breadth-first tree; any other edge may change the tree.
 """
 
 from __future__ import annotations
@@ -20,7 +15,7 @@ from topo_verify.compiled.workspace import *
 
 @kernel
 def start_chart(run: RunWords, percept: int) -> None:
-    """Start with v0 alone. The marked dart is dart 0, so the first percept has marker 0."""
+    """Start with v0 alone; the marked dart is dart 0."""
     chart = run.chart
     chart.vertices = 0
     chart.darts = 0
@@ -33,7 +28,7 @@ def start_chart(run: RunWords, percept: int) -> None:
 
 @kernel
 def add_vertex(run: RunWords, percept: int) -> int:
-    """Add a vertex, given its percept at its first dart. Returns that dart."""
+    """Add a vertex; return its first dart."""
     chart = run.chart
     v = chart.vertices
     first = chart.darts
@@ -66,7 +61,7 @@ def add_vertex(run: RunWords, percept: int) -> int:
 
 @inlined
 def leave_u(chart: ChartWords, dart: int) -> None:
-    """Take a dart out of U, if it is there."""
+    """Take a dart out of U."""
     if chart.in_u[dart] != 0:
         chart.in_u[dart] = 0
         chart.unexplored -= 1
@@ -75,7 +70,7 @@ def leave_u(chart: ChartWords, dart: int) -> None:
 
 @inlined
 def join(chart: ChartWords, e: int, other: int) -> None:
-    """Put on record that the two darts are the two ends of one edge."""
+    """Record two darts as the ends of one edge."""
     chart.alpha[e] = other
     chart.alpha[other] = e
     leave_u(chart, e)
@@ -91,7 +86,7 @@ def join(chart: ChartWords, e: int, other: int) -> None:
 
 @inlined
 def turn(chart: ChartWords, dart: int, door: int) -> int:
-    """The dart behind a door, for a robot with this reference dart: sigma^door(dart)."""
+    """The dart behind a door: sigma^door(dart)."""
     v = chart.vertex[dart]
     beyond = chart.first[v] + chart.degree[v]
     turned = dart + door
@@ -102,7 +97,7 @@ def turn(chart: ChartWords, dart: int, door: int) -> int:
 
 @inlined
 def door(run: RunWords, dart: int, exit_dart: int) -> int:
-    """The door through which a robot with reference dart `dart` leaves by `exit_dart`."""
+    """The door from `dart` to `exit_dart`."""
     chart = run.chart
     doors = exit_dart - dart
     if planted(run.task, COUNTS_DOORS_ANTICLOCKWISE):
@@ -114,7 +109,7 @@ def door(run: RunWords, dart: int, exit_dart: int) -> int:
 
 @kernel
 def tree(chart: ChartWords, root: int, until: int) -> None:
-    """The breadth-first tree rooted at a vertex, until `until` is reached: SEEN, NEAR, TOWARDS."""
+    """The breadth-first tree from a vertex, until `until` is reached: `seen`, `near`, `towards`."""
     search = chart.search + 1
     chart.search = search
     chart.seen[root] = search
@@ -142,7 +137,7 @@ def tree(chart: ChartWords, root: int, until: int) -> None:
 
 @kernel
 def tree_of_v0(chart: ChartWords) -> None:
-    """The complete breadth-first tree rooted at v0, as S is now: `depth`, `up`."""
+    """The breadth-first tree from v0: `depth`, `up`."""
     if chart.has_tree != 0:
         return
     chart.has_tree = 1
@@ -177,7 +172,7 @@ def first_in_u(chart: ChartWords, v: int) -> int:
 
 @kernel
 def reach(chart: ChartWords, root: int) -> int:
-    """The lowest dart of U among those of the vertices nearest to the root; `policies.nearest`."""
+    """The lowest dart of U nearest to the root; `policies.nearest`."""
     search = chart.search + 1
     chart.search = search
     chart.seen[root] = search

@@ -1,28 +1,20 @@
-"""Lists the worlds of a rank range inside the kernel, one after the other, in place.
+"""Lists the worlds of a rank range inside the kernel, in place.
 
-The compiled twin of `world/enumeration/rank_order.py` (class `any`) and `pruned.py` (all others):
-the same growth, the same order, the same ranks. The letters are theirs: `u` open darts, `r` darts
-still to create, `e` the smallest open dart, `c` its partner, F(u, r) the number of completions;
-`n` darts and `nv` vertices exist so far, `m2` is the number of darts at the end.
+The twin of `world/enumeration/rank_order.py` (class `any`) and `pruned.py` (other classes): the
+same growth, order and ranks. The letters are theirs: `u` open darts, `r` darts to create, `e` the
+smallest open dart, `c` its partner, F(u, r) the number of completions; `n` darts and `nv` vertices
+so far, `m2` darts at the end.
 
-What differs: there the partial maps are values on a stack. Here ONE map grows in the workspace
-(`WorldWords`), and a step back undoes the last step. The state of the walk lies in an array of its
-own, so it stops at each world and goes on behind it:
+Differs: ONE map grows in the workspace (`WorldWords`), and a step back undoes the last step. The
+state of the walk is an array, so it stops at each world and goes on:
 
     walk = WalkWords(prepare(8, WorldClass.parse("planar"), 0, 1000))
     while next_world(world, walk) >= 0:      # the rank; -1: no further world
         ...                                  # it has walk.vertices vertices
 
-For a class other than `any` the pruners of `pruning.py` are asked before each step, and told of
-each step back.
-
-What it costs is printed, class by class and beside C, by
-
-    .venv/bin/python benchmarks/compiled.py --only enumeration
-
-Each step reads what the one before has written, so steps do not overlap: that is the limit.
-
-Source: docs/semantics.md, section 12.
+In other classes than `any` the pruners of `pruning.py` are asked before each step.
+`benchmarks/compiled.py --only enumeration` prints the speed, which is limited by the dependence of
+each step on the last.
 """
 
 from __future__ import annotations
@@ -51,18 +43,15 @@ if TYPE_CHECKING:
 
 @inlined
 def next_world(world: WorldWords, walk: WalkWords) -> int:
-    """Place the next world in the workspace and return its rank; -1 after the last world."""
+    """Place the next world; return its rank, or -1."""
     if walk.pruned != 0:
         return next_pruned(world, walk)
     return next_of_all(world, walk)
 
 
-# ---------------------------------------------------------------- other classes: pruned.py
-
-
 @inlined
 def next_pruned(world: WorldWords, walk: WalkWords) -> int:  # noqa: PLR0912  split, it takes longer
-    """`next_world` in any other class: `_grown` of pruned.py."""
+    """`next_world` in other classes: `_grown` of pruned.py."""
     m2, k, n, u, nv = walk.darts, walk.depth, walk.created, walk.opened, walk.vertices
     while True:
         if k > 0:
@@ -116,7 +105,7 @@ def next_pruned(world: WorldWords, walk: WalkWords) -> int:  # noqa: PLR0912  sp
 
 @inlined
 def begin_next_root(world: WorldWords, walk: WalkWords) -> int:
-    """Begin with the next root of the class in the range; its rank, or -1: no further one."""
+    """Begin with the next root of the class; return its rank, or -1."""
     m2 = walk.darts
     rank = walk.root_after
     for degree in range(walk.root + 1, m2 + 1):
@@ -139,7 +128,7 @@ def join_from(
 ) -> int:
     """Join e with the first open dart from c on that is not pruned, and return it.
 
-    `rank`: before, the rank of the step with c; after, of the step that was made.
+    `rank`: before, that of the step with c; after, that of the step made.
     Returns: n or c if none is left: the first place for a new vertex's last dart.
     """
     ways = 0
@@ -168,10 +157,9 @@ def join_from(
 def new_vertex_from(
     world: WorldWords, walk: WalkWords, k: int, e: int, c: int, m2: int, n: int, u: int, nv: int
 ) -> int:
-    """Hang a vertex on e, the first that is not pruned, whose last dart is c or more: that dart.
+    """Hang a vertex on e, the first not pruned whose last dart is c or more: that dart.
 
-    `rank`: before, the rank of the step with c; after, of the step that was made.
-    Returns: m2 if none is left.
+    `rank`: as in `join_from`. Returns: m2 if none is left.
     """
     rank = walk.rank
     while c < m2 and rank < walk.stop:
@@ -191,12 +179,9 @@ def new_vertex_from(
     return m2
 
 
-# ---------------------------------------------------------------- for use from Python
-
-
 @entry
 def count_worlds(world: WorldWords, walk: WalkWords) -> int:
-    """How many worlds are still to come."""
+    """The number of worlds to come."""
     count = 0
     while next_world(world, walk) >= 0:
         count += 1
@@ -205,7 +190,7 @@ def count_worlds(world: WorldWords, walk: WalkWords) -> int:
 
 @entry
 def list_worlds(world: WorldWords, walk: WalkWords, rows: WordTable, most: int) -> int:
-    """Write the next worlds into rows, and return how many: rank, vertices, degrees, alpha."""
+    """Write the next worlds into rows (rank, vertices, degrees, alpha); return how many."""
     m2 = walk.darts
     for i in range(most):
         rank = next_world(world, walk)
@@ -224,13 +209,13 @@ def list_worlds(world: WorldWords, walk: WalkWords, rows: WordTable, most: int) 
 def prepare(
     edges: int, kind: WorldClass | None = None, start: int = 0, stop: int | None = None
 ) -> NDArray[int64]:
-    """The state of an enumeration before its first world: the array of `WalkWords`.
+    """The state of an enumeration before its first world.
 
     Args:
         kind: the class; default: any.
-        start, stop: only ranks start … stop-1 (ranks in class `any`, whatever the class).
+        start, stop: only ranks start … stop-1, of class `any`.
     Raises:
-        InputError: more edges than the small layout has room for, or none.
+        InputError: too many edges, or none.
     """
     import numpy as np
 
@@ -267,7 +252,7 @@ def ranked_tables(
     *,
     layout: WordLayout = SMALL,
 ) -> Iterator[tuple[int, rank_order.Table]]:
-    """The same worlds as `pruned.ranked_tables` lists, with their ranks, by the kernel.
+    """The worlds of `pruned.ranked_tables`, by the kernel.
 
     Raises:
         InputError: numba is not installed, or there are too many edges.
@@ -283,15 +268,11 @@ def ranked_tables(
             yield rank, (tuple(degrees), tuple(alpha))
 
 
-# ---------------------------------------------------------------- class any
-
-
 @inlined
 def next_of_all(world: WorldWords, walk: WalkWords) -> int:
     """`next_world` in class `any`: `tables` of rank_order.py.
 
-    One function, with what changes at every step in variables: split, with all of it in `walk`, it
-    took 1.6 times as long.
+    One function with local variables: split, with all in `walk`, it took 1.6 times as long.
     """
     if walk.rank >= walk.stop:
         return -1
@@ -343,7 +324,7 @@ def next_of_all(world: WorldWords, walk: WalkWords) -> int:
 
 @inlined
 def next_partner(world: WorldWords, c: int, m2: int, n: int, u: int) -> int:
-    """The next partner from c on: an open dart, or what would be a new vertex's last dart."""
+    """The next partner from c on: an open dart, or a new vertex's last dart."""
     # A step that leaves no open dart while darts remain is a dead end.
     while c < m2:
         if c < n:
@@ -357,7 +338,7 @@ def next_partner(world: WorldWords, c: int, m2: int, n: int, u: int) -> int:
 
 @inlined
 def next_root(walk: WalkWords) -> int:
-    """The degree of the next root that has worlds in the range; those before it are passed over."""
+    """The degree of the next root with worlds in the range."""
     degree = walk.root + 1
     ways = walk.completions[degree * G_ROW + walk.darts - degree]
     while walk.skip >= ways:
@@ -369,7 +350,7 @@ def next_root(walk: WalkWords) -> int:
 
 @inlined
 def skipped(walk: WalkWords, c: int, m2: int, n: int, u: int) -> bool:
-    """Whether all completions of a step lie before the range; if so, they are passed over."""
+    """Whether all completions lie before the range; they are then skipped."""
     if c < n:
         ways = walk.completions[(u - 2) * G_ROW + m2 - n]
     else:
@@ -380,12 +361,9 @@ def skipped(walk: WalkWords, c: int, m2: int, n: int, u: int) -> bool:
     return True
 
 
-# ---------------------------------------------------------------- steps
-
-
 @inlined
 def plant(world: WorldWords, walk: WalkWords, degree: int) -> None:
-    """Begin with a root vertex of this degree, all its darts open."""
+    """Begin with a root vertex of this degree."""
     for d in range(walk.darts):
         world.alpha[d] = -1
     world.first[0] = 0

@@ -1,4 +1,4 @@
-"""The trace of a compiled run: a stream of words, and the events of robot/events.py that they mean.
+"""The trace of a compiled run: words, and the events of robot/events.py that they mean.
 
     words                                                          event
     MOVE door percept purpose                                      Move
@@ -9,14 +9,10 @@
     AUGMENT e kind dart degree                                     Augment
     FINISH cost                                                    Finish, without its map
 
-A percept is `degree * P`, and 1 + marker if the marker is here. What is absent is -1. `length` is
-that of the whole event, 13 + k. `purpose`, `rule` and `contradiction` are indices of `PURPOSES`,
-`RULES` and `CONTRADICTIONS`; `kind` is 1 (new) or 2 (loop). `record` is the dart that a record
-stands behind, followed in its order by the doors behind that dart.
-
-Two runs are equal if their words are equal. `digest` is a hash of 64 bits of them.
-
-Source: docs/semantics.md, section 13.
+A percept is `degree * P`, plus 1 + marker if present; -1 means absent. `length` is 13 + k.
+`purpose`, `rule` and `contradiction` are indices of `PURPOSES`, `RULES` and `CONTRADICTIONS`;
+`kind` is 1 (new) or 2 (loop). `record` is the dart before a record, followed by doors. `digest` is
+a 64-bit hash.
 """
 
 from __future__ import annotations
@@ -69,7 +65,7 @@ KINDS: tuple[Literal["new", "loop"], ...] = ("new", "loop")
 ABSENT = -1
 
 REJECT_WORDS = 13
-"""Words of a rejection without the doors of a record."""
+"""Words of a rejection without a record's doors."""
 
 
 PerWord = Annotated[Words, "TRACE"]
@@ -84,7 +80,7 @@ class EventWords(WordView):
 
 @cursor("W")
 class MoveWords(EventWords):
-    """The words of a move."""
+    """A move."""
 
     door: int
     percept: int
@@ -93,14 +89,14 @@ class MoveWords(EventWords):
 
 @cursor("W")
 class DecisionWords(EventWords):
-    """A pose, a rejection, a confirmation or an augmentation."""
+    """A pose, rejection, confirmation or augmentation."""
 
     edge: int
 
 
 @cursor("W")
 class PoseWords(DecisionWords):
-    """The words of a pose."""
+    """A pose."""
 
     number: int
     h: PerWord
@@ -108,7 +104,7 @@ class PoseWords(DecisionWords):
 
 @cursor("W")
 class RejectionWords(DecisionWords):
-    """A rejection, with its evidence."""
+    """A rejection."""
 
     h: int
     size: int
@@ -126,7 +122,7 @@ class RejectionWords(DecisionWords):
 
 @cursor("W")
 class ConfirmationWords(DecisionWords):
-    """The words of a confirmation."""
+    """A confirmation."""
 
     h: int
     rule: int
@@ -134,7 +130,7 @@ class ConfirmationWords(DecisionWords):
 
 @cursor("W")
 class AugmentationWords(DecisionWords):
-    """The words of an augmentation."""
+    """An augmentation."""
 
     growth: int
     dart: int
@@ -143,7 +139,7 @@ class AugmentationWords(DecisionWords):
 
 @entry
 def digest(trace: TraceWords) -> int:
-    """A hash of 64 bits of the trace; it depends on every word and on their order."""
+    """A 64-bit hash of the trace."""
     h = 1469598103934665603
     for i in range(trace.size):
         h = (h ^ trace.word[i]) * 1099511628211
@@ -151,14 +147,11 @@ def digest(trace: TraceWords) -> int:
     return h
 
 
-# ---------------------------------------------------------------- words of events
-
-
 def percept_word(percept: Percept | None) -> int:
-    """The word that stands for a percept; -1 for none.
+    """The word for a percept; -1 for none.
 
     Raises:
-        OverflowError: no word does, as no world has such a percept.
+        OverflowError: no world has such a percept.
     """
     if percept is None:
         return ABSENT
@@ -168,7 +161,7 @@ def percept_word(percept: Percept | None) -> int:
 
 
 def words(events: Iterable[Event]) -> list[int]:
-    """The words of a trace of a catalogue algorithm; its start and its map have none."""
+    """The words of a catalogue algorithm's trace, without start and map."""
     row: list[int] = []
     for event in events:
         match event:
@@ -191,7 +184,6 @@ def words(events: Iterable[Event]) -> list[int]:
 
 
 def _reject_words(event: Reject) -> tuple[int, ...]:
-    """The words of a rejection."""
     why = event.evidence
     doors = () if why.record is None else why.record.doors
     return (
@@ -212,18 +204,15 @@ def _reject_words(event: Reject) -> tuple[int, ...]:
     )
 
 
-# ---------------------------------------------------------------- events of words
-
-
 @lru_cache(maxsize=2**12)
 def percept_of(word: int) -> Percept:
-    """The percept that a word stands for."""
+    """The percept of a word."""
     marker = word % P
     return Percept(word // P, marker - 1 if marker else None)
 
 
 def spans(trace: Sequence[int]) -> Iterator[tuple[int, int]]:
-    """Where each event of a trace begins and ends.
+    """Yield where each event begins and ends.
 
     Raises:
         InternalError: the words are not a trace.
@@ -243,7 +232,7 @@ def spans(trace: Sequence[int]) -> Iterator[tuple[int, int]]:
 
 
 def decoded(trace: Sequence[int]) -> Iterator[Event]:
-    """The events of a trace, without start and finish, which need the world and the map."""
+    """Yield the events, without start and finish."""
     for at, end in spans(trace):
         kind, *rest = trace[at:end]
         if kind == MOVE:
@@ -268,7 +257,6 @@ def _purpose(number: int) -> Purpose | None:
 
 
 def _evidence(rest: Sequence[int]) -> Evidence:
-    """The evidence in the words of a rejection, its kind left out."""
     _, _, _, _, step, expected, observed, sequence, at, record, wrong, _, *doors = rest
     return Evidence(
         step,

@@ -1,20 +1,14 @@
-"""The rules that show a hypothesis false from what was seen; the complete rule is in folding.py.
+"""The rules that refute a hypothesis from what was seen; the complete rule is in folding.py.
 
     rule      mirrors of algorithms/              what differs
-    prefix    enhancement_i.py, `PrefixRule`      the last sequence is the excursion itself, since
-                                                  the robot stands where it ended
+    prefix    enhancement_i.py, `PrefixRule`      the last sequence is the excursion itself
     history   enhancement_ii.py, `HistoryRule`    the same; `beyond` is that of enhancement_iii.py
-    records   enhancement_iii.py, `RecordsRule`   a record is four words; those behind the same
-                                                  place are a list, searched by door
-    planar    planar.py, `PlanarRule`             the face is a mark on its darts, the number of
-                                                  this e
+    records   enhancement_iii.py, `RecordsRule`   a record is four words; those behind one place
+                                                  are a list
+    planar    planar.py, `PlanarRule`             the face is a mark on its darts
 
 A dropped record keeps its place until the run ends. The rule for one level writes no record behind
-another, so both rules of records read alike. In a planar world only darts on e's own face of S can
-be its other end.
-
-Source: sections III-A to III-C of the paper; listing 2, lines 16-19; listing 3, lines 3, 10-16, 29;
-docs/semantics.md, section 8.
+another.
 """
 
 from __future__ import annotations
@@ -28,7 +22,7 @@ from topo_verify.compiled.workspace import *
 
 @kernel
 def cite(evidence: EvidenceWords, step: int, expected: int, observed: int, at: int) -> bool:
-    """Note the evidence for a rejection without motion. True, so that a rule may return it."""
+    """Note the evidence for a rejection; return True."""
     evidence.step = step
     evidence.expected = expected
     evidence.observed = observed
@@ -40,7 +34,7 @@ def cite(evidence: EvidenceWords, step: int, expected: int, observed: int, at: i
 
 @kernel
 def refute_by_prefix(run: RunWords, h: int) -> bool:
-    """Whether a percept on the common prefix is not what h expects; the first one is cited."""
+    """Whether the common prefix contradicts h; the first percept is cited."""
     excursion, chart = run.excursion, run.chart
     at = h
     for step in range(1, excursion.size + 1):
@@ -56,14 +50,11 @@ def refute_by_prefix(run: RunWords, h: int) -> bool:
     return False
 
 
-# ---------------------------------------------------------------- history
-
-
 @kernel
 def refute_by_history(run: RunWords, h: int) -> bool:
-    """Whether S (and T) shows another percept where the sequence leads from h; the first is cited.
+    """Whether S or T contradicts h along the sequence; the first percept is cited.
 
-    Earlier sequences were traced when they were executed, and S has not changed since.
+    Earlier sequences were traced when executed, and S is the same.
     """
     chart, excursion = run.chart, run.excursion
     at = h  # A3.10
@@ -87,12 +78,9 @@ def refute_by_history(run: RunWords, h: int) -> bool:
     return False
 
 
-# ---------------------------------------------------------------- records
-
-
 @kernel
 def observe_sequence(run: RunWords) -> None:
-    """Keep the excursion as one of the sequences executed for e; NSEQ counts it already."""
+    """Keep the excursion as a sequence."""
     excursion, sequences = run.excursion, run.sequences
     n = excursion.size
     first = sequences.steps
@@ -110,7 +98,7 @@ def observe_sequence(run: RunWords) -> None:
 
 @kernel
 def beyond(run: RunWords, exit_dart: int, step: int) -> bool:
-    """Whether a percept on record behind the dart contradicts the sequence; the first is cited."""
+    """Whether a record behind the dart contradicts the sequence."""
     records, evidence, excursion = run.records, run.evidence, run.excursion
     place = records.of_dart[exit_dart]  # A3.14
     first = step
@@ -130,7 +118,7 @@ def beyond(run: RunWords, exit_dart: int, step: int) -> bool:
 
 @kernel
 def behind(records: RecordWords, place: int, door: int) -> int:
-    """The record behind a door of a place on record; -1: none."""
+    """The record behind a door of a record; -1: none."""
     place = records.behind[place]
     while place >= 0 and records.door[place] != door:
         place = records.next[place]
@@ -139,7 +127,7 @@ def behind(records: RecordWords, place: int, door: int) -> int:
 
 @kernel
 def learn_records(run: RunWords, e: int, entry: int) -> None:
-    """Record what the sequences showed behind unexplored darts, traced on the grown S."""
+    """Record what sequences showed behind unexplored darts of the grown S."""
     records, sequences, chart = run.records, run.sequences, run.chart
     # Before anything is recorded. Both are explored now, so neither gets a new record below.
     records.of_dart[e] = -1
@@ -164,7 +152,7 @@ def learn_records(run: RunWords, e: int, entry: int) -> None:
 
 @kernel
 def record(run: RunWords, exit_dart: int, sequence: int, step: int) -> None:
-    """Record the percepts of the sequence from this step on: the first, or as many as there are."""
+    """Record the percepts from this step on."""
     sequences, records = run.sequences, run.records
     # What is recorded already stays: a place shows the same percept each time.
     first = sequences.first[sequence]
@@ -188,7 +176,7 @@ def record(run: RunWords, exit_dart: int, sequence: int, step: int) -> None:
 
 @kernel
 def seen(records: RecordWords, percept: int, door: int) -> int:
-    """A new record of a percept, reached by a door. `stop` is set if there is no room for it."""
+    """A new record; without room `stop` is set."""
     place = records.number
     if place >= RECORDS:
         records.stop = STOP_FULL + FULL_RECORDS
@@ -201,12 +189,9 @@ def seen(records: RecordWords, percept: int, door: int) -> int:
     return place
 
 
-# ---------------------------------------------------------------- planar
-
-
 @kernel
 def face(run: RunWords, e: int) -> None:
-    """Mark the darts of S on the face of e."""
+    """Mark the darts on the face of e."""
     faces, chart = run.faces, run.chart
     faces.number += 1
     dart = e
@@ -223,7 +208,7 @@ def face(run: RunWords, e: int) -> None:
 
 @kernel
 def refute_by_face(run: RunWords, h: int) -> bool:
-    """Whether the hypothesis is false in every planar world, since it lies on another face."""
+    """Whether h lies on another face: false in every planar world."""
     faces = run.faces
     if faces.face[h] == faces.number:
         return False

@@ -4,16 +4,12 @@
     S, U               the fields of chart.py
     e = (vk, vu)       e: the dart that leaves vk
     e', e''            h: a hypothesis, the dart by which vu would have been entered
-    H                  REM, in the order of the order policy, and how many there are
-    PE, P              CP of the arrivals, PP
+    H                  `remaining.dart`, in the order of the order policy, and how many there are
+    PE, P              percepts of the arrivals, and of the excursion
 
-Mirrors: algorithms/exploration.py, line by line. Differs: H is a row of darts; rules without memory
-of places are not asked before the first motion, since only `folding` and `planar` can reject there.
-A number selects the rule, because a kernel that is handed a function is compiled anew in every
-process.
-Wherever the reference may raise, this looks at `stop` and returns.
-
-Source: as the reference.
+Mirrors: algorithms/exploration.py, line by line. Differs: H is a row of darts; only `folding` and
+`planar` are asked before the first motion, since no other rule can reject there. A number selects
+the rule. Where the reference may raise, this looks at `stop` and returns.
 """
 
 from __future__ import annotations
@@ -60,7 +56,7 @@ from topo_verify.compiled.workspace import *
 
 @kernel
 def explore(run: RunWords) -> int:
-    """Map the world of the workspace: the cost in edge traversals; -1: `stop` says why it ended."""
+    """Map the world: the cost in edge traversals; -1: see `stop`."""
     at = start(run)
     while run.chart.unexplored > 0 and run.stop == 0:  # A1.3 A2.3 A3.4
         at = settle(run, at)
@@ -69,12 +65,12 @@ def explore(run: RunWords) -> int:
 
 @entry
 def explore_rounds(run: RunWords, at: int, rounds: int) -> int:
-    """Part of `explore`: at most `rounds` rounds of its loop, so the caller may stop in between.
+    """At most `rounds` rounds of `explore`.
 
     Args:
         at: what the part before returned; -1: there was none.
     Returns:
-        The robot's reference dart on S. The run is over when U is empty or `stop` is set.
+        The reference dart on S. The run is over when U is empty or `stop` is set.
     """
     if at < 0:
         at = start(run)
@@ -86,7 +82,7 @@ def explore_rounds(run: RunWords, at: int, rounds: int) -> int:
 
 @kernel
 def start(run: RunWords) -> int:
-    """Start at the marker, with S as v0 alone. Returns the reference dart, on S."""
+    """Start with S as v0; return the reference dart on S."""
     robot = run.robot
     robot.dart = 0
     robot.cost = 0
@@ -99,7 +95,7 @@ def start(run: RunWords) -> int:
 
 @inlined
 def settle(run: RunWords, at: int) -> int:
-    """Explore one edge: one round of the loop. Returns the robot's reference dart on S."""
+    """Explore one edge; return the reference dart on S."""
     sequences = run.sequences
     e = nearest(run.chart, at)  # A1.4 A2.4 A3.5
     # e leaves U before H is made, since no edge ends in its own dart; `join` explores it later.
@@ -140,7 +136,7 @@ def settle(run: RunWords, at: int) -> int:
 
 @inlined
 def hypotheses(run: RunWords, e: int, percept: int) -> int:
-    """H: the unexplored darts at vertices that look like vu, in the order in which to try them."""
+    """H: the unexplored darts that look like vu, in order."""
     chart = run.chart
     signature = 2 * (percept >> SHIFT) + ((percept & MASK) > 0)
     number = 0
@@ -165,7 +161,7 @@ def hypotheses(run: RunWords, e: int, percept: int) -> int:
 
 @inlined
 def validate(run: RunWords, e: int, remaining: int) -> int:
-    """The hypothesis that is confirmed, or -1 if all are rejected."""
+    """The confirmed hypothesis, or -1."""
     task, excursion = run.task, run.excursion
     if task.rule >= RULE_FOLDING:
         # Before any motion: with no sequence yet, only `folding` and `planar` can reject.
@@ -199,7 +195,7 @@ def validate(run: RunWords, e: int, remaining: int) -> int:
 
 @kernel
 def concluded(run: RunWords, remaining: int) -> int:
-    """The hypothesis that must be true because no alternative is left; -1: there is one."""
+    """The hypothesis that must be true, without an alternative; -1: none."""
     if run.task.rule >= RULE_FOLDING:
         return conclude(run, remaining)
     if planted(run.task, CONFIRMS_WHAT_IS_ALONE) and remaining == 1:
@@ -209,7 +205,7 @@ def concluded(run: RunWords, remaining: int) -> int:
 
 @kernel
 def sift(run: RunWords, e: int, remaining: int) -> int:
-    """Keep the hypotheses that the rule does not refute, in their order. Returns how many."""
+    """Keep hypotheses that the rule does not refute; return how many."""
     kept = 0
     for i in range(remaining):  # A2.16
         h = run.remaining.dart[i]
@@ -226,11 +222,10 @@ def sift(run: RunWords, e: int, remaining: int) -> int:
 
 @inlined
 def execute(run: RunWords, h: int, shared: int) -> int:
-    """Walk the hypothesis' way home. Returns the first step whose percept differs; -1 if none.
+    """Walk the hypothesis' way home; return the first step whose percept differs, or -1.
 
     Args:
-        shared: how many doors the way shares with the last sequence; the robot goes back only so
-            far and does not walk them again.
+        shared: doors shared with the last sequence, not walked again.
     """
     chart, excursion = run.chart, run.excursion
     length = chart.depth[chart.vertex[h]]
@@ -260,7 +255,7 @@ def execute(run: RunWords, h: int, shared: int) -> int:
 
 @kernel
 def overlooked(run: RunWords, at: int, step: int, length: int) -> bool:
-    """Whether a planted mistake takes this mismatch for none: the marker is seen, turned."""
+    """Whether a planted mistake takes this mismatch for none."""
     chart, excursion = run.chart, run.excursion
     alike = chart.signature[chart.vertex[at]] == 2 * (excursion.percept[step] >> SHIFT) + (
         (excursion.percept[step] & MASK) > 0
@@ -274,10 +269,10 @@ def overlooked(run: RunWords, at: int, step: int, length: int) -> bool:
 
 @inlined
 def localise(run: RunWords, entered: int) -> int:
-    """The robot's reference dart on S, once vu's entry dart is known; it may walk back to vu first.
+    """The reference dart on S, once vu's entry dart is known.
 
-    At v0 the marker tells the reference dart, so the robot stays. Elsewhere it goes back to vu,
-    where its reference dart is turned away from the entry dart as the way back turned it.
+    At v0 the marker tells it. Elsewhere the robot goes back to vu, where its reference dart is
+    turned away from the entry dart as the way back turned it.
     """
     chart = run.chart
     marker = sensed(run.world, run.robot.dart) & MASK  # 1 + marker
@@ -294,9 +289,6 @@ def localise(run: RunWords, entered: int) -> int:
     return turn(chart, entered, turned)
 
 
-# ---------------------------------------------------------------- the rule, by its number
-
-
 @kernel
 def start_rule(run: RunWords) -> None:
     """Forget the run before."""
@@ -307,7 +299,7 @@ def start_rule(run: RunWords) -> None:
 
 @kernel
 def arrive(run: RunWords, e: int, percept: int) -> None:
-    """Take note that the robot has crossed e and senses this percept at vu."""
+    """The robot has crossed e and senses this at vu."""
     task = run.task
     if task.rule >= RULE_FOLDING:
         if task.rule == RULE_PLANAR:
@@ -317,7 +309,7 @@ def arrive(run: RunWords, e: int, percept: int) -> None:
 
 @kernel
 def observe(run: RunWords) -> None:
-    """Take note of a sequence that was executed and ended in a mismatch."""
+    """A sequence ended in a mismatch."""
     task = run.task
     if task.rule >= RULE_FOLDING:
         observe_fold(run)
@@ -327,7 +319,7 @@ def observe(run: RunWords) -> None:
 
 @kernel
 def refute(run: RunWords, h: int) -> int:
-    """The rule that shows the hypothesis to be false, one of BY_…; 0: it may be true."""
+    """The rule that refutes the hypothesis, BY_…; 0: none."""
     rule = run.task.rule
     if rule == RULE_PREFIX:
         return BY_PREFIX if refute_by_prefix(run, h) else 0
@@ -342,7 +334,7 @@ def refute(run: RunWords, h: int) -> int:
 
 @kernel
 def learn(run: RunWords, e: int, entry: int, new: int) -> None:
-    """Take note that S has grown: the robot crossed e and came in by dart `entry`."""
+    """S has grown: the robot crossed e and came in by `entry`."""
     task = run.task
     if task.rule >= RULE_FOLDING:
         learn_fold(run, entry, new)

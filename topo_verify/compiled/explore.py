@@ -1,15 +1,11 @@
-"""One run of a compiled algorithm in one world: its cost and map, and the trace when asked.
+"""One run of a compiled algorithm in one world: its cost and map, and its trace.
 
     run = run_world(world, "enhancement-ii", trace=True)     # -> CompiledRun
 
-Worlds of up to 12 edges run in the small layout, others in the large one, which takes up to 65,536
-edges. Between rounds of the loop a run can be interrupted (Ctrl-C); in the large layout the words
-of its trace become events then, and their room is free again. Rounds that fill it are made again
-with four times the room, the whole run with them; a run that needs more of anything else than the
-small layout has, in the large one.
-
-A trace may take half of the memory that is free. A run that needs more is refused: by its cost,
-which a run without a trace tells, or once that half is full.
+Worlds of up to 12 edges run in the small layout, others in the large one. Between rounds a run can
+be interrupted (Ctrl-C), and in the large layout its words of trace become events. A round that
+fills the trace is made again with four times the room; a run that needs more of anything else, in
+the large layout. A trace may take half of the free memory, or the run is refused.
 
 What this does not show: whether the run is the reference's. tests/compiled compares the two.
 """
@@ -43,7 +39,7 @@ RETRACE, OVERLAP = 0, 1
 
 
 class Kernel(NamedTuple):
-    """What an algorithm of the catalogue is to the kernels: its rule and its motion."""
+    """An algorithm's rule and motion."""
 
     rule: int
     motion: int
@@ -73,19 +69,18 @@ KEPT = (
 """What a full buffer keeps, by the number of `FULL_…`."""
 
 MOST_EDGES = 1 << 16
-"""The most edges of a world that the large layout has room for."""
+"""The most edges in the large layout."""
 
 TRACE_ROOM = 1 << 20
-"""Words of trace for which the large layout has room at first."""
+"""Initial words of trace in the large layout."""
 
 WORD_BYTES = 40
-"""Bytes for a word of trace, as an event that is made of it; 3 (moves) to 36 (poses) are needed."""
+"""Bytes for a word of trace as an event: 3 (moves) to 36 (poses) are needed."""
 
 MOVE_WORDS = 4
-"""Words of a move."""
 
 ROUNDS = 64
-"""Edges that are explored before Python is asked whether to go on."""
+"""Edges explored between checks for an interrupt."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,9 +90,9 @@ class CompiledRun:
     Attributes:
         cost: edge traversals.
         map: what it delivered, or None.
-        stopped: why it delivered none, or None.
-        decoded: its moves and decisions, if its trace was asked for.
-        reported: the cost that it reported with its map.
+        stopped: why it delivered none.
+        decoded: its moves and decisions, if traced.
+        reported: the cost that it reported.
     """
 
     cost: int
@@ -108,12 +103,12 @@ class CompiledRun:
 
     @property
     def trace(self) -> tuple[int, ...] | None:
-        """The words of its trace (events.py), if it was asked for."""
+        """The words of its trace (events.py), if traced."""
         return None if self.decoded is None else tuple(words(self.decoded))
 
     @property
     def events(self) -> tuple[Event, ...]:
-        """The events from the first move on, with the map at the end; none without a trace."""
+        """The events from the first move to the map; () without a trace."""
         if self.decoded is None:
             return ()
         finish = () if self.map is None else (Finish(self.reported, self.map),)
@@ -128,14 +123,15 @@ def run_world(
     budget: int | None = None,
     fault: str = "",
 ) -> CompiledRun:
-    """Run a compiled algorithm of the catalogue, with the reference policies, in a world.
+    """Run an algorithm of the catalogue, with the reference policies, in a world.
 
     Args:
-        budget: how many moves are allowed; default: the bound of claim 7.
+        budget: the number of moves allowed; default: the bound of claim 7.
         fault: a mistake to plant, by its name in `PLANTED`.
     Raises:
-        InputError: numba is not installed, there is no such algorithm or mistake, the world or the
-            run is too large, or the memory that is free is too small for its trace.
+        InputError: numba is missing, no such algorithm or mistake, the world or the run is too
+        large,
+            or free memory is too small for its trace.
     """
     require("the compiled engine")
     if algorithm not in KERNELS:
@@ -169,10 +165,10 @@ def run_world(
 
 
 def _more_room(job: CompiledJob, layout: ws.WordLayout, room: int) -> int:
-    """More room for a trace that is longer than `room` words.
+    """More room for a trace that exceeds `room` words.
 
     Raises:
-        InputError: half of the memory that is free does not hold the trace.
+        InputError: half of the free memory does not hold it.
     """
     most, needed = free_memory() // 2 // WORD_BYTES, room + 1
     if needed <= most:
@@ -190,10 +186,10 @@ def _more_room(job: CompiledJob, layout: ws.WordLayout, room: int) -> int:
 
 
 def free_memory() -> int:
-    """How many bytes this process may still take; where nothing is known, the machine's memory.
+    """Bytes that this process may still take.
 
-    It is the least of what the machine has available, what is left to the control group of this
-    process (version 1 or 2), and what is left of its limit of address space.
+    The least of what the machine, its control group (version 1 or 2) and its limit of address space
+    leave; if all are unknown, the machine's memory.
     """
     rows = [line.split() for line in _lines("/proc/meminfo")]
     available = [int(row[1]) << 10 for row in rows if row[0] == "MemAvailable:"]
@@ -220,7 +216,6 @@ def free_memory() -> int:
 
 
 def _lines(path: str) -> list[str]:
-    """The lines of a file of the system; none if it is not there."""
     try:
         return Path(path).read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:
@@ -228,7 +223,6 @@ def _lines(path: str) -> list[str]:
 
 
 def _require_room(world: World) -> None:
-    """Raise an InputError unless the large layout has room for the world."""
     if len(world.edges) > MOST_EDGES or max(world.degrees) >= ws.P - 1:
         raise InputError(
             f"the compiled engine explores worlds of up to {MOST_EDGES} edges with degrees below"
@@ -238,10 +232,10 @@ def _require_room(world: World) -> None:
 
 @dataclass(frozen=True, slots=True)
 class CompiledJob:
-    """What is asked of one run: an algorithm in a world, with a budget and perhaps a mistake.
+    """One run: an algorithm in a world, with a budget and perhaps a mistake.
 
     Attributes:
-        events: those of which the words were taken out of the workspace.
+        events: those taken out of the workspace so far.
     """
 
     world: World
@@ -252,7 +246,7 @@ class CompiledJob:
     events: list[Event] = field(default_factory=list[Event])
 
     def run(self, layout: ws.WordLayout, room: int) -> Workspace:
-        """The workspace after the run, with room for `room` words of trace."""
+        """The workspace after the run, with `room` words of trace."""
         explore: Callable[[Workspace, int, int], int] = compiled(explore_rounds, layout)
         space = workspace(layout, room)
         place_world(space, layout, self.world)
@@ -276,7 +270,7 @@ class CompiledJob:
         return space
 
     def result(self, space: Workspace, layout: ws.WordLayout) -> CompiledRun:
-        """What a finished workspace says."""
+        """The run in a finished workspace."""
         stop = int(space[layout.at("stop")])
         if stop >= ws.STOP_FULL:
             raise InputError(
@@ -299,7 +293,7 @@ class CompiledJob:
 
 
 def workspace(layout: ws.WordLayout, room: int) -> Workspace:
-    """A workspace with room for `room` words of trace; untouched pages take no memory."""
+    """A workspace with `room` words of trace."""
     import numpy as np
 
     size = layout.at("trace.word") + room
@@ -313,14 +307,14 @@ def workspace(layout: ws.WordLayout, room: int) -> Workspace:
 
 
 def trace_of(space: Workspace, layout: ws.WordLayout) -> list[int]:
-    """The words of trace in a workspace."""
+    """The trace in a workspace."""
     at = layout.at("trace.word")
     row: list[int] = space[at : at + int(space[layout.at("trace.size")])].tolist()
     return row
 
 
 def place_world(space: Workspace, layout: ws.WordLayout, world: World) -> None:
-    """Write a world into a workspace, its darts in the order of discovery."""
+    """Write a world into a workspace, darts in order of discovery."""
     import numpy as np
 
     degrees, alpha = world.code
@@ -335,8 +329,8 @@ def place_map(space: Workspace, layout: ws.WordLayout, delivered: MapData) -> bo
     """Write a delivered map into a workspace as the map S.
 
     Returns:
-        False if its darts are not numbered vertex by vertex from the marker's on, or half of
-        them is not the number of its edges.
+        False if its darts are not numbered vertex by vertex from the marker's on, or do not match
+        its edges in number.
     """
     import numpy as np
 

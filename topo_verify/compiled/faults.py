@@ -1,8 +1,7 @@
 """Mistakes to plant in the compiled mapper: some of those of topo_verify/faults, by number.
 
-A mistake stands where the reference's does: `if planted(task, SETS_OUT_UNTURNED)`. In every layout
-but `FAULTY` the question is answered when the kernels are compiled, so it costs nothing. The names
-are those of topo_verify/faults; docs/faults.md says what each does wrong.
+`if planted(task, SETS_OUT_UNTURNED)` is decided at compilation, and costs nothing outside `FAULTY`.
+docs/faults.md describes each mistake.
 """
 
 from __future__ import annotations
@@ -59,7 +58,7 @@ PLANTED: dict[str, tuple[int, str]] = {
     "identifies-without-turning": (IDENTIFIES_WITHOUT_TURNING, "folding"),
     "forgets-that-vu-may-be-new": (FORGETS_THAT_VU_MAY_BE_NEW, "folding"),
 }
-"""By name: the number of the mistake, and the algorithm in which it is made."""
+"""The number of each mistake, and its algorithm."""
 
 
 @kernel

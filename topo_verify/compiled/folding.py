@@ -1,21 +1,16 @@
 """Folding, the complete rule: it keeps a hypothesis exactly if some world that fits makes it true.
 
-Mirrors: algorithms/folding.py, `SeenPlaces`, `PartialFold` and `FoldingRule`, with the same numbers
-for darts and the same order of identifications, which decides what contradiction is met first.
-Differs: there is one fold, and a **layer** is a list of changes. Whatever is found is noted and
-taken back, unless it follows from what was seen alone. A layer that is kept is its changes, and
-they are made again before it folds on: so it reads through to what was joined below since, as the
-reference's does.
+Mirrors: algorithms/folding.py, `SeenPlaces`, `PartialFold` and `FoldingRule`, with the same dart
+numbers and the same order of identifications, which decides the first contradiction. Differs: there
+is one fold, and a **layer** is a list of changes. Changes are noted and taken back unless they
+follow from what was seen. A kept layer is made again before it folds on, so it sees what was joined
+since.
 
-A change is one word: where, and what stands there (the new word in a layer, the old one in what is
-to be taken back). `around` is written out: the darts of a node are numbers in a row.
+A change is one word: where, and what stands there (the new word in a layer, the old one for
+undoing). The darts of a node are numbers in a row.
 
-All hypotheses that remain are asked after each mismatch, so what was joined since, and whether
-places were identified, is noted once for all layers (`layers.joined`, `layers.anew`). What is asked
-then is a stage: the layers that are kept are written one after another into one row, while those of
-the stage before stand in another.
-
-Source: docs/semantics.md, section 11.
+After each mismatch all remaining hypotheses are asked, in one **stage**: what was joined since is
+noted once for all (`layers.joined`, `layers.anew`), and kept layers move from one row to another.
 """
 
 from __future__ import annotations
@@ -32,7 +27,7 @@ WORD = 32
 
 @kernel
 def add_place(run: RunWords, percept: int, known: int) -> int:
-    """Add a node with this percept at its first dart, which is returned; 0: `stop` is set."""
+    """Add a node with this percept; return its first dart, or 0 (`stop` is set)."""
     places = run.places
     first = places.darts
     degree = percept >> SHIFT
@@ -52,14 +47,14 @@ def add_place(run: RunWords, percept: int, known: int) -> int:
 
 @kernel
 def turn_at_place(places: PlaceWords, dart: int, door: int) -> int:
-    """The dart `door` doors clockwise from this one."""
+    """The dart `door` doors clockwise."""
     first = places.node[dart]
     return first + (dart - first + door) % (places.looks[dart] >> 1)
 
 
 @kernel
 def resolve(places: PlaceWords, dart: int) -> int:
-    """The dart that stands for all that are the same dart."""
+    """The dart's representative."""
     up = places.leader[dart]
     while up != 0:
         dart = up
@@ -69,19 +64,19 @@ def resolve(places: PlaceWords, dart: int) -> int:
 
 @kernel
 def across(places: PlaceWords, dart: int) -> int:
-    """The other end of a dart's edge; 0 if nothing was seen behind it."""
+    """The other end of a dart's edge; 0: not seen."""
     return places.behind[resolve(places, dart)]
 
 
 @kernel
 def join_seen(run: RunWords, one: int, other: int) -> None:
-    """Join two darts to one edge, and fold; nothing is assumed."""
+    """Join two darts that were seen to be one edge, and fold."""
     take_for_seen(run, join_places(run, one, other))
 
 
 @kernel
 def identify_seen(run: RunWords, one: int, other: int) -> None:
-    """Make two darts one, and fold; nothing is assumed."""
+    """Identify two darts that were seen to be one, and fold."""
     places = run.places
     places.waiting[0] = one
     places.waiting[1] = other
@@ -90,7 +85,7 @@ def identify_seen(run: RunWords, one: int, other: int) -> None:
 
 @kernel
 def join_places(run: RunWords, one: int, other: int) -> int:
-    """Join two darts to one edge, and fold. Returns the contradiction; 0: none."""
+    """Join two darts to one edge, and fold; return the contradiction or 0."""
     places = run.places
     one = resolve(places, one)
     other = resolve(places, other)
@@ -117,12 +112,11 @@ def join_places(run: RunWords, one: int, other: int) -> int:
 
 @kernel
 def fold(run: RunWords, waiting: int, one_partner: int) -> int:
-    """Make the two darts of each pair one, and draw what follows. Returns the contradiction.
+    """Identify the darts of each pair, and what follows; return the contradiction.
 
     Args:
-        waiting: how many words of pairs wait.
-        one_partner: whether the two darts of each pair have one partner, so that nothing more is to
-            be drawn from what lies behind them.
+        waiting: words of waiting pairs.
+        one_partner: the darts of each pair have one partner, so nothing follows behind them.
     """
     places = run.places
     for i in range(places.place_of("waiting"), places.place_of("waiting") + waiting, 2):
@@ -159,9 +153,9 @@ def fold(run: RunWords, waiting: int, one_partner: int) -> int:
 
 @kernel
 def lay(run: RunWords, small: int, large: int, waiting: int, one_partner: int) -> int:
-    """Make each dart of a node one with that of its leader, from these two on, clockwise.
+    """Identify each dart of a node with that of its leader, clockwise from these.
 
-    Returns the words of pairs that wait then; or the contradiction, as a negative number.
+    Returns the words of waiting pairs, or the contradiction as a negative number.
     """
     places = run.places
     places.laid += 1
@@ -201,12 +195,9 @@ def lay(run: RunWords, small: int, large: int, waiting: int, one_partner: int) -
     return waiting
 
 
-# ---------------------------------------------------------------- changes, and layers of them
-
-
 @kernel
 def change(run: RunWords, where: int, word: int) -> None:
-    """Write a word, and note what stood there."""
+    """Write a word; note the old one."""
     places = run.places
     number = places.changed
     if number >= CHANGED:
@@ -219,7 +210,7 @@ def change(run: RunWords, where: int, word: int) -> None:
 
 @kernel
 def take_for_seen(run: RunWords, wrong: int) -> None:
-    """Take for seen what was found where nothing was assumed; or drop it if it clashes."""
+    """Keep changes without an assumption, or drop them if they clash."""
     places = run.places
     if wrong != 0:
         take_back(run)
@@ -230,7 +221,7 @@ def take_for_seen(run: RunWords, wrong: int) -> None:
 
 @kernel
 def take_back(run: RunWords) -> None:
-    """Take back every change, the last one first."""
+    """Undo every change, last first."""
     places = run.places
     for i in range(places.changed - 1, -1, -1):
         changed = places.changes[i]
@@ -241,13 +232,13 @@ def take_back(run: RunWords) -> None:
 
 @kernel
 def layers_of(layers: LayerWords, stage: int) -> int:
-    """The field that has the layers of a stage."""
+    """The field with the layers of a stage."""
     return layers.place_of("odd") if stage & 1 else layers.place_of("even")
 
 
 @kernel
 def keep_layer(run: RunWords, h: int) -> None:
-    """Keep what is found as the layer of a hypothesis."""
+    """Keep the changes as a hypothesis' layer."""
     layers, places = run.layers, run.places
     end = layers.size
     if end + places.changed > LAYER_WORDS:
@@ -265,14 +256,11 @@ def keep_layer(run: RunWords, h: int) -> None:
 
 @kernel
 def lay_again(run: RunWords, h: int) -> None:
-    """Make the changes of the layer that was kept of a hypothesis, at the stage before."""
+    """Make the changes of a kept layer again."""
     layers = run.layers
     base = layers_of(layers, layers.stage - 1)
     for i in range(base + layers.first[h], base + layers.end[h]):
         change(run, run[i] >> WORD, run[i] & ((1 << WORD) - 1))
-
-
-# ---------------------------------------------------------------- the rule
 
 
 @kernel
@@ -289,7 +277,7 @@ def start_fold(run: RunWords) -> None:
 
 @kernel
 def node_dart(run: RunWords, dart: int) -> int:
-    """The dart of a node that a dart of S is."""
+    """The dart of a node for a dart of S."""
     chart = run.chart
     v = chart.vertex[dart]
     return turn_at_place(run.places, run.places.entry[v], dart - chart.first[v])
@@ -297,7 +285,7 @@ def node_dart(run: RunWords, dart: int) -> int:
 
 @kernel
 def arrive_fold(run: RunWords, e: int, percept: int) -> None:
-    """Take note of vu, which is a place seen before, or a new ghost."""
+    """Note vu: a place seen before, or a new ghost."""
     places, layers = run.places, run.layers
     places.e = node_dart(run, e)
     places.vu = cross_fold(run, places.e, percept)
@@ -307,7 +295,7 @@ def arrive_fold(run: RunWords, e: int, percept: int) -> None:
 
 @kernel
 def cross_fold(run: RunWords, exit_place: int, percept: int) -> int:
-    """The dart by which the robot comes in behind an exit; adds a ghost if it is new there."""
+    """The entry dart behind an exit; a new ghost if needed."""
     beyond = across(run.places, exit_place)
     if beyond == 0:
         beyond = add_place(run, percept, 0)
@@ -323,7 +311,7 @@ def cross_fold(run: RunWords, exit_place: int, percept: int) -> int:
 
 @kernel
 def observe_fold(run: RunWords) -> None:
-    """Keep every percept of the excursion, which ended in a mismatch."""
+    """Keep every percept of the excursion."""
     places, layers, excursion = run.places, run.layers, run.excursion
     merges = places.merges
     joined = 0
@@ -347,7 +335,7 @@ def observe_fold(run: RunWords) -> None:
 
 @kernel
 def refute_by_folding(run: RunWords, h: int) -> bool:
-    """Whether no world allows the hypothesis; the contradiction is cited."""
+    """Whether no world allows the hypothesis."""
     layers = run.layers
     wrong = 0
     if layers.anew != 0:
@@ -368,7 +356,7 @@ def refute_by_folding(run: RunWords, h: int) -> bool:
 
 @kernel
 def follow_layer(run: RunWords, h: int) -> int:
-    """Fold what was joined since into the layer of a hypothesis. Returns the contradiction."""
+    """Fold what was joined since into a layer; return the contradiction."""
     layers = run.layers
     lay_again(run, h)
     for i in range(layers.joined):
@@ -382,7 +370,7 @@ def follow_layer(run: RunWords, h: int) -> int:
 
 @kernel
 def conclude(run: RunWords, remaining: int) -> int:
-    """The last hypothesis, once vu is known to be a vertex of S; -1: none."""
+    """The last hypothesis, once vu is known to be in S; -1: none."""
     places = run.places
     if remaining != 1:
         return -1

@@ -1,33 +1,29 @@
 """Kernels: Python functions over one array of integers, which numba turns into machine code.
 
-A **kernel** is a function with the decorator `kernel` or `inlined` (other kernels call it) or
-`entry` (Python calls it). The decorators change nothing: imported, a kernel is an ordinary function
-that type checkers read and that tests may run with every index checked. `compiled` makes machine
-code of it:
+A **kernel** is marked `kernel` or `inlined` (other kernels call it), `entry` (Python calls it) or
+`callback`. Imported, it is an ordinary function, which tests may run with every index checked.
+`compiled` makes machine code:
 
-1. It takes the sources of all kernels and leaves out annotations and docstrings: of this package's
-   kernels (`SOURCES`), or of the modules that a layout names.
+1. It takes the sources of all kernels (`SOURCES`, or a layout's), without annotations and
+   docstrings.
 2. It writes arrays and offsets in place of names (`names.py`).
-3. It writes the constants above them: every upper-case integer of the kernels' modules, the offsets
-   of the workspace among them. So one source serves every layout, and an offset costs nothing.
+3. It writes above them every upper-case integer of the modules and the workspace's offsets as
+   constants. So one source serves every layout.
 4. It makes every index unsigned, or numba would test each one for being negative.
-5. It writes the result as one module into a cache folder, and numba keeps its machine code beside
-   it. The folder is named after a hash of that module, of the versions of numba and Python, and of
-   the processor. A checksum of each file of machine code covers that hash as well.
+5. It writes one module into a cache folder named after a hash of that module, the versions of numba
+   and Python, and the processor. Numba keeps machine code there, with checksums.
 
-Why so: numba's own cache notices a change of the file that a function stands in, and none of the
-functions that it calls elsewhere; here any change of any kernel gives another folder. `_nrt=False`
-switches off the counting of references, which took more than half of the time; an allocation in a
-kernel is then an error of compilation. Functions never travel as arguments (those miss the cache in
-every process): an integer in the workspace selects.
+Why so: numba's own cache does not notice changes in called functions of other files. `_nrt=False`
+switches off reference counting, which took more than half of the time; an allocation in a kernel is
+then a compilation error. Functions never travel as arguments, which miss the cache in every
+process: an integer in the workspace selects.
 
-The cache: `$TOPO_VERIFY_CACHE`, or `topo-verify` in `$XDG_CACHE_HOME` or `~/.cache`; without a home
-that can be written, a folder that lasts as long as the process. It may be deleted at any time.
-While one process compiles the kernels of a folder, others that need them wait for its lock. Machine
-code without its checksum is compiled again.
+The cache: `$TOPO_VERIFY_CACHE`, or `topo-verify` in `$XDG_CACHE_HOME` or `~/.cache`; else a folder
+for this process. It may be deleted at any time. Processes that need a folder wait for its lock.
+Machine code without its checksum is compiled again.
 
-What this does not show: that no file was changed together with its checksum. The folder belongs to
-the user, and checksums guard against accidents.
+What this does not show: that no file was changed together with its checksum. Checksums guard
+against accidents.
 """
 
 from __future__ import annotations
@@ -58,27 +54,19 @@ F = TypeVar("F", bound=Callable[..., object])
 
 
 class WordTable(Protocol):
-    """A table of 64-bit integers, by row and column: in use a numpy array."""
+    """A table of 64-bit integers, by row and column."""
 
-    def __getitem__(self, at: tuple[int, int], /) -> int:
-        """The word in this row and column."""
-        ...
+    def __getitem__(self, at: tuple[int, int], /) -> int: ...
 
-    def __setitem__(self, at: tuple[int, int], word: int, /) -> None:
-        """Write the word in this row and column."""
-        ...
+    def __setitem__(self, at: tuple[int, int], word: int, /) -> None: ...
 
 
 class WordCube(Protocol):
-    """Tables of 64-bit integers, by number, row and column: in use a numpy array."""
+    """Tables of 64-bit integers, by number, row and column."""
 
-    def __getitem__(self, at: tuple[int, int, int], /) -> int:
-        """The word in this table, row and column."""
-        ...
+    def __getitem__(self, at: tuple[int, int, int], /) -> int: ...
 
-    def __setitem__(self, at: tuple[int, int, int], word: int, /) -> None:
-        """Write the word in this table, row and column."""
-        ...
+    def __setitem__(self, at: tuple[int, int, int], word: int, /) -> None: ...
 
 
 SOURCES = [
@@ -105,34 +93,31 @@ SOURCES = [
         "tally",
     )
 ]
-"""The modules of the twin's kernels, and of constants that they use."""
+"""The modules of the twin's kernels and constants."""
 
 
 def kernel(function: F) -> F:
-    """The function itself. The mark says that other kernels call it."""
+    """Mark a function that other kernels call."""
     return function
 
 
 def inlined(function: F) -> F:
-    """The function itself. The mark says that it becomes a part of each kernel that calls it.
-
-    For what is short and called all the time: a call passes each array as seven numbers.
-    """
+    """Mark a short hot function to inline: a numba call unpacks each array into seven numbers."""
     return function
 
 
 def entry(function: F) -> F:
-    """The function itself. The mark says that Python calls its machine code: see `compiled`.
+    """Mark a function whose machine code Python calls: see `compiled`.
 
-    Its parameters are annotated with views, `WordTable`, `WordCube` and `int`.
+    Its parameters are views, `WordTable`, `WordCube` and `int`.
     """
     return function
 
 
 def callback(function: F) -> F:
-    """The function itself. The mark says that a native mapper calls it: see `address_of`.
+    """Mark a function that a native mapper calls: see `address_of`.
 
-    The caller passes words: first the address of the workspace.
+    Its parameters are words, first the address of the workspace.
     """
     return function
 
@@ -140,12 +125,12 @@ def callback(function: F) -> F:
 def compiled(
     function: Callable[..., object], layout: WordLayout, *, checked: bool = False
 ) -> Callable[..., Any]:
-    """The machine code of an entry, for workspaces of a layout; compiled when first asked for.
+    """The machine code of an entry for a layout, compiled at first use.
 
     Args:
-        checked: with every index checked; an index out of range is then an IndexError.
+        checked: an index out of range is an IndexError.
     Raises:
-        InputError: numba is not installed; the folder of the cache cannot be used.
+        InputError: numba is not installed; the cache folder cannot be used.
     """
     module = machine_code(layout, checked)
     dispatcher = getattr(module, function.__name__)
@@ -157,7 +142,7 @@ def compiled(
 
 @cache
 def address_of(function: Callable[..., int], layout: WordLayout) -> int:
-    """The address of the machine code of a callback; compiled when first asked for.
+    """The address of a callback's machine code.
 
     Raises:
         InputError: as `compiled`.
@@ -175,14 +160,13 @@ def address_of(function: Callable[..., int], layout: WordLayout) -> int:
 
 
 CALLED = "called_"
-"""The beginning of the name of a callback, as `address_of` has it."""
+"""Prefix of a callback's name."""
 
 _lasting: list[object] = []
-"""The callbacks: their machine code is there as long as they are."""
+"""Keeps the callbacks' machine code alive."""
 
 
 def _make(module: ModuleType, name: str, make: Callable[[], Any]) -> Any:
-    """What `make` makes of a kernel: it reads machine code from the cache, or writes it."""
     path = Path(str(module.__file__))
     kept = _KeptCode(path, path.parent / "__pycache__")
     with _usable(path.parent):
@@ -199,7 +183,7 @@ def _make(module: ModuleType, name: str, make: Callable[[], Any]) -> Any:
 
 @contextmanager
 def _alone(path: Path, name: str) -> Generator[None]:
-    """No other process compiles kernels of this folder meanwhile; one that ends lets go of it."""
+    """Hold the lock of a cache folder."""
     with (path.parent / "lock").open("a") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -222,17 +206,13 @@ _TYPES = {
 
 
 def _signature(function: Callable[..., object]) -> str:
-    """The types of the parameters of an entry, as numba writes them."""
     notes = [note for name, note in function.__annotations__.items() if name != "return"]
     return f"({', '.join(_TYPES.get(note, 'int64[::1]') for note in notes)},)"
 
 
-# ---------------------------------------------------------------- from sources to one module
-
-
 @cache
 def machine_code(layout: WordLayout, checked: bool) -> ModuleType:  # noqa: FBT001  the key of the cache
-    """The module of all kernels for a layout; each is compiled when it is asked for."""
+    """The module of all kernels for a layout."""
     require("the compiled engine")
     name = f"kernels_{layout.name}{'_checked' if checked else ''}"
     source = module_source(layout, checked=checked)
@@ -244,7 +224,7 @@ def machine_code(layout: WordLayout, checked: bool) -> ModuleType:  # noqa: FBT0
 
 
 def module_source(layout: WordLayout, *, checked: bool = False) -> str:
-    """The text of one module that has the constants of a layout and every kernel."""
+    """The text of a module with a layout's constants and every kernel."""
     numbers: dict[str, int] = {}
     functions: list[ast.FunctionDef] = []
     for name in layout.sources or SOURCES:
@@ -267,7 +247,7 @@ def module_source(layout: WordLayout, *, checked: bool = False) -> str:
 
 
 def _constants(module: ModuleType) -> Mapping[str, int]:
-    """The upper-case integers of a module, and the offsets of the fields that it lays out."""
+    """The upper-case integers of a module, and the offsets of its fields."""
     numbers = {k: v for k, v in vars(module).items() if k.isupper() and type(v) is int}
     for laid_out in vars(module).values():
         if isinstance(laid_out, Fields):
@@ -276,7 +256,6 @@ def _constants(module: ModuleType) -> Mapping[str, int]:
 
 
 def _kernels(module: ModuleType) -> Iterator[ast.FunctionDef]:
-    """The kernels of a module, ready for numba."""
     for node in ast.parse(Path(str(module.__file__)).read_text()).body:
         if isinstance(node, ast.FunctionDef) and any(
             isinstance(mark, ast.Name) and mark.id in ("kernel", "inlined", "entry", "callback")
@@ -297,7 +276,7 @@ def _kernels(module: ModuleType) -> Iterator[ast.FunctionDef]:
 
 
 def _called(kernel: ast.FunctionDef) -> ast.FunctionDef:
-    """The function for a caller outside, which has the workspace by its address."""
+    """The function for an outside caller, which passes the workspace's address."""
     given = ", ".join(argument.arg for argument in kernel.args.args[1:])
     called = f"{kernel.name}(row_at(place, SIZE), {given})"
     (node,) = ast.parse(f"def {CALLED}{kernel.name}(place, {given}): return {called}").body
@@ -321,11 +300,7 @@ def _unsigned(index: ast.expr) -> ast.expr:
     return ast.Call(ast.parse("np.uint64", mode="eval").body, [index], [])
 
 
-# ---------------------------------------------------------------- the cache
-
-
 def _stored(name: str, source: str) -> Path:
-    """The file with this source in the cache; written unless it is there."""
     llvm = import_module("llvmlite.binding")
     made_by = f"{version('numba')} {version('llvmlite')} {platform.python_version()}"
     made_by += f" {platform.machine()} {llvm.get_host_cpu_name()}"
@@ -350,7 +325,7 @@ def _holds(path: Path, text: str) -> bool:
 
 
 def _write(path: Path, text: str) -> None:
-    """Write a file whole or not at all; nothing else stays behind."""
+    """Write a file whole or not at all."""
     with tempfile.NamedTemporaryFile(
         "w", dir=path.parent, prefix=f"{path.name}.", suffix=".new", delete=False, encoding="utf-8"
     ) as file:
@@ -365,7 +340,7 @@ def _write(path: Path, text: str) -> None:
 
 @contextmanager
 def _usable(folder: Path) -> Generator[None]:
-    """An OSError inside becomes an InputError that names the folder of the cache."""
+    """Turn an OSError into an InputError that names the cache folder."""
     try:
         yield
     except OSError as error:
@@ -377,19 +352,14 @@ def _usable(folder: Path) -> Generator[None]:
 
 
 class _KeptCode:
-    """The machine code of one module, in files that numba reads and writes, with checksums.
-
-    Args:
-        path: the file of the module; its folder is named after the hash of what is compiled.
-        folder: of the files.
-    """
+    """The machine code of one module, in numba's files, with checksums."""
 
     def __init__(self, path: Path, folder: Path) -> None:
         self._path, self._folder, self._module = path, folder, path.stem
         self._sums = folder / f"{path.stem}.sums"
 
     def is_whole(self, name: str) -> bool:
-        """Whether the machine code of an entry is there, and every file of it has its checksum."""
+        """Whether an entry's machine code is there with its checksums."""
         files, sums = self._files(name), self._known()
         index = any(file.suffix == ".nbi" for file in files)
         try:
@@ -399,9 +369,9 @@ class _KeptCode:
 
     @contextmanager
     def writing(self) -> Generator[None]:
-        """The context in which files are written. It removes files without their checksum.
+        """A context for writing files, which first removes those without a checksum.
 
-        One entry's code may be compiled from that of others, so this is about all of the module.
+        An entry's code may be compiled from that of others, so this covers the whole module.
         """
         damaged = self._clear()
         if damaged:
@@ -418,7 +388,6 @@ class _KeptCode:
         _write(self._sums, "".join(lines))
 
     def _clear(self) -> int:
-        """Remove files without their checksum: how many. Also what an interrupted write left."""
         sums = self._known()
         damaged = [file for file in self._files() if sums.get(file.name) != self._sum(file)]
         partial = [
@@ -439,7 +408,6 @@ class _KeptCode:
         ).hexdigest()
 
     def _known(self) -> dict[str, str]:
-        """The checksums of the files by their names; none if they cannot be read."""
         if not self._sums.exists():
             return {}
         lines = self._sums.read_text(encoding="utf-8", errors="replace").split("\n")
@@ -448,7 +416,7 @@ class _KeptCode:
 
 @cache
 def cache_folder() -> Path:
-    """The folder of the cache; it can be written, and belongs to the user."""
+    """The writable cache folder of this user."""
     folder = _wanted_folder()
     if folder is None:
         why = "no home folder is known"
@@ -474,7 +442,6 @@ def cache_folder() -> Path:
 
 
 def _wanted_folder() -> Path | None:
-    """The folder that the environment asks for, or the user's; None if there is no home."""
     asked = os.environ.get("TOPO_VERIFY_CACHE")
     if asked:
         return Path(asked).absolute() / "compiled"
@@ -491,5 +458,4 @@ def _wanted_folder() -> Path | None:
 
 @cache
 def _lasting_folder() -> Any:
-    """A folder that is deleted when the process ends."""
     return tempfile.TemporaryDirectory(prefix="topo-verify-", ignore_cleanup_errors=True)

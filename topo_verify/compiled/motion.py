@@ -1,12 +1,9 @@
 """Motion: excursions from vu, and which edge and which hypothesis is walked next.
 
 Mirrors: algorithms/motion.py, `Pilot`, `Hypothesis`, `retrace`, `overlap`; algorithms/policies.py,
-`nearest` and `shortest`. Differs: a hypothesis is its dart alone; its way home is followed along
-`up` where it is needed and is written down nowhere. Of the policies there are only these two, which
-define the reference costs. Few hypotheses are sorted by insertion, many by counting distances; both
-keep the order of darts.
-
-Source: docs/semantics.md, sections 2, 5, 6, 7; listing 1 lines 10-15, listing 2 lines 15-23.
+`nearest` and `shortest`, the policies of the reference costs. Differs: a hypothesis is its dart;
+its way home is followed along `up`. Few hypotheses are sorted by insertion, many by counting
+distances.
 """
 
 from __future__ import annotations
@@ -21,7 +18,7 @@ from topo_verify.compiled.workspace import *
 
 @inlined
 def walk(run: RunWords, at: int, v: int) -> int:
-    """Walk on S to v along the tree rooted there. Returns the reference dart at the end."""
+    """Walk on S to v; return the reference dart."""
     chart = run.chart
     if chart.vertex[at] == v:
         return at
@@ -38,7 +35,7 @@ def walk(run: RunWords, at: int, v: int) -> int:
 
 @inlined
 def cross(run: RunWords, at: int, e: int) -> int:
-    """Leave the known world by e. Returns the percept at vu, where excursions start."""
+    """Leave the known world by e; return the percept at vu."""
     excursion = run.excursion
     percept = move(run, door(run, at, e), CROSS)
     excursion.turned = 0
@@ -49,7 +46,7 @@ def cross(run: RunWords, at: int, e: int) -> int:
 
 @inlined
 def forward(run: RunWords, door: int) -> None:
-    """Walk one more door of a sequence, relative to the dart by which the place was entered."""
+    """Walk one more door, relative to the dart of entry."""
     excursion, world = run.excursion, run.world
     relative = door if planted(run.task, SETS_OUT_UNTURNED) else door - excursion.turned
     degree = world.degree[world.vertex[run.robot.dart]]
@@ -68,7 +65,7 @@ def forward(run: RunWords, door: int) -> None:
 
 @inlined
 def back(run: RunWords, steps: int) -> None:
-    """Retrace until only this many doors of the excursion are left. 0: back at vu."""
+    """Retrace until this many doors of the excursion are left."""
     excursion, world = run.excursion, run.world
     if planted(run.task, RETRACES_ONE_EDGE_SHORT) and steps == 0:
         steps = 1
@@ -97,7 +94,7 @@ def back(run: RunWords, steps: int) -> None:
 
 @kernel
 def turn_round(excursion: ExcursionWords, steps: int) -> None:
-    """Reverse the doors of the excursion from a step on: a planted mistake."""
+    """Reverse the doors from a step on: a planted mistake."""
     low = steps
     high = excursion.size - 1
     while low < high:
@@ -110,9 +107,9 @@ def turn_round(excursion: ExcursionWords, steps: int) -> None:
 
 @kernel
 def choice(run: RunWords, remaining: int) -> int:
-    """Which of H is walked next, as an index of REM: by `retrace` the first, or `overlap`.
+    """The index in H to walk next: by `retrace` the first, or `overlap`.
 
-    In SHARED it leaves how many doors that one shares with the last sequence.
+    `excursion.shared`: the doors it shares with the last sequence.
     """
     excursion = run.excursion
     excursion.shared = 0
@@ -132,7 +129,7 @@ def choice(run: RunWords, remaining: int) -> int:
 
 @kernel
 def common_prefix(run: RunWords, h: int) -> int:
-    """How many doors the way home from h shares with the last sequence, from vu on."""
+    """The doors that the way home from h shares with the last sequence."""
     excursion, chart = run.excursion, run.chart
     n = excursion.size
     at = h
@@ -144,16 +141,13 @@ def common_prefix(run: RunWords, h: int) -> int:
     return n
 
 
-# ---------------------------------------------------------------- the two reference policies
-
-
 FEW = 24
-"""The most hypotheses that are sorted by insertion."""
+"""The most hypotheses sorted by insertion."""
 
 
 @inlined
 def nearest(chart: ChartWords, at: int) -> int:
-    """The dart of U whose vertex is nearest on S to the robot; ties: the lowest dart."""
+    """The dart of U nearest on S to the robot; ties: the lowest."""
     root = chart.vertex[at]
     if chart.open[root] > 0:
         return first_in_u(chart, root)
@@ -162,7 +156,7 @@ def nearest(chart: ChartWords, at: int) -> int:
 
 @kernel
 def shortest(run: RunWords, number: int) -> None:
-    """Sort H by the length of the validation path, then by dart; it comes in the order of darts."""
+    """Sort H by length of the validation path, then by dart."""
     remaining, chart = run.remaining, run.chart
     if number > FEW:
         counted(run, number)
@@ -179,7 +173,7 @@ def shortest(run: RunWords, number: int) -> None:
 
 @kernel
 def counted(run: RunWords, number: int) -> None:
-    """Sort H as `shortest` does, in a time linear in H and S."""
+    """Sort H as `shortest`, in linear time."""
     chart, remaining = run.chart, run.remaining
     for depth in range(chart.vertices):
         remaining.counts[depth] = 0

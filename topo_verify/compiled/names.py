@@ -1,16 +1,14 @@
 """Names for words: kernels read `chart.first[v]`, and the machine reads `W[W_CHART_FIRST + v]`.
 
-A **view** is a class whose annotations name the words of an array, one after the other:
+A **view** is a class whose annotations name the words of an array in order:
 
     class ChartWords(WordView):
         vertices: int                                   # a single word
         alpha: Annotated[Words, "CHART_DARTS"]          # a row with this capacity
 
-`Fields` lays views out in an array with a letter (`W`, the workspace). A view with a part
-(`chart: ChartWords`) has the part's words, at the same places: `run.chart.alpha[d]`. Type checkers
-see ordinary classes. `Flat` turns a kernel into what numba compiles: each parameter of a view
-becomes the array, each name an offset, which is a constant; so a name costs nothing. The kernel as
-it stands runs as plain Python, on a view of any row of integers.
+`Fields` lays views out in an array with a letter (`W`, the workspace). A view may have parts:
+`run.chart.alpha[d]`. `Flat` turns a kernel into what numba compiles: a view becomes the array, a
+name a constant offset. Unchanged, the kernel runs as plain Python on a view of any row of integers.
 
 A **cursor** is a view that stands somewhere in an array: `MoveWords(run, i).door` is `W[i + 1]`.
 """
@@ -37,33 +35,27 @@ V = TypeVar("V", bound="WordView")
 
 
 class Words(Protocol):
-    """A row of 64-bit integers: the workspace, a numpy array or, in tests, a list."""
+    """A row of 64-bit integers, such as a numpy array or a list."""
 
-    def __getitem__(self, at: int, /) -> int:
-        """The word at this place."""
-        ...
+    def __getitem__(self, at: int, /) -> int: ...
 
-    def __setitem__(self, at: int, word: int, /) -> None:
-        """Write the word at this place."""
-        ...
+    def __setitem__(self, at: int, word: int, /) -> None: ...
 
-    def __len__(self) -> int:
-        """The number of words."""
-        ...
+    def __len__(self) -> int: ...
 
 
 class WordView:
-    """The words of an array by their names; `view[k]` is the word k places from its origin.
+    """The words of an array by their names.
 
     Args:
         words: the array.
-        origin: where the view begins; a cursor's origin is where it stands.
+        origin: where the view, or cursor, begins.
     """
 
     letter: ClassVar[str]
     is_cursor: ClassVar[bool] = False
     extent: ClassVar[int]
-    """Of a cursor: the number of words."""
+    """The number of words of a cursor."""
 
     def __init__(self, words: Words, origin: int | WordView = 0) -> None:
         self.array: Words = words.array if isinstance(words, WordView) else words
@@ -79,18 +71,18 @@ class WordView:
         return len(self.array)
 
     def place_of(self, name: str) -> int:
-        """The place in the array of a field's first word."""
+        """The place of a field's first word."""
         named: Field = inspect.getattr_static(type(self), name)
         return self.origin + named.offset
 
 
 class Field:
-    """A name of a view: a word, a row of words, or a part, which is a view itself.
+    """A name of a view: a word, a row, or a part (a view).
 
     Attributes:
         name: as in `chart.first`.
-        capacity: how many words a row has, by name; "" for a single word.
-        constant: the name of the offset in what is compiled.
+        capacity: names the size of a row; "" for a word.
+        constant: the name of the offset in compiled code.
         offset: where it stands.
     """
 
@@ -109,7 +101,7 @@ class Field:
 
 
 class WordField(Field):
-    """A name of a single word."""
+    """A single word."""
 
     def __get__(self, view: WordView | None, owner: type[WordView]) -> int | Self:
         return self if view is None else view.array[view.origin + self.offset]
@@ -119,15 +111,15 @@ class WordField(Field):
 
 
 class Fields:
-    """The fields of an array, in the order in which they stand.
+    """The fields of an array, in order.
 
     Args:
-        letter: the array's name in what is compiled.
-        whole: the view of all of it, with its parts.
-        capacities: how many words the rows have, by the names of their capacities.
+        letter: the array's name in compiled code.
+        whole: the view of all of it.
+        capacities: the sizes of rows by name.
     Attributes:
         all: every field.
-        size: the words in all.
+        size: the number of words.
     """
 
     def __init__(self, letter: str, whole: type[WordView], capacities: Mapping[str, int]) -> None:
@@ -141,10 +133,10 @@ class Fields:
     def offsets(
         self, capacities: Mapping[str, int] | None = None, *, gap: int = 0
     ) -> dict[str, int]:
-        """Where each field stands if rows have these capacities; `SIZE`: the words in all.
+        """The offset of each field for these capacities, and `SIZE`.
 
         Args:
-            gap: words between fields, in which a test sees what is written beyond one.
+            gap: words between fields, where a test looks for stray writes.
         """
         sizes = self.capacities if capacities is None else capacities
         end, places = 0, dict[str, int]()
@@ -154,13 +146,13 @@ class Fields:
         return {**places, "SIZE": end}
 
     def constants(self, offsets: Mapping[str, int] | None = None) -> dict[str, int]:
-        """Offsets by the names that they have in what is compiled."""
+        """Offsets by their names in compiled code."""
         places = self.offsets() if offsets is None else offsets
         return {field.constant: places[field.name] for field in self.all}
 
 
 def _named(letter: str, part: str, view: type[WordView]) -> Iterator[Field]:
-    """Give a view its names, those of the views that it inherits from first; its fields."""
+    """Set the names of a view; yield its fields, inherited ones first."""
     for owner in reversed(view.__mro__):
         if owner is WordView or not issubclass(owner, WordView) or "letter" in vars(owner):
             continue
@@ -180,10 +172,10 @@ def _named(letter: str, part: str, view: type[WordView]) -> Iterator[Field]:
 
 
 def cursor(letter: str, capacities: Mapping[str, int] = {}) -> Callable[[type[V]], type[V]]:
-    """The decorator of a cursor: its names are the words from where it stands on.
+    """The decorator of a cursor.
 
     Args:
-        capacities: as in `Fields`; a row without one must be the last.
+        capacities: as in `Fields`; a row without one must be last.
     """
 
     def placed(view: type[V]) -> type[V]:
@@ -198,17 +190,13 @@ def cursor(letter: str, capacities: Mapping[str, int] = {}) -> Callable[[type[V]
     return placed
 
 
-# ---------------------------------------------------------------- from names to offsets
-
-
 class Flat(ast.NodeTransformer):
     """Turns a kernel with names into one over arrays and offsets.
 
     Args:
-        namespace: what the names of the kernel's module mean.
-
+        namespace: what names mean in the kernel's module.
     Raises:
-        TypeError: a row is used as a word, or a part where an array is needed.
+        TypeError: a row is used as a word, or a part as an array.
     """
 
     def __init__(self, namespace: Mapping[str, object]) -> None:
@@ -217,7 +205,7 @@ class Flat(ast.NodeTransformer):
         self._stands: dict[str, str] = {}  # of a cursor with a name: the name of its place
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.FunctionDef:
-        """A kernel: an array, in place of each parameter that is a view."""
+        """Replace each view parameter by its array."""
         self._views, self._stands = {}, {}
         for argument in node.args.args:
             view = self._namespace.get(getattr(argument.annotation, "id", ""))
@@ -232,7 +220,7 @@ class Flat(ast.NodeTransformer):
         return node if view is None or view.is_cursor else ast.arg(view.letter)
 
     def visit_Assign(self, node: ast.Assign) -> ast.AST | None:
-        """Left out if it only gives parts of a view, or a cursor, names of their own."""
+        """Drop it if it only names parts of a view, or a cursor."""
         if isinstance(node.value, ast.Call) and (cursor := self._view(node.value)) is not None:
             target, place = node.targets[0], node.value.args[1]
             if not isinstance(target, ast.Name) or not isinstance(place, ast.Name):
@@ -254,7 +242,7 @@ class Flat(ast.NodeTransformer):
         return None
 
     def visit_Name(self, node: ast.Name) -> ast.Name:
-        """A view by itself is its array; a cursor is the place where it stands."""
+        """A view is its array; a cursor is its place."""
         view = self._views.get(node.id)
         if view is None:
             return node
@@ -277,7 +265,7 @@ class Flat(ast.NodeTransformer):
         return self._word(node.value, view, named, None, node.ctx)
 
     def visit_Subscript(self, node: ast.Subscript) -> ast.expr:
-        """A word in a row of a view, or by its place."""
+        """A word in a row, or by its place."""
         row = node.value
         view = self._view(row)
         if view is not None and view.is_cursor:
@@ -293,7 +281,7 @@ class Flat(ast.NodeTransformer):
         return cast("ast.expr", self.generic_visit(node))
 
     def visit_Call(self, node: ast.Call) -> ast.expr:
-        """`chart.place_of("first")` is an offset; a cursor that is made is its place."""
+        """`chart.place_of("first")` is an offset; a cursor is its place."""
         made = self._view(node)
         if made is not None:
             place: ast.expr = self.visit(node.args[1])
@@ -307,7 +295,6 @@ class Flat(ast.NodeTransformer):
         return cast("ast.expr", self.generic_visit(node))
 
     def _view(self, node: ast.expr) -> type[WordView] | None:
-        """The view that an expression is, if it is one."""
         if isinstance(node, ast.Name):
             return self._views.get(node.id)
         if isinstance(node, ast.Attribute) and node.attr != "origin":
@@ -327,14 +314,12 @@ class Flat(ast.NodeTransformer):
         index: ast.expr | None,
         ctx: ast.expr_context,
     ) -> ast.expr:
-        """The word of a view, of the row's place `index` if it is a row."""
         place = self._place(owner, view, named)
         if index is not None and not (isinstance(index, ast.Constant) and index.value == 0):
             place = _sum(place, index)
         return ast.Subscript(ast.Name(view.letter, ast.Load()), place, ctx)
 
     def _place(self, owner: ast.expr, view: type[WordView], named: Field) -> ast.expr:
-        """Where a field of a view begins."""
         if not view.is_cursor:
             return ast.Name(named.constant, ast.Load())
         place = self.visit(owner)
@@ -342,7 +327,6 @@ class Flat(ast.NodeTransformer):
 
 
 def _named_in(view: type[WordView], node: ast.Attribute) -> Field:
-    """What the name of an attribute means in a view."""
     named = inspect.getattr_static(view, node.attr, None)
     if not isinstance(named, Field):
         raise TypeError(f"{ast.unparse(node)}: {view.__name__} has no such name")
@@ -350,7 +334,7 @@ def _named_in(view: type[WordView], node: ast.Attribute) -> Field:
 
 
 def _sum(place: ast.expr, index: ast.expr) -> ast.expr:
-    """A place, and an index behind it: the place at the left end, where it is added first."""
+    """The sum, with the place at the left end, where it is added first."""
     at = index
     if not isinstance(at, ast.BinOp) or not isinstance(at.op, ast.Add | ast.Sub):
         return ast.BinOp(place, ast.Add(), index)

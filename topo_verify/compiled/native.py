@@ -1,11 +1,9 @@
-"""A native mapper in the place of `explore`: it is called by its address, and calls back.
+"""A native mapper in the place of `explore`: called by its address, it calls back.
 
-Mirrors: programs/library.py, which gives the same robot to the same function behind a pipe; both
-refuse the same things. What the mapper declares and delivers is written into the workspace as
-robot.py writes it, so the judge needs to know nothing of it. Once it was refused anything, or has
-delivered its map, each callback does nothing and returns `REFUSED`.
-
-What is declared is checked here as far as Python later takes it for an index or for an event.
+Mirrors: programs/library.py, the same robot behind a pipe; both refuse the same things. What is
+declared and delivered is written as robot.py writes it, so the judge sees no difference. After a
+refusal, or the map, each callback does nothing and returns `REFUSED`. Declarations are checked as
+far as Python takes them for an index or an event.
 """
 
 from __future__ import annotations
@@ -31,7 +29,7 @@ from topo_verify.compiled.workspace import *
 if TYPE_CHECKING:  # native_call.py needs numba; the module of machine code imports it
 
     def call_address(address: int, argument: int) -> int:
-        """What the function at this address returns."""
+        """Call the function at this address."""
         ...
 
     def row_at(address: int, size: int) -> Any:
@@ -42,13 +40,13 @@ if TYPE_CHECKING:  # native_call.py needs numba; the module of machine code impo
 SIZE = SMALL.at("SIZE")
 
 REFUSED = -1
-"""The percept, or the answer, after a refusal."""
+"""The answer after a refusal."""
 
 MOST = 1 << 62
-"""What is declared lies between minus this and this, as in an event of a trace."""
+"""The range of declared numbers."""
 
 MOST_WORDS = 1 << 20
-"""The most words that are read of a row of the mapper's."""
+"""The most words read of a mapper's row."""
 
 MOST_DEGREE = 1_000_000
 
@@ -56,21 +54,21 @@ PURPOSE_COUNT = 4
 
 FENCE_WORDS = 8
 FENCE = 0x5AFE5AFE5AFE5AFE
-"""What stands before each of our rows; a mapper that writes there has lost its way."""
+"""Stands before each row, to detect stray writes."""
 
 WROTE = 71
-"""The exit code of a process in which a mapper wrote over our data."""
+"""Exit code if a mapper wrote over our data."""
 
 
 @entry
 def run_native(run: RunWords, darts: int, vertices: int) -> int:
-    """Have the native mapper map the world in W: the cost; -1: it delivered no map."""
+    """Have the native mapper map the world: the cost; -1: no map."""
     return explore_native(run, darts, vertices)
 
 
 @kernel
 def explore_native(run: RunWords, darts: int, vertices: int) -> int:
-    """Have the native mapper map the world: the cost; -1: it delivered no map."""
+    """`run_native`, for other kernels."""
     run.robot.dart = 0
     run.robot.cost = 0
     run.stop = 0
@@ -109,7 +107,7 @@ def mark(run: RunWords, darts: int, vertices: int) -> int:
 
 @inlined
 def is_torn(run: RunWords) -> bool:
-    """Whether the words before the workspace are other ones than they were."""
+    """Whether the words before the workspace changed."""
     F = row_at(run.native.self - 8 * FENCE_WORDS, FENCE_WORDS)
     torn = False
     for k in range(FENCE_WORDS):
@@ -129,9 +127,6 @@ def is_number(number: int) -> bool:
     return -MOST <= number <= MOST
 
 
-# ---------------------------------------------------------------- the callbacks, as in the header
-
-
 @callback
 def native_look(run: RunWords) -> int:
     """The percept where the robot stands."""
@@ -140,7 +135,7 @@ def native_look(run: RunWords) -> int:
 
 @callback
 def native_move(run: RunWords, door: int, purpose: int) -> int:
-    """Leave by a door; the percept behind it."""
+    """Leave by a door; return the percept."""
     if is_over(run):
         return REFUSED
     B = row_at(run.native.beats, 2)
@@ -177,7 +172,7 @@ def native_pose(run: RunWords, e: int, number: int, hypotheses: int) -> int:
 def native_reject(
     run: RunWords, e: int, h: int, by: int, evidence: int, number: int, way: int
 ) -> int:
-    """Declare a rejection; evidence: seven words; way: the doors of a record."""
+    """Declare a rejection; evidence: seven words; way: a record's doors."""
     if is_over(run):
         return REFUSED
     if not is_rejection(e, h, by, evidence, number, way):
@@ -203,7 +198,7 @@ def native_reject(
 
 @kernel
 def is_rejection(e: int, h: int, by: int, evidence: int, number: int, way: int) -> bool:
-    """Whether a rejection can be an event of a trace."""
+    """Whether a rejection can be an event."""
     E = row_at(evidence, 7)
     if number < 0 or number > MOST_WORDS or by < 0 or by > BY_PLANAR:
         return False
@@ -223,7 +218,7 @@ def is_rejection(e: int, h: int, by: int, evidence: int, number: int, way: int) 
 
 @callback
 def native_confirm(run: RunWords, e: int, h: int, by: int) -> int:
-    """Declare that the other end of e is h."""
+    """Declare that e ends in h."""
     if is_over(run):
         return REFUSED
     if by < 0 or by > BY_PLANAR or not (is_number(e) and is_number(h)):
@@ -254,7 +249,7 @@ def native_augment(run: RunWords, e: int, kind: int, dart: int, degree: int) -> 
 
 @callback
 def native_skip(run: RunWords, _why: int) -> int:
-    """Decline the world. Why: that is said where it is run again, behind the pipe."""
+    """Decline the world. The reason is reported when it runs again, behind the pipe."""
     if not is_over(run):
         run.stop = STOP_SKIP
     return REFUSED
@@ -264,7 +259,7 @@ def native_skip(run: RunWords, _why: int) -> int:
 def native_deliver(
     run: RunWords, vertices: int, degrees: int, alpha: int, marker: int, cost: int
 ) -> int:
-    """Deliver a map: of each vertex its degree, of each dart its other end, and the marker's dart.
+    """Deliver a map: degrees of vertices, other ends of darts, the marker's dart.
 
     Darts are numbered vertex by vertex, clockwise.
     """
@@ -281,12 +276,9 @@ def native_deliver(
     return 0
 
 
-# ---------------------------------------------------------------- the map
-
-
 @kernel
 def place_map(run: RunWords, vertices: int, degrees: int, alpha: int, marker: int) -> None:
-    """Write the map down as the chart, its darts in the order of discovery from the marker on."""
+    """Write the map as the chart, its darts in order of discovery."""
     run.chart.vertices = vertices
     run.chart.darts = -1  # no map of a world of this layout
     darts = place_vertices(run, vertices, degrees)
@@ -312,7 +304,7 @@ def place_map(run: RunWords, vertices: int, degrees: int, alpha: int, marker: in
 
 @kernel
 def place_vertices(run: RunWords, vertices: int, degrees: int) -> int:
-    """Write down the vertices as they were delivered: how many darts; -1: too many, or no map."""
+    """Write the delivered vertices: the number of darts; -1: too many, or no map."""
     D = row_at(degrees, vertices)
     darts = 0
     for v in range(vertices):
@@ -331,7 +323,7 @@ def place_vertices(run: RunWords, vertices: int, degrees: int) -> int:
 
 @kernel
 def is_paired(run: RunWords, alpha: int, darts: int) -> bool:
-    """Whether each dart has another one as its other end, and is that of it."""
+    """Whether the other ends of darts are mutual."""
     A = row_at(alpha, darts)
     for d in range(darts):
         if A[d] < 0 or A[d] >= darts or A[d] == d or A[A[d]] != d:
@@ -342,7 +334,7 @@ def is_paired(run: RunWords, alpha: int, darts: int) -> bool:
 
 @kernel
 def is_in_order(run: RunWords, A: Any, darts: int) -> bool:
-    """Whether each vertex is met from a lower dart, as in S; its numbers are then kept."""
+    """Whether the numbers of S can be kept: each vertex is met from a lower dart."""
     met = 0  # vertices 0 ... met, met in this order
     for d in range(darts):
         if run.native.given[d] > met:
@@ -353,7 +345,7 @@ def is_in_order(run: RunWords, A: Any, darts: int) -> bool:
 
 @kernel
 def rename_darts(run: RunWords, vertices: int, D: Any, A: Any, darts: int, marker: int) -> None:
-    """Number the darts in the order of discovery; CA holds, for now, what they were called."""
+    """Number the darts in order of discovery; `chart.alpha` temporarily holds the old names."""
     named = name_vertex(run, D, marker, 0)
     found = 1
     d = 0
@@ -382,7 +374,7 @@ def rename_darts(run: RunWords, vertices: int, D: Any, A: Any, darts: int, marke
 
 @kernel
 def name_vertex(run: RunWords, D: Any, dart: int, named: int) -> int:
-    """Name the darts of a vertex from this one on, clockwise; how many have names then."""
+    """Name the darts of a vertex from this one on; return how many have names."""
     v = run.native.given[dart]
     begin = run.chart.first[v]
     for _ in range(D[v]):

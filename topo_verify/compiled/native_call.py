@@ -1,6 +1,6 @@
-"""Two instructions for kernels: call the function at an address, and see the words at an address.
+"""Call the function at an address, and see the words at an address, from kernels.
 
-Numba's own `carray` needs its counting of references, which is switched off here (kernel.py).
+Numba's `carray` needs reference counting, which is off here (kernel.py).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _WORD = ir.IntType(64)
 
 @intrinsic
 def call_address(_typing: Any, _address: Any, _argument: Any) -> Any:
-    """What the function at this address returns for one word."""
+    """Call the function at this address with one word."""
 
     def generate(_context: Any, builder: Any, _signature: Signature, values: Any) -> Any:
         kind = ir.FunctionType(_WORD, [_WORD]).as_pointer()
@@ -31,7 +31,7 @@ def call_address(_typing: Any, _address: Any, _argument: Any) -> Any:
 
 @intrinsic
 def row_at(_typing: Any, _address: Any, _size: Any) -> Any:
-    """The row of `size` words at this address; its references are not counted."""
+    """The row of `size` words at this address, without counted references."""
     row = types.Array(types.int64, 1, "C")
 
     def generate(context: Any, builder: Any, _signature: Signature, values: Any) -> Any:

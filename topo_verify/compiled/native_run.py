@@ -1,15 +1,15 @@
-"""What a native mapper needs in this process: rows in guarded memory, and the robot.
+"""Rows in guarded memory, and the robot, for a native mapper in this process.
 
     calls = NativeCalls(address, beats)
     calls.run(world)                            # -> CompiledRun, ...: of one world
     examine_steps(..., calls=calls)             # shard.py: of a range of worlds
 
-Each of our rows ends at a page without access and begins behind a fence; the robot lies in a
-read-only page. So the system ends a mapper that runs over the end of a row, and the kernels
-(native.py) end one that writes before it or over the world.
+Each row ends at a page without access and begins behind a fence; the robot lies in a read-only
+page. The system ends a mapper that runs over a row's end; the kernels (native.py) end one that
+writes before it or over the world.
 
-What this does not show: a write that hits one of our rows without touching fence or world, or
-that hits Python, is not noticed.
+What this does not show: a write that hits one of our rows without touching fence or world, or that
+hits Python, is not noticed.
 """
 
 from __future__ import annotations
@@ -40,10 +40,10 @@ NAMES = ("look", "move", "pose", "reject", "confirm", "augment", "deliver", "ski
 VERSION = 1
 
 ROOM = 1 << 16
-"""Words of trace for which a run has room at first."""
+"""Initial words of trace."""
 
 MOST_ROOM = 1 << 24
-"""The most words of trace of one run."""
+"""The most words of trace."""
 
 STOPPED: Mapping[int, str] = {
     ws.STOP_DOOR: "the mapper asked for a door that is not there",
@@ -53,14 +53,13 @@ STOPPED: Mapping[int, str] = {
 }
 
 _at = ws.SMALL.at
-"""Where a field stands in a workspace of the small layout."""
 
 _PAGE = mmap.PAGESIZE
 _NO_ACCESS, _READ_ONLY = 0, 1
 
 
 class Guarded:
-    """Rows of words between pages without access. They live as long as the process."""
+    """Rows of words between pages without access."""
 
     def __init__(self) -> None:
         self._rows: dict[tuple[object, ...], Row] = {}
@@ -69,7 +68,7 @@ class Guarded:
         self._system: Any = ctypes.CDLL(None)
 
     def row(self, name: str, given: Row) -> Row:
-        """The row, or table, of this name and size, with the same words as another one."""
+        """The row of this name, with the words of another one."""
         key = (name, *given.shape)
         if key not in self._rows:
             self._rows[key] = self._made(given)
@@ -111,10 +110,9 @@ class NativeCalls:
 
     Args:
         function: as ctypes has it.
-        beats: the address of two words: how many worlds of the shard lie before the one in which
-            the mapper is, and a number that grows with every world and move.
+        beats: the address of two words: worlds of the shard finished, and a heartbeat.
     Attributes:
-        first, worlds: the rank of the first world of the shard, and how many it has.
+        first, worlds: the first rank of the shard, and its number of worlds.
     """
 
     def __init__(self, function: Any, beats: int) -> None:
@@ -125,7 +123,7 @@ class NativeCalls:
         self._spaces: dict[tuple[str, int], Row] = {}
 
     def space(self, use: str, room: int = ws.TRACE) -> Row:
-        """The workspace for a use, with room for `room` words of trace; the same each time."""
+        """The workspace for a use, with `room` words of trace; the same each time."""
         if (use, room) not in self._spaces:
             import numpy as np
 
@@ -135,7 +133,6 @@ class NativeCalls:
         return self._spaces[use, room]
 
     def _prepare(self, space: Row, robot_name: str) -> None:
-        """Let the mapper be given the robot of this workspace."""
         import numpy as np
 
         here = space.ctypes.data
@@ -151,15 +148,14 @@ class NativeCalls:
             space[_at(f"native.{name}")] = word
 
     def require_whole(self) -> None:
-        """End this process if the mapper wrote before one of our rows."""
+        """End this process if the mapper wrote before a row."""
         if self.guarded.torn:
             os._exit(native.WROTE)
 
     def run(self, world: World) -> tuple[CompiledRun, bool]:
-        """The run of the mapper in one world of the small layout, and whether it decides anything.
+        """The run in one world of the small layout, and whether it decides anything.
 
-        A trace that does not fit is made again with four times the room, up to `MOST_ROOM`. It
-        decides nothing if that does not do, or if the mapper declines the world.
+        A trace that does not fit is made again with four times the room, up to `MOST_ROOM`.
         """
         room = ROOM
         while True:
@@ -186,19 +182,19 @@ def _addresses() -> list[int]:
 
 
 def warm() -> None:
-    """Have compiled what a native mapper needs, before one is opened."""
+    """Compile what a native mapper needs."""
     for function in (tally.examine_worlds, tally.enter_open, native.run_native):
         compiled(function, ws.SMALL)
     _addresses()
 
 
 def is_open(space: Row) -> bool:
-    """Whether a run in the small layout decides nothing: the mapper declined, or had no room."""
+    """Whether the mapper declined, or had no room."""
     return bool(space[_at("stop")] >= ws.STOP_SKIP)
 
 
 def made_by(space: Row, world: World) -> CompiledRun:
-    """What a finished workspace of the small layout says."""
+    """The run in a finished workspace."""
     stop, reported = int(space[_at("stop")]), int(space[_at("native.reported")])
     is_map = stop == 0 and space[_at("native.delivered")] != 0
     why: str | None = None

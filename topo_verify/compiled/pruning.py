@@ -1,19 +1,16 @@
-"""Stops a branch of the enumeration as soon as no completion has the properties of the class.
+"""Stops a branch of the enumeration as soon as no completion is in the class.
 
-The compiled twin of the pruners of `world/enumeration/pruned.py`, under their names; their theory
-stands there. What differs: a pruner here is changed in place by `…_join` and `…_hang`, which say
-whether a completion may be left and change nothing if not, and is turned back by `…_undo_…`.
+The twin of the pruners of `world/enumeration/pruned.py`, where the theory stands. Differs: `…_join`
+and `…_hang` change a pruner in place, or nothing if no completion is left; `…_undo_…` turns it
+back.
 
-    genus        A boundary word is a cyclic list, linked both ways (`next`, `before`). A join
-                 links the neighbours of the two darts crosswise: that cuts one word in two, and
-                 makes one of two words. What it does to the words is known before it is made, from
-                 the parity of the partner's place (`look_around` walks along e's word once a step).
-    neighbours   Counts and masks of each vertex. If the class is simple, a join makes nothing worse
-                 for a vertex unless one of the two ends has no open dart left: only then all
-                 vertices are looked at.
+    genus        A boundary word is a linked cyclic list (`next`, `before`). A join links the
+                 neighbours of two darts crosswise: that cuts one word in two, or joins two. The
+                 parity of the partner's place tells the effect (`look_around`, once a step).
+    neighbours   Counts and masks of each vertex. In simple worlds, vertices need a look only if
+                 one of the two ends has no open dart left.
 
-`walk` is the state of the enumeration, see `growth.py`. `left` is the number of darts
-still to create after the step, `opened` the number of open darts after it.
+`left`: darts still to create after the step; `opened`: open darts after it.
 """
 
 from __future__ import annotations
@@ -21,12 +18,10 @@ from __future__ import annotations
 from topo_verify.compiled.kernel import inlined
 from topo_verify.compiled.workspace import *
 
-# ---------------------------------------------------------------- one root, one step
-
 
 @inlined
 def begin_pruned(walk: WalkWords, degree: int, left: int) -> bool:
-    """Whether the class may have a world with a root of this degree; the pruners, begun there."""
+    """Begin; whether the class may have a world with this root."""
     if degree > walk.most_degree:
         return False
     walk.open_at[0] = degree
@@ -57,7 +52,7 @@ def join_pruned(
     left: int,
     vertices: int,
 ) -> bool:
-    """Whether e may be joined with c; if so, the pruners know of it."""
+    """Join e with c, if a completion is left."""
     if walk.has_genus != 0 and not genus_join(walk, k, e, c, opened, left):
         return False
     if walk.loopless != 0 and not neighbours_join(world, walk, e, c, opened, left, vertices):
@@ -69,7 +64,7 @@ def join_pruned(
 
 @inlined
 def undo_join_pruned(world: WorldWords, walk: WalkWords, k: int, e: int, c: int) -> None:
-    """The pruners, as before e was joined with c."""
+    """Undo `join_pruned`."""
     if walk.has_genus != 0:
         genus_undo_join(walk, k, e, c)
     if walk.loopless != 0:
@@ -88,7 +83,7 @@ def hang_pruned(
     left: int,
     fresh: int,
 ) -> bool:
-    """Whether a new vertex, number `fresh`, may hang on e; if so, the pruners know of it."""
+    """Hang vertex `fresh` on e, if a completion is left."""
     if degree > walk.most_degree:
         return False
     if walk.has_genus != 0 and not genus_hang(walk, k, e, first, degree, opened, left):
@@ -102,19 +97,16 @@ def hang_pruned(
 
 @inlined
 def undo_hang_pruned(world: WorldWords, walk: WalkWords, k: int, e: int, fresh: int) -> None:
-    """The pruners, as before the vertex hung on e."""
+    """Undo `hang_pruned`."""
     if walk.has_genus != 0:
         genus_undo_hang(walk, k, e)
     if walk.loopless != 0:
         neighbours_undo_hang(world, walk, e, fresh)
 
 
-# ---------------------------------------------------------------- GenusPruner
-
-
 @inlined
 def look_around(walk: WalkWords, k: int, e: int) -> None:
-    """Note e's word at step k: which darts it has, and which of them stand at odd places."""
+    """Note the darts of e's word, and those at odd places."""
     darts = 0
     odd_places = 0
     is_odd = 1
@@ -145,7 +137,7 @@ def word_is_odd(walk: WalkWords, c: int) -> int:
 def genus_feasible(
     walk: WalkWords, handles: int, odd_words: int, words: int, opened: int, left: int
 ) -> bool:
-    """`GenusPruner.feasible`: can the words be closed with these darts and handles?"""
+    """`GenusPruner.feasible`."""
     if handles < 0 or odd_words > left + 2 * handles:
         return False
     if walk.exact == 0:
@@ -160,7 +152,7 @@ def genus_feasible(
 
 @inlined
 def genus_join(walk: WalkWords, k: int, e: int, c: int, opened: int, left: int) -> bool:
-    """`GenusPruner.join`: cuts the word of the two, or makes one word of theirs by a handle."""
+    """`GenusPruner.join`: cut a word, or join two by a handle."""
     handles = walk.handles
     odd_words = walk.odd_words
     words = walk.words
@@ -204,14 +196,14 @@ def genus_join(walk: WalkWords, k: int, e: int, c: int, opened: int, left: int) 
 
 @inlined
 def link_boundary(walk: WalkWords, d: int, after: int) -> None:
-    """Let `after` stand behind d along a boundary."""
+    """Let `after` follow d on a boundary."""
     walk.next[d] = after
     walk.before[after] = d
 
 
 @inlined
 def genus_undo_join(walk: WalkWords, k: int, e: int, c: int) -> None:
-    """The words as they were before the join."""
+    """Undo `genus_join`."""
     walk.handles = walk.was_handles[k]
     walk.odd_words = walk.was_odd_words[k]
     walk.words = walk.was_words[k]
@@ -225,7 +217,7 @@ def genus_undo_join(walk: WalkWords, k: int, e: int, c: int) -> None:
 def genus_hang(
     walk: WalkWords, k: int, e: int, first: int, degree: int, opened: int, left: int
 ) -> bool:
-    """`GenusPruner.hang`: puts the new vertex's other darts in the place of e."""
+    """`GenusPruner.hang`: the new vertex's other darts replace e."""
     is_odd = walk.word_odd[k]
     odd_words = walk.odd_words - is_odd + ((is_odd + degree) & 1)
     after = walk.next[e]
@@ -257,21 +249,18 @@ def genus_hang(
 
 @inlined
 def genus_undo_hang(walk: WalkWords, k: int, e: int) -> None:
-    """The words as they were before the vertex hung on e."""
+    """Undo `genus_hang`."""
     walk.odd_words = walk.was_odd_words[k]
     walk.words = walk.was_words[k]
     link_boundary(walk, walk.dart_before[k], e)
     link_boundary(walk, e, walk.dart_next[k])
 
 
-# ---------------------------------------------------------------- NeighbourPruner
-
-
 @inlined
 def neighbours_join(
     world: WorldWords, walk: WalkWords, e: int, c: int, opened: int, left: int, vertices: int
 ) -> bool:
-    """`NeighbourPruner.join`: no loop and, if simple, no second edge between two vertices."""
+    """`NeighbourPruner.join`: no loop and, if simple, no double edge."""
     a = world.vertex[e]
     b = world.vertex[c]
     # Without `simple` the masks stay 0, so only the loop is refused.
@@ -293,7 +282,7 @@ def neighbours_join(
 
 @inlined
 def neighbours_undo_join(world: WorldWords, walk: WalkWords, e: int, c: int) -> None:
-    """The counts and masks as they were before the join."""
+    """Undo `neighbours_join`."""
     a = world.vertex[e]
     b = world.vertex[c]
     walk.open_at[a] += 1
@@ -306,7 +295,7 @@ def neighbours_undo_join(world: WorldWords, walk: WalkWords, e: int, c: int) -> 
 def neighbours_hang(
     world: WorldWords, walk: WalkWords, e: int, degree: int, opened: int, left: int, fresh: int
 ) -> bool:
-    """`NeighbourPruner.hang`: a new vertex has no neighbour but the one that it hangs on."""
+    """`NeighbourPruner.hang`."""
     a = world.vertex[e]
     walk.open_at[a] -= 1
     walk.open_at[fresh] = degree - 1
@@ -322,7 +311,7 @@ def neighbours_hang(
 
 @inlined
 def neighbours_undo_hang(world: WorldWords, walk: WalkWords, e: int, fresh: int) -> None:
-    """The counts and masks as they were before the vertex hung on e."""
+    """Undo `neighbours_hang`."""
     a = world.vertex[e]
     walk.open_at[a] += 1
     walk.near[a] &= ~(1 << fresh)
@@ -330,7 +319,7 @@ def neighbours_undo_hang(world: WorldWords, walk: WalkWords, e: int, fresh: int)
 
 @inlined
 def neighbours_feasible(walk: WalkWords, opened: int, left: int, vertices: int) -> bool:
-    """`NeighbourPruner.feasible`: can each open dart still end at another vertex?"""
+    """`NeighbourPruner.feasible`."""
     if walk.simple == 0:
         most = 0
         for v in range(vertices):
@@ -349,7 +338,7 @@ def neighbours_feasible(walk: WalkWords, opened: int, left: int, vertices: int) 
 
 @inlined
 def bit_count(mask: int) -> int:
-    """How many of the lower 32 bits are set."""
+    """The number of set bits, of 32."""
     mask = mask - ((mask >> 1) & 0x55555555)
     mask = (mask & 0x33333333) + ((mask >> 2) & 0x33333333)
     mask = (mask + (mask >> 4)) & 0x0F0F0F0F

@@ -1,10 +1,8 @@
-"""The robot: moves through the world of the workspace, counts, and writes down what happens.
+"""The robot: moves through the world of the workspace, counts, and records.
 
-Mirrors: robot/simulator.py, `SimulatedRobot`. Differs: the world's darts are numbered in the order
-of discovery from the marker on, so a vertex is an interval of darts as on S, sigma is the next dart
-of it, and the marker is dart 0. Where the reference raises, `stop` is set and every caller returns.
-
-Source: docs/semantics.md, section 2.
+Mirrors: robot/simulator.py, `SimulatedRobot`. Differs: the world's darts are numbered in order of
+discovery, so a vertex is an interval, sigma the next dart of it, and the marker dart 0. Where the
+reference raises, `stop` is set.
 """
 
 from __future__ import annotations
@@ -16,7 +14,7 @@ from topo_verify.compiled.workspace import *
 
 @inlined
 def sensed(world: WorldWords, dart: int) -> int:
-    """The percept with this dart of the world as the reference dart."""
+    """The percept at a dart of the world."""
     v = world.vertex[dart]
     percept = world.degree[v] << SHIFT
     if v == 0:  # v0: from its dart d, dart 0 is -d doors further clockwise
@@ -28,7 +26,7 @@ def sensed(world: WorldWords, dart: int) -> int:
 
 @inlined
 def move(run: RunWords, door: int, purpose: int) -> int:
-    """Leave by a door and return the percept behind it. Costs 1. If it may not, `stop` says why."""
+    """Leave by a door; return the percept, or set `stop`. Costs 1."""
     robot, world = run.robot, run.world
     v = world.vertex[robot.dart]
     degree = world.degree[v]
@@ -49,12 +47,9 @@ def move(run: RunWords, door: int, purpose: int) -> int:
     return percept
 
 
-# ---------------------------------------------------------------- declarations
-
-
 @kernel
 def took(run: RunWords, words: int) -> int:
-    """Reserve words of trace and return where they begin. `stop` is set if there is no room."""
+    """Reserve words of trace; return where they begin, or set `stop`."""
     trace = run.trace
     i = trace.size
     if i + words > run.task.room:
@@ -66,7 +61,7 @@ def took(run: RunWords, words: int) -> int:
 
 @inlined
 def declare(run: RunWords, kind: int, first: int, second: int, third: int) -> None:
-    """Write down an event of four words."""
+    """Record an event of four words."""
     if run.task.tracing != 0:
         i = run.trace.place_of("word") + took(run, 4)
         if run.stop == 0:
@@ -78,7 +73,7 @@ def declare(run: RunWords, kind: int, first: int, second: int, third: int) -> No
 
 @kernel
 def declare_pose(run: RunWords, e: int, remaining: int) -> None:
-    """Put H on record: the hypotheses that remain."""
+    """Record the remaining hypotheses."""
     if run.task.tracing != 0:
         i = run.trace.place_of("word") + took(run, 3 + remaining)
         if run.stop == 0:
@@ -92,7 +87,7 @@ def declare_pose(run: RunWords, e: int, remaining: int) -> None:
 
 @kernel
 def declare_reject(run: RunWords, e: int, h: int, by: int) -> None:
-    """Put on record that h is rejected, with the evidence that was cited."""
+    """Record a rejection with the cited evidence."""
     evidence = run.evidence
     if run.task.tracing != 0:
         step = evidence.step
@@ -123,13 +118,13 @@ def declare_reject(run: RunWords, e: int, h: int, by: int) -> None:
 
 @kernel
 def declare_confirm(run: RunWords, e: int, h: int, by: int) -> None:
-    """Put on record that the other end of e is h."""
+    """Record that e ends in h."""
     declare(run, CONFIRM, e, h, by)
 
 
 @kernel
 def declare_augment(run: RunWords, e: int, kind: int, dart: int, degree: int) -> None:
-    """Put on record that S has grown."""
+    """Record that S has grown."""
     if run.task.tracing != 0:
         i = run.trace.place_of("word") + took(run, 5)
         if run.stop == 0:

@@ -3,19 +3,12 @@
     (counts,) = examine_range(["basic"], 7, "any", 0, 10_000)
     counts.failing, counts.claims["map-isomorphic"]
 
-Where the kernel leaves a verdict open (`judging/`), the reference's checkers judge the trace. A run
-that did not fit into the workspace is made again before, in a larger one. Either is then counted
-like any other.
+Where the kernel leaves a verdict open (`judging/`), the checkers judge the trace; a run that did
+not fit into the workspace is first made again in a larger one. `examine_steps` also yields the
+counts on the way. `benchmarks/compiled.py --only basic nine ten` prints what a run costs.
 
-What a run costs, without its trace and with nine and ten claims judged, is printed by
-
-    .venv/bin/python benchmarks/compiled.py --only basic nine ten
-
-`examine_steps` also gives the counts on the way: what the worlds of a step add to the counts is the
-difference of two `Snapshot`s, and the counts at the end are made of no other steps.
-
-What this does not show: that the kernels are right; tests hold them to the reference, and a search
-has the checkers judge some of the steps.
+What this does not show: that the kernels are right; tests compare them with the reference, and a
+search has the checkers judge some steps again.
 """
 
 from __future__ import annotations
@@ -59,11 +52,11 @@ if TYPE_CHECKING:
     Numbers = NDArray[np.int64]
 
 ALL_CLAIMS = len(CLAIMS)
-"""The level of the judge at which it asks all claims."""
+"""The judge's level for all claims."""
 
 
 class DearerWorld(NamedTuple):
-    """A world in which the first algorithm costs more than the second, by its rank."""
+    """A world in which the first algorithm costs more than the second."""
 
     rank: int
     cost: int
@@ -74,22 +67,19 @@ class ShardCounts(msgspec.Struct, frozen=True):
     """The counts of one algorithm in a range of worlds.
 
     Attributes:
-        algorithm: its name.
-        worlds, failing: in how many worlds it ran; in how many a claim fails.
-        claims: of each claim, in how many worlds it fails, and the rank of the first; -1: none.
-        newly_failing: in how many worlds a claim fails for it, and for no algorithm before it.
-        newly_failing_claims: of each claim, in how many worlds it fails for this one and for no
-            algorithm before it.
-        undecided: runs with an undecided claim of which none fails.
-        statuses: of each claim, how many runs have which status.
-        shares: of each claim, how much was judged in all runs together, of how much.
-        total, most, attained: costs of the runs in which no claim fails, in edge traversals: their
-            sum, the highest, and how many runs cost that much.
-        worst: the ranks of the first of those.
-        failing_ranks: the ranks of the first failing worlds.
-        digest: a hash of ranks, verdicts, costs and doors of all runs, 64 bits; digests add up.
-        dearer, cheaper, excess: of the first of two algorithms: in how many worlds it costs more
-            and less than the second, and by how much at most.
+        worlds, failing: number of worlds, and of those where a claim fails.
+        claims: for each claim, the failing worlds and the rank of the first; -1: none.
+        newly_failing, newly_failing_claims: worlds where a claim, or this claim, fails for it and
+            for no algorithm before it.
+        undecided: runs with an undecided and no failing claim.
+        statuses: for each claim, number of runs by status.
+        shares: for each claim, how much was judged, of how much.
+        total, most, attained: of costs without a failing claim, in edge traversals: sum, highest,
+            and number of runs with it.
+        worst, failing_ranks: the first ranks of those, and of failing worlds.
+        digest: a hash of ranks, verdicts, costs and doors, 64 bits; digests add up.
+        dearer, cheaper, excess: of the first of two algorithms: worlds where it costs more and less
+            than the second, and the highest excess.
         dearer_worlds: the first worlds in which it costs more.
     """
 
@@ -115,12 +105,7 @@ class ShardCounts(msgspec.Struct, frozen=True):
 
 
 class Snapshot(NamedTuple):
-    """The counts behind a world of the range.
-
-    Attributes:
-        rank: of the last world that is counted; -1: none is.
-        counts: those of each algorithm, from the start of the range.
-    """
+    """The counts of each algorithm from the start of the range to this rank; -1: none."""
 
     rank: int
     counts: tuple[ShardCounts, ...]
@@ -138,18 +123,18 @@ def examine_range(
     faults: Mapping[str, str] | None = None,
     room: int = ws.TRACE,
 ) -> tuple[ShardCounts, ...]:
-    """Run algorithms in every world of a range, and judge the runs: the counts of each.
+    """Run algorithms in every world of a range, and return the counts of each.
 
     Args:
         kind: the class of worlds; ranks are those of class `any`.
-        claims: the number of claims that are judged, from the first on: 8, 9 or 10.
-        stop_at_first: end behind the first world in which a claim fails.
-        faults: for some of the names, the mistake to plant; the name may be any text then.
-        room: words of trace, at most `TRACE`. A run with a longer trace is made a second time.
-            The counts do not depend on it.
+        claims: the number of claims judged: 8, 9 or 10.
+        stop_at_first: end at the first world in which a claim fails.
+        faults: the mistake to plant, for some of the names, which may be any text then.
+        room: words of trace, at most `TRACE`; longer traces are made again. Counts do not depend on
+            it.
     Raises:
-        InputError: numba is not installed, there is no such algorithm or fault, there are too
-            many edges, or a faulty mapper needs more room than any workspace has.
+        InputError: numba is missing, no such algorithm or fault, too many edges, or a faulty mapper
+            needs too much room.
     """
     require("the compiled engine")
     shard = _Shard(algorithms, edges, kind, start, stop, claims, stop_at_first, faults or {})
@@ -170,11 +155,11 @@ def examine_steps(
     faults: Mapping[str, str] | None = None,
     calls: NativeCalls | None = None,
 ) -> Iterator[Snapshot]:
-    """`examine_range`, with a snapshot behind each step, and behind the last world.
+    """`examine_range`, with a snapshot after each step.
 
     Args:
-        calls: the native mapper that runs, whose name is the only one of `algorithms`.
-        steps: the number of worlds in each step, 1 or more.
+        calls: a native mapper, whose name is the only one of `algorithms`.
+        steps: the number of worlds in each step.
     """
     require("the compiled engine")
     shard = _Shard(
@@ -184,7 +169,7 @@ def examine_steps(
 
 
 class _Shard:
-    """The arrays of one examination. Life cycle: `examine`, once."""
+    """The arrays of one examination."""
 
     def __init__(
         self,
@@ -234,7 +219,6 @@ class _Shard:
             self.walk = tally.ControlWords(self.control)
 
     def _fault(self, name: str) -> tuple[int, str]:
-        """The number of the mistake, 0: none, and the algorithm. Raises InputError."""
         if name not in self.faults:
             return 0, name
         fault = self.faults[name]
@@ -244,7 +228,6 @@ class _Shard:
         return PLANTED[fault]
 
     def examine(self, steps: Iterable[int]) -> Iterator[Snapshot]:
-        """Examine all worlds of the range: a snapshot behind each step, and behind the last."""
         for step in chain(steps, (0,)):
             self.walk.pause = step
             if self._walk() != tally.PAUSED:
@@ -253,7 +236,7 @@ class _Shard:
         yield self._snapshot()
 
     def _walk(self) -> int:
-        """Examine worlds until the walk pauses or ends: which of the two."""
+        """Examine worlds until the walk pauses or ends; return which."""
         walk, rows = compiled(tally.examine_worlds, self.layout), len(self.names)
         while True:
             state: int = walk(self.space, self.worlds, self.judge, self.control, self.table, rows)
@@ -267,7 +250,6 @@ class _Shard:
                 return state
 
     def _judge_by_checkers(self) -> None:
-        """Put the verdict of the checkers on the last run into the judge's array."""
         row, case = int(self.walk.row), layout.CaseWords(self.judge)
         world, name = self._world(), self.names[row]
         run = self._run_again(world, name, row)
@@ -281,7 +263,7 @@ class _Shard:
         self.undecided[row] += "undecided" in found and "failed" not in found
 
     def _run_again(self, world: World, name: str, row: int) -> CompiledRun:
-        """The last run, or, if there was no room for it, the same one again with more room."""
+        """The last run, made again with more room if it did not fit."""
         if self.calls is not None:
             from topo_verify.compiled.native_run import is_open, made_by
 
@@ -297,16 +279,12 @@ class _Shard:
         return run_world(world, algorithm, trace=True, fault=fault)
 
     def _world(self) -> World:
-        """The world that lies in the workspace."""
         first, ends = self.layout.at("world.degree"), self.layout.at("world.alpha")
         degrees = self.space[first : first + int(ws.WalkWords(self.worlds).vertices)].tolist()
         alpha = self.space[ends : ends + sum(degrees)].tolist()
         return World.from_code((tuple(degrees), tuple(alpha)))
 
-    # ------------------------------------------------------------ the counts
-
     def _snapshot(self) -> Snapshot:
-        """The counts of each algorithm so far."""
         words = self.table.tolist()
         counts = tuple(
             self._counts(name, tally.CountWords(words, row * tally.COLUMNS), self.undecided[row])
@@ -357,7 +335,7 @@ class _Shard:
 class CompiledChecks:
     """Judges runs in small worlds as `check` does, by the compiled judge.
 
-    The checkers judge each run for which that leaves a verdict open or says that a claim fails.
+    The checkers judge each run that it leaves open or convicts.
     """
 
     def __init__(self) -> None:
@@ -370,7 +348,7 @@ class CompiledChecks:
     def __call__(
         self, world: World, trace: Sequence[Event], stopped: str | None = None, *, strict: bool
     ) -> Sequence[Judgement]:
-        """The judgements of `check`; see there."""
+        """The judgements of `check`."""
         if stopped is not None or not self._holds(world, trace):
             return check(world, trace, stopped, strict=strict)
         case = layout.CaseWords(self._case)
@@ -380,7 +358,7 @@ class CompiledChecks:
         ]
 
     def _holds(self, world: World, trace: Sequence[Event]) -> bool:
-        """Whether the judge decides all claims of this run, and none fails."""
+        """Whether the judge decides all claims, and none fails."""
         start, events, finish = trace[0], trace[1:-1], trace[-1]
         if (
             len(world.alpha) > ws.WORLD_DARTS
@@ -410,7 +388,7 @@ class CompiledChecks:
 
 
 def doors_hash(events: Iterable[Event]) -> int:
-    """The hash of the doors of a run, a signed integer of 64 bits: `follow` of judging/truth.py."""
+    """The hash of a run's doors, signed, 64 bits: `follow` of judging/truth.py."""
     mixed = 0
     for event in events:
         if isinstance(event, Move):
@@ -419,11 +397,7 @@ def doors_hash(events: Iterable[Event]) -> int:
 
 
 def run_digest(rank: int, cost: int, statuses: Iterable[Status], events: Iterable[Event]) -> int:
-    """What one run adds to the digest of its algorithm: that of `enter` in tally.py.
-
-    Args:
-        statuses: of each claim, in the order of the claims.
-    """
+    """What one run adds to its algorithm's digest: `enter` in tally.py."""
     mixed = (doors_hash(events) ^ cost) * tally.MIXED
     for status in statuses:
         mixed = (mixed ^ layout.STATUSES.index(status)) * HASH_PRIME

@@ -1,11 +1,8 @@
 """Runs algorithms in every world of a rank range, judges each run, and counts the verdicts.
 
-The table has one row of counts for each algorithm. `task.room` is the greatest length of a trace.
-
-Mirrors `Counts` in campaign/tally.py. Differs: each algorithm is counted in its own row; ranks are
-kept, no findings. A run whose verdict is open interrupts the walk, so that Python has the checkers
-judge it and `enter_open` count it. The walk also pauses after as many worlds as Python asks for,
-and then goes on in the same table, so Python sees what single worlds add to it.
+Mirrors `Counts` in campaign/tally.py. Differs: each algorithm has its row; ranks are kept, no
+findings. An open verdict interrupts the walk: Python has the checkers judge the run, and
+`enter_open` counts it. The walk also pauses after any number of worlds.
 """
 
 from __future__ import annotations
@@ -22,8 +19,7 @@ from topo_verify.compiled.native import explore_native
 from topo_verify.compiled.workspace import *
 
 KEPT_RANKS = 10
-"""The most ranks kept of failing worlds, of the most expensive, and of those where the first
-algorithm costs more."""
+"""The most ranks kept of each kind: failing, most expensive, more expensive than the other."""
 
 STATUS_COUNT = 5
 
@@ -39,7 +35,7 @@ class TableWords(WordView):
 
 @cursor("T", {"KEPT_RANKS": KEPT_RANKS, "CLAIM_COUNT": CLAIM_COUNT, "STATUSES": 5 * CLAIM_COUNT})
 class CountWords(WordView):
-    """What an algorithm is, and its counts."""
+    """An algorithm and its counts."""
 
     rule: int
     motion: int
@@ -58,10 +54,10 @@ class CountWords(WordView):
     # worlds in which this row is the first that fails, so the rows' sum counts no world twice
     newly_failing: int
     claim_newly_failing: PerClaim
-    status: PerStatus  # of claim k, with this status: at k * STATUS_COUNT + status
+    status: PerStatus  # k * STATUS_COUNT + status
     judged: PerClaim
     of: PerClaim
-    more: int  # of the first of two rows: worlds in which it costs more than the second
+    more: int  # worlds in which the first of two rows costs more
     less: int
     excess: int
     more_ranks: PerKeptRank
@@ -75,12 +71,12 @@ COLUMNS = CountWords.extent
 class ControlWords(WordView):
     """What is asked of a walk, and where it stands."""
 
-    level: int  # of the judge
-    stop_at_first: int  # whether the first failing world ends the walk
-    pause: int  # worlds until the next pause; 0: no pause
-    rank: int  # of the world that lies in the workspace
-    row: int  # that is next there; 0: the next world
-    failed: int  # a mask of the claims that fail there in a row before
+    level: int
+    stop_at_first: int
+    pause: int  # worlds until the pause; 0: none
+    rank: int
+    row: int  # the next one; 0: the next world
+    failed: int  # mask of claims that fail in an earlier row
 
 
 CONTROL = Fields("C", ControlWords, {})
@@ -101,7 +97,7 @@ def examine_worlds(
     table: TableWords,
     rows: int,
 ) -> int:
-    """Examine the worlds to come: `ENDED`, `PAUSED`, or `OPEN` at row `row` of the last one."""
+    """Examine worlds: `ENDED`, `PAUSED`, or `OPEN` at row `row` of the last one."""
     state = GO_ON
     while state == GO_ON:
         if control.row == 0:
@@ -129,7 +125,7 @@ def examine_worlds(
 def examine_run(
     run: RunWords, walk: WalkWords, case: CaseWords, level: int, rule: int, motion: int, fault: int
 ) -> int:
-    """Run one algorithm in the world, and judge it: a mask of the claims that fail; -1: open."""
+    """Run and judge one algorithm: a mask of the failing claims; -1: open."""
     task = run.task
     edges = walk.darts // 2
     vertices = walk.vertices
@@ -204,7 +200,7 @@ def enter(case: CaseWords, control: ControlWords, table: TableWords, wrong: int)
 
 @kernel
 def close(control: ControlWords, table: TableWords, rows: int) -> int:
-    """Close the world, as all its runs are counted: `GO_ON`, `ENDED` or `PAUSED`."""
+    """Close the world: `GO_ON`, `ENDED` or `PAUSED`."""
     control.row = 0
     if rows == 2:
         compare_costs(table, control.rank)
@@ -219,7 +215,7 @@ def close(control: ControlWords, table: TableWords, rows: int) -> int:
 
 @kernel
 def compare_costs(table: TableWords, rank: int) -> None:
-    """Compare what the two algorithms paid in the last world, if no claim fails."""
+    """Compare the costs of two algorithms, if no claim fails."""
     first, second = 0, COLUMNS
     counts = CountWords(table, first)
     cost = counts.cost
@@ -239,7 +235,7 @@ def compare_costs(table: TableWords, rank: int) -> None:
 
 @entry
 def enter_open(case: CaseWords, control: ControlWords, table: TableWords, rows: int) -> int:
-    """Count a run that the checkers judged: the state of the walk behind it."""
+    """Count a run that the checkers judged; return the state of the walk."""
     wrong = 0
     for k in range(case.level):
         if case.status[k] == FAILED:
@@ -253,10 +249,10 @@ def enter_open(case: CaseWords, control: ControlWords, table: TableWords, rows: 
 def map_worlds(
     run: RunWords, walk: WalkWords, case: CaseWords, rule: int, motion: int, check: int
 ) -> int:
-    """The total cost of an algorithm in the worlds to come, without a trace; -1: a map is wrong.
+    """The total cost of an algorithm in the worlds to come, untraced; -1: a map is wrong.
 
     Args:
-        check: whether the delivered map is compared with the world.
+        check: compare the delivered map with the world.
     """
     task = run.task
     total = 0

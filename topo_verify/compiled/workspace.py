@@ -1,18 +1,14 @@
-"""The workspace: everything that a run knows, as fields at fixed places of one array of integers.
+"""The workspace: all that a run knows, as fields at fixed places of one array of 64-bit integers.
 
-`run.chart.alpha[d]` is a field of dart `d`: a constant offset when kernels are compiled, so this
-costs what a local array would. (A tuple of eighteen arrays took 1.5 times as long.) Integers have
-64 bits: narrower ones were not faster, and no sum overflows.
+`run.chart.alpha[d]` is a constant offset in machine code, as fast as a local array. (A tuple of
+eighteen arrays took 1.5 times as long; narrower integers were not faster.)
 
-There are layouts. `SMALL` is for worlds of up to 12 edges: what a run touches stays in the fastest
-cache of the processor. `FAULTY` lets mistakes be planted (`faults.py`), by which S may grow without
-end, and has room for a larger S. `LARGE` is for worlds of up to 65,536 edges; pages that are never
-touched take no memory. Kernels that run as plain Python have the capacities of `SMALL`.
+Layouts: `SMALL`, up to 12 edges, keeps what a run touches in the fastest cache. `FAULTY` allows
+planted mistakes (`faults.py`), by which S may grow without end. `LARGE`, up to 65,536 edges: pages
+that are never touched take no memory.
 
-Nothing here is cleared between runs: a kernel sets what it reads. A buffer that is full ends the
-run with a reason in `stop`; nothing is written beyond it.
-
-Source: docs/semantics.md, sections 1 to 3; the fields of algorithms/chart.py and motion.py.
+Nothing is cleared between runs: a kernel sets what it reads. A full buffer ends the run with a
+reason in `stop`; nothing is written beyond it.
 """
 
 from __future__ import annotations
@@ -29,9 +25,9 @@ class WordLayout:
 
     Attributes:
         name: part of the name of the module of machine code.
-        constants: the capacities, and the offsets of the fields by their names in that module.
-        places: the offset of every field, as in `chart.first`; `SIZE`, the words in all.
-        sources: the modules of its kernels; (): those of this package.
+        constants: capacities and offsets by their names there.
+        places: the offset of every field, as in `chart.first`, and `SIZE`.
+        sources: the modules of its kernels; (): this package's.
     """
 
     name: str
@@ -54,7 +50,7 @@ CAPACITIES = {
     "LAYER_WORDS": 65536,
     "TRACE": 65536,
 }
-"""How many entries the fields of `SMALL` have."""
+"""The sizes of rows in `SMALL`."""
 
 WORLD_DARTS = CAPACITIES["WORLD_DARTS"]
 CHART_DARTS = CAPACITIES["CHART_DARTS"]
@@ -65,123 +61,118 @@ CHANGED = CAPACITIES["CHANGED"]
 LAYER_WORDS = CAPACITIES["LAYER_WORDS"]
 TRACE = CAPACITIES["TRACE"]
 FAULTS = 0
-"""Whether mistakes can be planted; 1 in `FAULTY`."""
+"""Whether mistakes can be planted."""
 
 SHIFT = 16
 P = 1 << SHIFT
 MASK = P - 1
-"""A percept is `degree * P`, and 1 + marker if the marker is here: degrees are below P - 1."""
+"""A percept is `degree * P`, plus 1 + marker if present."""
 
-# ---------------------------------------------------------------- rows: a place for each
-
-PerWorldDart = Annotated[Words, "WORLD_DARTS"]  # a dart (or vertex) of the world
-PerDart = Annotated[Words, "CHART_DARTS"]  # a dart (or vertex) of S
-PerStep = Annotated[Words, "STEPS"]  # a step of the sequences behind one e
-PerRecord = Annotated[Words, "RECORDS"]  # a percept on record behind unexplored darts
-PerPlaceDart = Annotated[Words, "PLACE_DARTS"]  # a dart of a node of the fold
-PerChange = Annotated[Words, "CHANGED"]  # a change of the fold
-PerLayerWord = Annotated[Words, "LAYER_WORDS"]  # a change in a layer that is kept
-PerTraceWord = Annotated[Words, "TRACE"]  # a word of the trace
-
-
-# ---------------------------------------------------------------- fields
+PerWorldDart = Annotated[Words, "WORLD_DARTS"]
+PerDart = Annotated[Words, "CHART_DARTS"]
+PerStep = Annotated[Words, "STEPS"]
+PerRecord = Annotated[Words, "RECORDS"]
+PerPlaceDart = Annotated[Words, "PLACE_DARTS"]
+PerChange = Annotated[Words, "CHANGED"]
+PerLayerWord = Annotated[Words, "LAYER_WORDS"]
+PerTraceWord = Annotated[Words, "TRACE"]
 
 
 class EndWords(WordView):
     """Why the run ended early."""
 
-    stop: int  # STOP_… below; 0: it did not
+    stop: int  # STOP_…; 0: it did not
 
 
 class TaskWords(EndWords):
     """What the caller asks for."""
 
-    rule: int  # the rule of the algorithm: RULE_… below
+    rule: int  # RULE_…
     motion: int  # 0: retrace, 1: overlap
-    fault: int  # the mistake, in `FAULTY` only; 0: none
-    budget: int  # how many moves are allowed
-    tracing: int  # whether the run is to be written down
-    room: int  # how many words of trace there is room for
+    fault: int  # 0: none
+    budget: int  # number of moves allowed
+    tracing: int
+    room: int
 
 
 class WorldWords(EndWords):
-    """The world, which the caller places."""
+    """The world."""
 
-    alpha: PerWorldDart  # of each dart of the world: its other end
-    vertex: PerWorldDart  # of each dart of the world: its vertex
-    first: PerWorldDart  # of each vertex of the world: its first dart
-    degree: PerWorldDart  # of each vertex of the world: its degree
+    alpha: PerWorldDart
+    vertex: PerWorldDart
+    first: PerWorldDart
+    degree: PerWorldDart
 
 
 class RobotWords(EndWords):
-    """The state of the robot: robot.py."""
+    """The robot: robot.py."""
 
-    dart: int  # the reference dart, a dart of the world
-    cost: int  # edge traversals so far
+    dart: int  # the reference dart
+    cost: int  # edge traversals
 
 
 class ChartWords(EndWords):
     """The map S: chart.py."""
 
-    vertices: int  # vertices of S
-    darts: int  # darts of S
-    unexplored: int  # darts in U
-    has_tree: int  # whether `depth` and `up` are those of the current S
-    alpha: PerDart  # alpha of each dart; -1: unexplored
-    vertex: PerDart  # vertex of each dart
-    percept: PerDart  # percept with each dart as the reference dart
-    in_u: PerDart  # whether the dart is in U
-    first: PerDart  # first dart of each vertex
-    degree: PerDart  # degree of each vertex
-    signature: PerDart  # signature of each vertex: 2 * degree, and 1 if the marker is here
-    open: PerDart  # how many darts of each vertex are in U
-    depth: PerDart  # distance of each vertex from v0
-    up: PerDart  # dart of each vertex towards v0; -1: v0
-    queue: PerDart  # the queue of that search
-    seen: PerDart  # searches from other roots: number of the last that met v
-    near: PerDart  # the same: distance
-    towards: PerDart  # the same: dart towards the root; -1: the root
-    reached: PerDart  # the same: the queue
-    search: int  # the number of the last search
+    vertices: int
+    darts: int
+    unexplored: int  # size of U
+    has_tree: int  # are `depth` and `up` current?
+    alpha: PerDart  # -1: unexplored
+    vertex: PerDart
+    percept: PerDart
+    in_u: PerDart
+    first: PerDart
+    degree: PerDart
+    signature: PerDart  # 2 * degree, and 1 if the marker is here
+    open: PerDart  # number of darts in U
+    depth: PerDart  # distance from v0
+    up: PerDart  # dart towards v0; -1: v0
+    queue: PerDart
+    seen: PerDart  # searches from other roots: the last that met v
+    near: PerDart  # its distance
+    towards: PerDart  # its dart towards the root; -1: the root
+    reached: PerDart  # its queue
+    search: int
 
 
 class ExcursionWords(EndWords):
     """The excursion from vu: motion.py."""
 
-    turned: int  # doors from the dart of entry to the reference dart
-    shared: int  # doors of its way that the chosen hypothesis shares with the last sequence
-    size: int  # doors of the excursion
-    door: PerDart  # those doors
-    percept: PerDart  # percepts behind them, vu's own first
+    turned: int  # doors from entry to reference dart
+    shared: int  # doors that the chosen way shares with the last sequence
+    size: int
+    door: PerDart
+    percept: PerDart  # vu's first
 
 
 class RemainingWords(EndWords):
-    """H, the hypotheses that remain, in the order in which to try them."""
+    """H, the hypotheses to try, in order."""
 
-    dart: PerDart  # H: the remaining hypotheses
-    counts: PerDart  # for sorting H
-    sorted: PerDart  # the same
+    dart: PerDart
+    counts: PerDart
+    sorted: PerDart
 
 
 class EvidenceWords(EndWords):
     """Why a hypothesis is rejected: `cite` of evidence.py."""
 
     step: int
-    expected: int  # a percept; -1: none
-    observed: int  # a percept; -1: none
+    expected: int  # -1: none
+    observed: int  # -1: none
     at: int  # dart of S; -1: none
-    record: int  # dart of the record; -1: none
-    first: int  # the record's first door, as an index of DOORS
-    wrong: int  # a contradiction of folding or planar; 0: none
+    record: int  # dart; -1: none
+    first: int  # index of the record's first door
+    wrong: int  # a contradiction; 0: none
 
 
 class SequenceWords(EndWords):
     """The sequences executed for e: evidence.py."""
 
-    number: int  # sequences executed for e
-    length: PerDart  # doors of each sequence
-    first: PerDart  # where each begins among the steps
-    steps: int  # steps of all sequences
+    number: int
+    length: PerDart
+    first: PerDart
+    steps: int
     door: PerStep
     percept: PerStep
 
@@ -189,81 +180,81 @@ class SequenceWords(EndWords):
 class RecordWords(EndWords):
     """T, the percepts on record: evidence.py."""
 
-    number: int  # percepts on record
-    of_dart: PerDart  # T of each dart: the record behind it; -1: none
+    number: int
+    of_dart: PerDart  # -1: none
     percept: PerRecord
-    door: PerRecord  # the door that leads to it from the one before
-    behind: PerRecord  # the first record behind it; -1: none
-    next: PerRecord  # the next one behind the same place; -1: none
+    door: PerRecord
+    behind: PerRecord  # first record behind it; -1: none
+    next: PerRecord  # next one behind the same place; -1: none
 
 
 class PlaceWords(EndWords):
-    """The fold, of all places seen: folding.py."""
+    """The fold of all places: folding.py."""
 
-    darts: int  # darts of all nodes, and 0, which is none
-    node: PerPlaceDart  # the first dart of its node
-    looks: PerPlaceDart  # of its node: 2 * degree, and 1 if the marker is here
-    leader: PerPlaceDart  # a dart that it is; 0: it leads
-    behind: PerPlaceDart  # the other end of a dart that leads; 0: not seen
-    weight: PerPlaceDart  # of a first dart: how many nodes its node stands for
-    known: PerPlaceDart  # of a first dart: whether its node is a vertex of S
-    waiting: PerPlaceDart  # pairs of darts that are still to be made one
-    changed: int  # changes of a test so far
-    changes: PerChange  # where a word was changed, and what stood there
-    laid: int  # nodes that were identified by these changes
-    merges: int  # how many times seen places were identified
-    entry: PerDart  # of each vertex of S: the dart that its first dart is
-    e: int  # the dart that e is
-    vu: int  # the dart by which the robot entered vu
+    darts: int  # with dart 0, which is none
+    node: PerPlaceDart  # first dart of its node
+    looks: PerPlaceDart  # 2 * degree, and 1 if the marker is here
+    leader: PerPlaceDart  # 0: it leads
+    behind: PerPlaceDart  # other end of a leader; 0: not seen
+    weight: PerPlaceDart  # of a first dart: nodes merged
+    known: PerPlaceDart  # of a first dart: is its node in S?
+    waiting: PerPlaceDart  # pairs of darts to identify
+    changed: int
+    changes: PerChange  # where, and the old word
+    laid: int  # nodes identified by these changes
+    merges: int
+    entry: PerDart  # of each vertex of S
+    e: int
+    vu: int  # dart of entry
 
 
 class LayerWords(EndWords):
     """What each hypothesis adds to the fold: folding.py."""
 
-    joined: int  # edges that the last sequence added to what was seen
-    joined_one: PerDart  # one end of each
-    joined_other: PerDart  # the other end
-    anew: int  # whether each hypothesis is to be folded anew
-    even: PerLayerWord  # layers: where a word differs, and that word
-    odd: PerLayerWord  # the same, of every other stage
-    stage: int  # stages so far in which layers were written
-    size: int  # words of the layers of this stage
-    first: PerDart  # where the layer of a hypothesis begins
-    end: PerDart  # where it ends
+    joined: int  # edges that the last sequence added
+    joined_one: PerDart
+    joined_other: PerDart
+    anew: int  # fold each hypothesis anew?
+    even: PerLayerWord  # layers: where, and the new word
+    odd: PerLayerWord  # of every other stage
+    stage: int
+    size: int
+    first: PerDart  # by hypothesis
+    end: PerDart
 
 
 class FaceWords(EndWords):
     """The faces of S: evidence.py."""
 
-    face: PerDart  # the number of the last e on whose face the dart was
-    number: int  # how many faces were walked: the number of this e
+    face: PerDart  # the last e on whose face the dart was
+    number: int  # the number of this e
 
 
 class NativeWords(EndWords):
     """A native mapper: native.py."""
 
-    mapper: int  # the address of its function
-    robot: int  # the address of the robot that it is given
-    self: int  # the address of the workspace
-    beats: int  # the address of the signs of life: worlds that are finished, and a count
-    exit: int  # the address of a function that ends the process
-    first: int  # the rank of the first world of the shard
-    rank: int  # the rank of the world
-    delivered: int  # whether it delivered a map
-    reported: int  # the cost that it reported; -1: none
-    given: PerDart  # of each dart delivered: the vertex
-    named: PerDart  # of each dart delivered: the number that the chart gives it
+    mapper: int  # addresses follow
+    robot: int
+    self: int
+    beats: int  # worlds finished, and a heartbeat
+    exit: int  # ends the process
+    first: int  # first rank of the shard
+    rank: int
+    delivered: int
+    reported: int  # reported cost; -1: none
+    given: PerDart  # vertex of each delivered dart
+    named: PerDart  # its number on the chart
 
 
 class TraceWords(EndWords):
-    """The words of the trace; last, for there may be more."""
+    """The trace; last, since it may be longer."""
 
-    size: int  # words of trace
+    size: int
     word: PerTraceWord
 
 
 class RunWords(EndWords):
-    """The workspace: everything that a run knows."""
+    """The workspace."""
 
     task: TaskWords
     world: WorldWords
@@ -282,28 +273,28 @@ class RunWords(EndWords):
 
 
 RUN = Fields("W", RunWords, CAPACITIES)
-"""Where everything stands; `SMALL` has these capacities."""
+"""Offsets for the capacities of `SMALL`."""
 
 RULE_NONE, RULE_PREFIX, RULE_HISTORY, RULE_ONE, RULE_ALL, RULE_FOLDING, RULE_PLANAR = range(7)
-RULE_NATIVE = 7  # a native mapper
+RULE_NATIVE = 7
 
-STOP_BUDGET = 1  # one more move than the budget
-STOP_DOOR = 2  # no such door
-STOP_MAP = 3  # what was delivered is no map
-STOP_EVENT = 4  # what was declared is no decision
-STOP_SKIP = 5  # the mapper declines the world
-STOP_FULL = 16  # a buffer is full; STOP - STOP_FULL is one of FULL_… below
+STOP_BUDGET = 1
+STOP_DOOR = 2
+STOP_MAP = 3
+STOP_EVENT = 4
+STOP_SKIP = 5
+STOP_FULL = 16  # STOP - STOP_FULL is FULL_…
 FULL_CHART, FULL_STEPS, FULL_RECORDS, FULL_PLACES, FULL_TRACE = range(5)
 
 
 def layout(
     name: str, capacities: dict[str, int], *, faults: bool = False, gap: int = 0
 ) -> WordLayout:
-    """The layout in which rows have these capacities.
+    """The layout for these capacities.
 
     Args:
         faults: whether mistakes can be planted.
-        gap: words between fields, in which a test sees what is written beyond one.
+        gap: words between fields, where a test looks for stray writes.
     """
     places = RUN.offsets(capacities, gap=gap)
     constants = {**capacities, "FAULTS": int(faults), **RUN.constants(places)}
@@ -327,51 +318,49 @@ LARGE = layout(
 )
 
 
-# ---------------------------------------------------------------- the state of an enumeration
-
 MOST_LISTED_EDGES = 12
-"""The most edges for which `SMALL` has room. (Ranks fit in 64 bits up to 16 edges.)"""
+"""The most edges in `SMALL`. (Ranks fit in 64 bits up to 16 edges.)"""
 
 G_ROW = 2 * MOST_LISTED_EDGES + 2
-"""Room for one number a step, a dart or a vertex."""
+"""The size of rows by step, dart or vertex."""
 
 PerGrown = Annotated[Words, "G_ROW"]
 
 
 class WalkWords(WordView):
-    """What is asked for, where the walk stands, the class, and the pruners."""
+    """The range, the state of the walk, the class, and the pruners."""
 
-    darts: int  # of the worlds: 2m
-    start: int  # the first rank
-    stop: int  # the rank after the last one
+    darts: int  # 2m
+    start: int
+    stop: int
     completions: Annotated[Words, "COMPLETIONS"]  # F(u, r) at u · G_ROW + r
-    rank: int  # class `any`: the rank of the next world
-    skip: int  # class `any`: how many worlds are still to be passed over
+    rank: int  # class `any`: next rank
+    skip: int  # class `any`: worlds to skip
     root: int
-    root_after: int  # the rank behind all worlds with this root
+    root_after: int  # the rank after this root
     depth: int
     created: int
     opened: int
     vertices: int
     dart: PerGrown
     partner: PerGrown
-    is_new: PerGrown  # whether the partner is the first dart of a new vertex
-    after: PerGrown  # the rank behind all completions of the step
-    pruned: int  # whether the class is another one than `any`
+    is_new: PerGrown
+    after: PerGrown  # the rank after all completions
+    pruned: int
     most_degree: int
-    has_genus: int  # whether the genus is bounded
+    has_genus: int
     most_genus: int
-    exact: int  # whether the genus must be `most_genus`
-    loopless: int  # also where the class is `simple`
+    exact: int  # must it be `most_genus`?
+    loopless: int
     simple: int
-    handles: int  # by how much the genus may still grow
+    handles: int  # genus that may be added
     odd_words: int
     words: int
-    next: PerGrown  # of each open dart, the next one along its boundary; and the one before it
+    next: PerGrown  # along the boundary, of each open dart
     before: PerGrown
-    word: PerGrown  # at each step: the darts of e's word but e, as a mask
-    word_places: PerGrown  # at each step: those of them that are 1, 3, 5, … places behind e
-    word_odd: PerGrown  # at each step: 1 if e's word, with e, has an odd length
+    word: PerGrown  # mask of the other darts of e's word
+    word_places: PerGrown  # those 1, 3, 5, … places behind e
+    word_odd: PerGrown
     was_handles: PerGrown
     was_odd_words: PerGrown
     was_words: PerGrown
@@ -379,8 +368,8 @@ class WalkWords(WordView):
     dart_before: PerGrown
     partner_next: PerGrown
     partner_before: PerGrown
-    open_at: PerGrown  # how many open darts each vertex has
-    near: PerGrown  # the neighbours of each vertex, as a mask (`simple` alone)
+    open_at: PerGrown
+    near: PerGrown  # mask of neighbours (`simple` alone)
 
 
 GROWTH = Fields("G", WalkWords, {"G_ROW": G_ROW, "COMPLETIONS": G_ROW * G_ROW})

@@ -1,13 +1,13 @@
-"""Theorems about all worlds: three engines, a room each, and what they share (docs/proofs.md).
+"""Theorems about all worlds: three engines and what they share (docs/proofs.md).
 
-theorem.py     the types that all engines share: a theorem, its budget, its result
+theorem.py     the types that all engines share
 catalogue.py   all theorems, by name and kind
-first_order/   worlds of any size, by induction over the run, put to Z3
+first_order/   worlds of any size, by induction, put to Z3
 bounded/       every world with m edges, as clauses
 mechanised/    the Python around Coq; coq/ holds the proofs
 solvers/       Z3 and cvc5 with their limits
 
-An engine imports theorem.py, solvers/ and no other engine; a test says so.
+An engine imports theorem.py and solvers/, never another engine.
 """
 
 from __future__ import annotations

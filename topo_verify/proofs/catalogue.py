@@ -1,8 +1,6 @@
 """All theorems in one order, and the choice among them.
 
-Inductive theorems come first, then mechanised and bounded ones, negatives, mutants. Names are
-unique, and scripts may rely on them. A new theorem is entered in one table of its engine, and needs
-no line here:
+Names are unique, and scripts rely on them. A new theorem is entered in one table of its engine:
 
     kind        table                                          what one entry is
     inductive   first_order/obligations/<theme>.OBLIGATIONS    an `Obligation`
@@ -33,10 +31,10 @@ QUICK: tuple[TheoremKind, ...] = ("inductive", "negative", "mutant")
 
 @cache
 def catalogue(edges: int | None = None) -> tuple[Theorem, ...]:
-    """All theorems, in their order.
+    """All theorems, in order.
 
     Args:
-        edges: the largest worlds that the bounded ones speak of; default: as large as is quick.
+        edges: the largest worlds of the bounded ones; default: as large as is quick.
     Raises:
         InputError: no edges, or more than are feasible.
     """
@@ -63,14 +61,14 @@ def choose(
     edges: int | None = None,
     deep: bool = False,
 ) -> tuple[Theorem, ...]:
-    """The theorems with these names and of these kinds; without names, all that are quick.
+    """The theorems with these names and of these kinds; without names, all quick ones.
 
     Args:
-        edges: bounded theorems up to this size; negatives and mutants of at most this size.
-        deep: also the theorems that take minutes. One that is named is chosen in any case; the
-            mechanised ones, which need Coq, also where their kind is asked for.
+        edges: only theorems up to this size.
+        deep: also those that take minutes. A named theorem is always chosen; mechanised ones also
+            if their kind is asked for.
     Raises:
-        InputError: no theorem of that name, none of these kinds and sizes, or too many edges.
+        InputError: no such theorem, or too many edges.
     """
     everything = catalogue(edges)
     known = {theorem.name: theorem for theorem in everything}

@@ -1,8 +1,7 @@
-"""A theorem, the budget of its proof, and its result: the types that all engines share.
+"""The types that all engines share: a theorem, the budget of its proof, and its result.
 
-A **theorem** makes a statement about every world of some kind, and names which part of it a solver
-proves and which part is argued in words. A solver gives one of three answers. A theorem that was
-expected to be proved and came back `unknown` is not proved: no code turns one answer into another.
+A theorem names which part a solver proves and which part is argued in words. No code turns one
+answer of a solver into another: `unknown` is not a proof.
 
     kind        about                                          verdict if all is well
     inductive   worlds of any size                             PROVED
@@ -11,8 +10,8 @@ expected to be proved and came back `unknown` is not proved: no code turns one a
     negative    a claim that is false, at its smallest size    REFUTED, with a world
     mutant      a theorem with one thing changed               REFUTED, with what breaks
 
-A theorem whose premises cannot all hold is **vacuous**: it is true, and says nothing. Its result is
-never `ok`, and it is reported as UNKNOWN.
+A theorem whose premises cannot all hold is **vacuous**: true, and empty. It is never `ok`, and is
+reported as UNKNOWN.
 """
 
 from __future__ import annotations
@@ -28,13 +27,13 @@ from topo_verify.errors import plural
 TheoremKind = Literal["inductive", "mechanised", "bounded", "negative", "mutant"]
 
 SolverAnswer = Literal["sat", "unsat", "unknown"]
-"""A solver's answer. Compare it with `==`: each is a non-empty text, so each counts as true."""
+"""Compare it with `==`: each is a non-empty text, so each counts as true."""
 
 ResultStatus = Literal["ok", "failed", "open"]
-"""`failed`: a definite but unexpected verdict. `open`: no verdict, which never counts as a pass."""
+"""`failed`: a definite but unexpected verdict. `open`: no verdict."""
 
 TheoremProgress = Callable[[str, int, int], None]
-"""A progress callback: (name of the theorem, steps done, steps in all)."""
+"""(name of the theorem, steps done, steps in all)."""
 
 
 def no_progress(_theorem: str, _done: int, _total: int) -> None:
@@ -43,14 +42,14 @@ def no_progress(_theorem: str, _done: int, _total: int) -> None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Budget:
-    """The limits of a proof, and the options for its search.
+    """The limits of a proof.
 
     Attributes:
         timeout: seconds for each query.
-        rlimit: Z3's deterministic resource units for each query; 0: no limit but the time.
+        rlimit: Z3's deterministic resource units for each query; 0: no limit.
         seed: of the solver's random choices.
-        certify: also make certificates, and have them checked, where the engine can.
-        progress: is called before each step of a long proof.
+        certify: also make certificates, and have them checked.
+        progress: called before each step of a long proof.
     """
 
     timeout: float = 60.0
@@ -61,17 +60,17 @@ class Budget:
 
     @property
     def milliseconds(self) -> int:
-        """The time limit of one query as solvers take it; at least 1, since 0 means no limit."""
+        """The time limit as solvers take it; at least 1, since 0 means no limit."""
         return max(1, round(self.timeout * 1000))
 
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """A question to a solver: an SMT-LIB 2 script that begins with its `set-logic`.
+    """A question to a solver: an SMT-LIB 2 script.
 
     Attributes:
-        name: of the question, and of the file to which it is exported, without the suffix.
-        expected: the answer that the theorem's expected verdict rests on.
+        name: of the question, and of the exported file.
+        expected: the answer that the theorem rests on.
     """
 
     name: str
@@ -81,14 +80,14 @@ class Query:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RefutationCertificate:
-    """A refutation of clauses, and the judgement of a checker that calls no solver.
+    """A refutation of clauses, judged by a checker that calls no solver.
 
     Attributes:
-        format: of the proof, such as "drup".
-        checker: name and version of the checker.
+        format: such as "drup".
+        checker: name and version.
         checked: did the checker accept the proof?
-        clauses, steps: the number of clauses refuted, the number of steps of the proof.
-        why: the reason why the checker refused it; "" if it accepted it.
+        clauses, steps: their numbers.
+        why: why it was refused, or "".
     """
 
     format: str
@@ -101,21 +100,20 @@ class RefutationCertificate:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TheoremResult:
-    """The result of trying to prove one theorem.
+    """The result of trying to prove a theorem.
 
     Attributes:
-        verdict: UNKNOWN for a time-out, and for any other answer that settles nothing.
-        solver: name and version of the solver.
-        seconds: wall-clock time; shown to people, never compared.
-        premises_satisfiable: can all premises hold at once? None: unknown (a time-out), or not
-            asked, since a model was found in which they hold.
-        core: the premises that the proof used, as far as the solver named them.
-        replayed: how many of the models found were replayed without a solver, and of how many.
-        checked, total: for EXHAUSTED, the worlds judged and the worlds there are.
-        counterexample: the id of the world that refutes the theorem, or the structure in one line.
-        history: the doors of a walk that shows it in that world.
-        certificate: of the unsatisfiable queries, where one was asked for.
-        note: one sentence for people, such as the reason for UNKNOWN.
+        verdict: UNKNOWN for a time-out.
+        solver: name and version.
+        seconds: wall-clock time.
+        premises_satisfiable: can all premises hold? None: unknown, or not asked.
+        core: the premises that the proof used, if known.
+        replayed: models replayed without a solver, of how many.
+        checked, total: for EXHAUSTED, worlds judged and in all.
+        counterexample: the id of the refuting world, or the structure in one line.
+        history: the doors of a walk that shows it.
+        certificate: of unsatisfiable queries, if asked for.
+        note: one sentence, such as the reason for UNKNOWN.
     """
 
     verdict: Verdict
@@ -133,7 +131,7 @@ class TheoremResult:
 
 
 def timed(prove: Callable[[Budget], TheoremResult]) -> Callable[[Budget], TheoremResult]:
-    """The same, and its result has the seconds that it took."""
+    """Add the seconds to the result."""
 
     def with_seconds(budget: Budget) -> TheoremResult:
         begin = perf_counter()
@@ -144,22 +142,22 @@ def timed(prove: Callable[[Budget], TheoremResult]) -> Callable[[Budget], Theore
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Theorem:
-    """A statement, the claims that rest on it, and the function that proves it.
+    """A statement, the claims that rest on it, and its proof.
 
     Attributes:
         name: lower case with dashes. Scripts use it, so it never changes.
-        kind: one of the five in the table at the head of this file.
-        claims: the claims of docs/semantics.md, section 9, that rest on it, by their names.
-        words, symbols: the statement in words, and as it is given to the solver.
+        kind: see the head of this file.
+        claims: those of docs/semantics.md, section 9, that rest on it.
+        words, symbols: the statement in words, and for the solver.
         solver_part: what the solver proves.
-        argued: the steps that are argued in words, by their names in docs/proofs.md.
+        argued: the steps in words, by their names in docs/proofs.md.
         assumed: statements that are not proved here.
         expected: the verdict if all is well.
-        prove: tries to prove or to refute it. A time-out is a result, never an exception.
-        queries: the questions behind it, for export and for a second solver.
-        edges: for a bounded theorem, the largest number of edges of its worlds.
-        of: for a mutant, the name of the theorem that it changes.
-        deep: it takes minutes, and is proved only with `--deep` or by name.
+        prove: proves or refutes it. A time-out is a result, never an exception.
+        queries: the questions, for export and a second solver.
+        edges: for a bounded theorem, the most edges of its worlds.
+        of: for a mutant, the changed theorem.
+        deep: it takes minutes; proved with `--deep` or by name.
     """
 
     name: str
@@ -183,14 +181,14 @@ class Theorem:
         return outcome.verdict == self.expected != "UNKNOWN" and not self._doubt(outcome)
 
     def reported(self, outcome: TheoremResult) -> TheoremResult:
-        """The result as it is reported: UNKNOWN with the reason if the expected verdict fails."""
+        """The result as reported: UNKNOWN with the reason if the expected verdict fails."""
         if outcome.verdict != self.expected or not (doubt := self._doubt(outcome)):
             return outcome
         note = "; ".join(filter(None, (outcome.note, doubt)))
         return replace(outcome, verdict="UNKNOWN", note=note)
 
     def _doubt(self, outcome: TheoremResult) -> str:
-        """Why the expected verdict would not stand; "" if it does."""
+        """Why the expected verdict does not stand, or ""."""
         replayed, certificate = outcome.replayed, outcome.certificate
         # What refutes a theorem is itself a model of the premises.
         if self.expected != "REFUTED" and outcome.premises_satisfiable is not True:
@@ -207,7 +205,7 @@ class Theorem:
         return ""
 
     def status(self, outcome: TheoremResult) -> ResultStatus:
-        """Whether the result is `ok`; if not, whether it is a definite one (see `ResultStatus`)."""
+        """See `ResultStatus`."""
         if self.ok(outcome):
             return "ok"
         return "open" if outcome.verdict in ("UNKNOWN", self.expected) else "failed"

@@ -1,10 +1,10 @@
 """Claims 9 and 10: what the mapper concluded must follow from its history.
 
-Mirrors: checkers/entailment.py and map_on_fold.py. Differs: there is no witness. Under the planar
+Mirrors: checkers/entailment.py and map_on_fold.py. Differs: there is no witness; under the planar
 prior a rejection that only some further folding could refute leaves the verdict open (`full`).
 
-The moves alone are claim 9; with `level` 10, or where a rejection rests on a contradiction (claim
-8 asks whether that follows), S is drawn on the fold and each decision is judged on the way.
+With `level` 10, or where a rejection rests on a contradiction (claim 8), S is drawn on the fold and
+each decision is judged on the way.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from topo_verify.compiled.workspace import *
 
 @kernel
 def fold_history(run: RunWords, case: CaseWords) -> bool:
-    """Fold the moves and judge the decisions on the way; False: no world shows the history."""
+    """Fold the moves and judge the decisions; False: no world shows the history."""
     drawn = case.drawn
     start_judge_fold(case.fold, shown(run.world, 0))
     drawn.unproved = 0
@@ -60,7 +60,7 @@ def fold_history(run: RunWords, case: CaseWords) -> bool:
 
 @inlined
 def note_rejection(drawn: DrawnWords, cited_follows: int) -> None:
-    """Take note whether the contradiction that a rejection cites follows."""
+    """Note whether the contradiction that a rejection cites follows."""
     number = drawn.rejection + 1
     if number >= JUDGE_STEPS:
         drawn.full = 1
@@ -71,7 +71,7 @@ def note_rejection(drawn: DrawnWords, cited_follows: int) -> None:
 
 @kernel
 def conclude_event(run: RunWords, case: CaseWords, event: DecisionWords) -> None:
-    """One decision: whether it follows, and S behind it."""
+    """Judge one decision, and grow S."""
     drawn = case.drawn
     rejection = RejectionWords(run, event)
     augmentation = AugmentationWords(run, event)
@@ -120,18 +120,15 @@ def conclude_event(run: RunWords, case: CaseWords, event: DecisionWords) -> None
         drawn.stands = 0
 
 
-# ---------------------------------------------------------------- S on the fold
-
-
 @inlined
 def is_open_on_fold(drawn: DrawnWords, dart: int) -> bool:
-    """Whether this is a dart of S, and unexplored."""
+    """Whether this is an unexplored dart of S."""
     return 0 <= dart < drawn.darts and drawn.open[dart] != 0
 
 
 @inlined
 def add_vertex_on_fold(case: CaseWords, node: int, first: int) -> bool:
-    """Let S have a vertex more, its first dart at this place; False: there is no room."""
+    """Add a vertex to S, its first dart at this place; False: no room."""
     drawn = case.drawn
     size = drawn.darts
     degree = case.fold.degree[node]
@@ -154,7 +151,7 @@ def add_vertex_on_fold(case: CaseWords, node: int, first: int) -> bool:
 
 @inlined
 def slot_of(case: CaseWords, e: int) -> int:
-    """Where the other end of a dart of S is kept."""
+    """The slot of a dart of S."""
     drawn = case.drawn
     node = drawn.node[e]
     return case.fold.base[find_node(case.fold, node)] + find_dart(case.fold, node, drawn.dart[e])
@@ -162,7 +159,7 @@ def slot_of(case: CaseWords, e: int) -> int:
 
 @inlined
 def grow_on_fold(case: CaseWords, e: int) -> bool:
-    """Let S have the vertex behind e."""
+    """Add the vertex behind e to S."""
     fold = case.fold
     slot = slot_of(case, e)
     node = fold.end_node[slot]
@@ -179,9 +176,6 @@ def on_face(drawn: DrawnWords, e: int, h: int) -> bool:
     return dart == h
 
 
-# ---------------------------------------------------------------- whether it follows
-
-
 @inlined
 def may_be_apart(case: CaseWords, e: int, h: int) -> bool:
     """Folding does not make e and h partners."""
@@ -196,7 +190,7 @@ def may_be_apart(case: CaseWords, e: int, h: int) -> bool:
 
 @inlined
 def may_be_known(case: CaseWords, e: int, degree: int) -> bool:
-    """The edge e was not crossed, or leads to another degree, or to a vertex of S."""
+    """e was not crossed, or leads to another degree, or to a vertex of S."""
     fold, drawn = case.fold, case.drawn
     slot = slot_of(case, e)
     node = fold.end_node[slot]
@@ -213,7 +207,7 @@ def may_be_known(case: CaseWords, e: int, degree: int) -> bool:
 
 @inlined
 def may_lead_anywhere(case: CaseWords, e: int) -> bool:
-    """Some unexplored dart that is not refuted may be the other end of e."""
+    """Some unexplored dart may be the other end of e."""
     drawn = case.drawn
     for h in range(drawn.darts):
         if drawn.open[h] != 0 and h != e and drawn.refuted[h] != e and may_lead_to(case, e, h):
@@ -223,7 +217,7 @@ def may_lead_anywhere(case: CaseWords, e: int) -> bool:
 
 @kernel
 def may_lead_to(case: CaseWords, e: int, h: int) -> bool:
-    """Folding with e joined to h meets no contradiction; under the prior: in a planar world."""
+    """Joining e to h does not contradict; under the prior: in a planar world."""
     fold, drawn = case.fold, case.drawn
     if case.saw_planar != 0 and not on_face(drawn, e, h) and h != e:
         return False
@@ -245,7 +239,7 @@ def may_lead_to(case: CaseWords, e: int, h: int) -> bool:
 
 @kernel
 def is_met(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:  # noqa: ARG001  it has the rejection's words
-    """Whether the contradiction that a rejection cites follows from the history."""
+    """Whether the contradiction that a rejection cites follows."""
     fold, drawn = case.fold, case.drawn
     e = rejection.edge
     h = rejection.h

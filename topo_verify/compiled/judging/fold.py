@@ -1,11 +1,8 @@
 """The fold of a history, with rollback: what percepts and doors alone prove.
 
-Mirrors: checkers/folding.py, where the theory stands. Differs: a contradiction is a value, no
-exception: with `met` = -1 the first one ends the folding, otherwise all are collected there as a
-mask. Changes are always noted for rollback; the list is emptied where nothing can be taken back.
-
-A place is two numbers, a node and a dart of it. `end_node` and `end_dart` have the other end of
-each dart of each node, as it was put; node -1: the dart is open.
+Mirrors: checkers/folding.py. Differs: a contradiction is a value: with `met` = -1 the first one
+ends the folding, otherwise all are collected there as a mask. A place is a node and a dart of it;
+`end_node` and `end_dart` have the other end of each, node -1: open.
 """
 
 from __future__ import annotations
@@ -18,7 +15,7 @@ from topo_verify.compiled.workspace import MASK, SHIFT
 
 @inlined
 def start_judge_fold(fold: FoldWords, percept: int) -> None:
-    """The fold of a history without a move."""
+    """The fold without a move."""
     fold.nodes = 0
     fold.doors = 0
     fold.undos = 0
@@ -29,7 +26,7 @@ def start_judge_fold(fold: FoldWords, percept: int) -> None:
 
 @inlined
 def visit(fold: FoldWords, percept: int) -> int:
-    """A new node with this percept, all its darts open; 0, and an open verdict, if it is full."""
+    """A new node; 0, and an open verdict, if it is full."""
     node = fold.nodes
     base = fold.doors
     degree = percept >> SHIFT
@@ -53,7 +50,7 @@ def visit(fold: FoldWords, percept: int) -> int:
 
 @inlined
 def find_node(fold: FoldWords, node: int) -> int:
-    """The node that stands for all that are the same vertex."""
+    """The node's representative."""
     while fold.parent[node] != node:
         node = fold.parent[node]
     return node
@@ -61,7 +58,7 @@ def find_node(fold: FoldWords, node: int) -> int:
 
 @inlined
 def find_dart(fold: FoldWords, node: int, dart: int) -> int:
-    """A dart of a node, as a dart of the node that stands for it."""
+    """A dart of a node, as a dart of the representative."""
     while fold.parent[node] != node:
         dart += fold.offset[node]
         if dart >= fold.degree[node]:
@@ -72,7 +69,7 @@ def find_dart(fold: FoldWords, node: int, dart: int) -> int:
 
 @inlined
 def fold_move(fold: FoldWords, door: int, percept: int) -> bool:
-    """Let the robot leave by a door and see this behind it; False: no world shows that."""
+    """Fold a move; False: no world shows that."""
     here = find_node(fold, fold.at)
     dart = find_dart(fold, fold.at, fold.dart) + door
     if dart >= fold.degree[here]:
@@ -131,7 +128,7 @@ def put_end(fold: FoldWords, node: int, dart: int, end: int, end_dart: int) -> N
 
 @kernel
 def make_one(fold: FoldWords, a: int, i: int, b: int, j: int) -> int:
-    """Make two places one dart, and draw what follows: the contradiction that ends it, or 0."""
+    """Identify two places, and what follows: the ending contradiction, or 0."""
     fold.work[0] = a
     fold.work[1] = i
     fold.work[2] = b
@@ -189,7 +186,7 @@ def make_one(fold: FoldWords, a: int, i: int, b: int, j: int) -> int:
 
 @kernel
 def join_ends(fold: FoldWords, a: int, i: int, b: int, j: int) -> int:
-    """Make two places the ends of one edge, and draw what follows: as `make_one`."""
+    """Make two places the ends of one edge: as `make_one`."""
     for _ in range(2):
         node = find_node(fold, a)
         dart = find_dart(fold, a, i)
@@ -212,7 +209,7 @@ def join_ends(fold: FoldWords, a: int, i: int, b: int, j: int) -> int:
 
 @kernel
 def roll_back(fold: FoldWords, mark: int) -> None:
-    """Undo all changes of the fold after the first `mark`."""
+    """Undo all changes after the first `mark`."""
     at = fold.undos
     while at > mark:
         at -= 1
@@ -229,9 +226,9 @@ def roll_back(fold: FoldWords, mark: int) -> None:
 
 @kernel
 def lay_out(fold: FoldWords) -> int:
-    """The fold as a map, a path of one vertex hung on every open dart: how many darts are open.
+    """The fold as a map, with a leaf on every open dart: the number of open darts.
 
-    `fold.size`: its darts. -1: it has more than there is room for.
+    `fold.size`: its darts; -1: too many.
     """
     size = 0
     vertices = 0
@@ -262,7 +259,7 @@ def lay_out(fold: FoldWords) -> int:
 
 @kernel
 def is_planar_fold(fold: FoldWords) -> bool:
-    """Whether the map of `lay_out` has genus 0, its leaves included."""
+    """Whether the map of `lay_out` has genus 0."""
     vertices = 0
     open_darts = 0
     faces = 0
@@ -290,7 +287,6 @@ def is_planar_fold(fold: FoldWords) -> bool:
     return vertices + open_darts - edges + faces == 2
 
 
-# ---------------------------------------------------------------- `Fold.contradictions`
 #
 # Asked only where folding on past the first contradiction, which is quicker, did not meet the one
 # that is cited. A place is a number, its slot: where the fold has the other end of the dart, at a
@@ -299,7 +295,7 @@ def is_planar_fold(fold: FoldWords) -> bool:
 
 @kernel
 def all_that_follow(case: CaseWords, e: int, h: int) -> int:
-    """A mask of the contradictions that follow if these darts of S are the ends of one edge."""
+    """The contradictions that follow if these darts of S are one edge, as a mask."""
     consequences, drawn, fold = case.consequences, case.drawn, case.fold
     start_consequences(case)
     one = slot_at(fold, drawn.node[e], drawn.dart[e])
@@ -333,7 +329,7 @@ def all_that_follow(case: CaseWords, e: int, h: int) -> int:
 
 @inlined
 def start_consequences(case: CaseWords) -> None:
-    """No two places are one yet; behind each is what the fold has there."""
+    """Start without identifications."""
     consequences, fold = case.consequences, case.fold
     consequences.met = 0
     consequences.waiting = 0
@@ -361,7 +357,7 @@ def turn_slot(fold: FoldWords, slot: int, door: int) -> int:
 
 @inlined
 def find_same(consequences: ConsequenceWords, slot: int) -> int:
-    """The slot that stands for all that are the same dart."""
+    """The slot's representative."""
     while consequences.same[slot] != slot:
         slot = consequences.same[slot]
     return slot
@@ -369,7 +365,7 @@ def find_same(consequences: ConsequenceWords, slot: int) -> int:
 
 @inlined
 def entry_of(case: CaseWords, v: int) -> int:
-    """The node that a vertex of S is."""
+    """The node of a vertex of S."""
     drawn = case.drawn
     e = drawn.entry[v]
     return case.fold.owner[
@@ -379,7 +375,7 @@ def entry_of(case: CaseWords, v: int) -> int:
 
 @inlined
 def add_beyond(consequences: ConsequenceWords, slot: int, end: int) -> None:
-    """Note one more end behind a slot."""
+    """Note another end behind a slot."""
     k = consequences.entries
     if k >= JUDGE_DOORS:
         consequences.full = 1
@@ -392,7 +388,7 @@ def add_beyond(consequences: ConsequenceWords, slot: int, end: int) -> None:
 
 @kernel
 def put_beyond(case: CaseWords, slot: int, end: int) -> None:
-    """Let there be an end behind a dart: one with the end there that looks like it, or one more."""
+    """Put an end behind a dart: one that looks like an end there, or another."""
     consequences, fold = case.consequences, case.fold
     slot = find_same(consequences, slot)
     end = find_same(consequences, end)

@@ -1,8 +1,8 @@
 """Claim 8: the evidence that a rejection cites, recomputed.
 
-Mirrors: checkers/excursions.py and the part "what justifies a rejection" of checkers/claims.py.
-Differs: sequences lie in one arena, and a record points into it. What is recorded behind a dart is
-true in the world, so of several records that reach as far any one will do.
+Mirrors: checkers/excursions.py and "what justifies a rejection" of checkers/claims.py. Differs:
+sequences lie in one arena, and a record points into it. Records are true in the world, so any that
+reaches far enough will do.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def unjustified(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bo
 
 @kernel
 def unmet(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:
-    """Whether more is cited than a contradiction: `_unmet`. Whether that follows is asked later."""
+    """Whether more than a contradiction is cited: `_unmet`."""
     expected = rejection.expected
     observed = rejection.observed
     if expected not in (ABSENT, shown(run.world, case.phi[rejection.h])):
@@ -63,7 +63,7 @@ def unmet(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:
 
 @kernel
 def cites_in_vain(case: CaseWords) -> bool:
-    """Whether some contradiction that was cited does not follow, once the history is folded."""
+    """Whether a cited contradiction does not follow from the history."""
     for k in range(case.cited):  # noqa: SIM110  numba knows no such generator
         if case.drawn.met[case.cited_by[k]] == 0:
             return True
@@ -72,7 +72,7 @@ def cites_in_vain(case: CaseWords) -> bool:
 
 @kernel
 def percepts_agree(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:
-    """Whether the two percepts that are cited do not disagree as they are said to."""
+    """Whether the cited percepts do not disagree as declared."""
     step = rejection.step
     number = rejection.sequence
     doors = case.place_of("word_door")
@@ -122,7 +122,7 @@ def beyond_s(
     rest: int,
     observed: int,
 ) -> bool:
-    """`percepts_agree` where the word leaves S at a dart, with `rest` doors to go."""
+    """`percepts_agree` where the word leaves S, with `rest` doors to go."""
     if rejection.record != dart or rejection.doors != rest or rejection.at not in (ABSENT, dart):
         return True
     for k in range(rest):
@@ -166,7 +166,7 @@ def keep_sequence(case: CaseWords) -> None:
 
 @inlined
 def record_sequences(world: WorldWords, case: CaseWords, start: int) -> None:
-    """Keep what the sequences from a dart of S show, each behind the first unexplored dart."""
+    """Record what the sequences show behind the first unexplored dart."""
     for s in range(case.first_sequence, case.sequences):
         at = start
         begin = case.sequence_at[s]

@@ -1,8 +1,7 @@
-"""The fields of the judge's array, and how the judge reads the world and the trace.
+"""The fields of the judge's array, and how it reads the world and the trace.
 
-`full` is set wherever a field has no room for what comes, and where a word of the trace is out of
-range; then the verdict is open. Sizes are for worlds of up to 12 edges, whose budget is 6,780
-moves.
+`full` is set where a field has no room or a word of the trace is out of range; the verdict is then
+open. Sizes are for worlds of up to 12 edges, whose budget is 6,780 moves.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ OK, FAILED, PARTIAL, NOT_DECLARED, UNDECIDED = range(5)
 STATUSES: tuple[Status, ...] = ("ok", "failed", "partial", "not-declared", "undecided")
 
 JUDGE_DARTS = 64
-"""Darts of S have lower numbers, or the verdict is open: sets of them are masks."""
+"""S has fewer darts, since sets are masks; else the verdict is open."""
 JUDGE_STEPS = 8192
 JUDGE_ARENA = 32768
 JUDGE_SEQUENCES = 4096
@@ -34,7 +33,7 @@ JUDGE_DOORS = 65536
 JUDGE_SLOTS = JUDGE_DOORS // 4
 
 JUDGE_CAPACITIES = {name: size for name, size in globals().items() if name.startswith("JUDGE_")}
-"""How many entries the rows of the judge have."""
+"""The sizes of the judge's rows."""
 
 PerClaim = Annotated[Words, "CLAIM_COUNT"]
 PerKind = Annotated[Words, "KINDS_OF_EVENTS"]
@@ -44,15 +43,15 @@ PerSequence = Annotated[Words, "JUDGE_SEQUENCES"]
 PerArenaWord = Annotated[Words, "JUDGE_ARENA"]
 PerNode = Annotated[Words, "JUDGE_NODES"]
 PerDoor = Annotated[Words, "JUDGE_DOORS"]
-PerSlot = Annotated[Words, "JUDGE_SLOTS"]  # a place where the other end of a dart is kept
+PerSlot = Annotated[Words, "JUDGE_SLOTS"]
 
 FATE_POSED, FATE_LOOP, FATE_NEW = 1, 2, 3
 
 
 class OpenWords(WordView):
-    """Whether the judge must ask the checkers."""
+    """Whether the checkers must be asked."""
 
-    full: int  # whether the verdict is open
+    full: int
 
 
 class FoldWords(OpenWords):
@@ -77,7 +76,7 @@ class FoldWords(OpenWords):
     # -1: a contradiction ends the folding. Otherwise a mask of the contradictions met so far
     met: int
     first: PerCaseDart
-    owner: PerSlot  # of each place where the other end of a dart is kept: its node
+    owner: PerSlot  # its node
     alpha: PerCaseDart
     vertex: PerCaseDart
     size: int
@@ -86,11 +85,11 @@ class FoldWords(OpenWords):
 class ConsequenceWords(OpenWords):
     """What follows of an assumption: `all_that_follow` in fold.py."""
 
-    met: int  # a mask of the contradictions
+    met: int  # mask
     waiting: int
     entries: int
-    same: PerSlot  # of each place: one that is the same dart; itself, where it stands for all
-    first: PerSlot  # the first entry of what is behind it, one of each look; -1: it is open
+    same: PerSlot  # union-find
+    first: PerSlot  # first entry behind it, one of each look; -1: open
     end: PerDoor
     next: PerDoor
 
@@ -103,56 +102,56 @@ class DrawnWords(OpenWords):
     node: PerCaseDart
     dart: PerCaseDart
     open: PerCaseDart
-    after: PerCaseDart  # the next dart on the face; where a dart is open, the boundary turns back
-    refuted: PerCaseDart  # of each dart: the last e that was shown not to end there; -1: none
-    entry: PerCaseDart  # of each vertex: its first dart
-    stands: int  # whether S is proved so far
-    unproved: int  # whether a decision does not follow
-    rejection: int  # the number of rejections so far
-    met: PerCaseStep  # of each rejection: 1 if the contradiction that it cites follows
+    after: PerCaseDart  # next dart on the face; an open dart turns back
+    refuted: PerCaseDart  # the last e shown not to end there; -1: none
+    entry: PerCaseDart  # first dart of each vertex
+    stands: int  # is S proved so far?
+    unproved: int  # does some decision not follow?
+    rejection: int
+    met: PerCaseStep  # 1 if the cited contradiction follows
 
 
 class CaseWords(OpenWords):
-    """What is asked, the verdict, and the trace, replayed."""
+    """The question, the verdict, and the replayed trace."""
 
-    darts: int  # of the world: 2m
+    darts: int  # 2m
     vertices: int
-    bound: int  # the upper bound of claim 7
-    level: int  # 8: claims 1 to 8; 9: and claim 9; 10: all
-    delivered: int  # whether a map was delivered: the chart in the workspace
-    reported: int  # the cost that was reported; -1: none
+    bound: int  # of claim 7
+    level: int  # claims 1 to 8, 9 or 10
+    delivered: int
+    reported: int  # -1: none
     status: PerClaim
     judged: PerClaim
     of: PerClaim
-    wrong: int  # a mask of the claims that fail: bit k for claim k + 1
+    wrong: int  # bit k: claim k + 1 fails
     cost: int
-    at: int  # the reference dart of the robot, a dart of the world
-    legal: int  # whether every door so far exists
-    true: int  # whether every percept so far is what the world shows
-    spoiled: int  # whether S grew by what is false in this world
-    size: int  # the number of darts of S
-    crossed: int  # the edges of the world that were crossed, as a mask of their lesser darts
+    at: int  # reference dart
+    legal: int  # does every door so far exist?
+    true: int  # is every percept so far the world's?
+    spoiled: int  # did S grow by what is false?
+    size: int  # darts of S
+    crossed: int  # mask of crossed edges, by lesser dart
     grown: int  # those along which S grew
     phi: PerCaseDart
-    number: PerCaseDart  # of each dart of the world: the dart of S; -1: none
-    alpha: PerCaseDart  # of each dart of S: the other end of its edge; -1: unexplored
+    number: PerCaseDart  # dart of S; -1: none
+    alpha: PerCaseDart  # of S; -1: unexplored
     image: PerCaseDart
-    saw: PerKind  # whether the trace has such an event, anywhere
-    followed: int  # percepts up to a door that is not there
+    saw: PerKind  # does the trace have such an event?
+    followed: int  # percepts up to a door that does not exist
     # rejections by rules `folding` and `planar` whose contradictions are still to be found
     cited: int
     saw_planar: int
-    doors_hash: int  # a hash of all doors in their order
+    doors_hash: int
     rejections: int
     confirmations: int
     augmentations: int
-    posed: int  # hypotheses posed
-    pose_at: int  # the word at which the last pose begins; -1: S grew since, or there was none
+    posed: int
+    pose_at: int  # the last pose; -1: S grew since, or none
     pose_edge: int
     # of each edge of the world, by its lesser dart: 0 not posed, 1 posed, or `FATE_…` below
     fate: PerCaseDart
-    cited_by: PerCaseStep  # the numbers of those rejections, from 1
-    left: PerCaseDart  # of each edge: a mask of the hypotheses neither rejected nor confirmed
+    cited_by: PerCaseStep  # their numbers, from 1
+    left: PerCaseDart  # mask of undecided hypotheses
     # whether the last pose was made elsewhere than behind its edge: the word stays empty
     is_late: int
     turned: int
@@ -168,7 +167,7 @@ class CaseWords(OpenWords):
     arena_door: PerArenaWord
     arena_percept: PerArenaWord
     records: int
-    record_of: PerCaseDart  # of each dart of S: the last record behind it; -1: none
+    record_of: PerCaseDart  # the last record behind it; -1: none
     # where a record's first percept is in the arena; and how many doors follow behind it
     record_at: PerSequence
     record_rest: PerSequence
@@ -187,12 +186,9 @@ CASE = Fields(
 JUDGE_SIZE = CASE.size
 
 
-# ---------------------------------------------------------------- the world and the trace, read
-
-
 @inlined
 def shown(world: WorldWords, dart: int) -> int:
-    """What the world shows to a robot with this reference dart."""
+    """The percept at a dart of the world."""
     v = world.vertex[dart]
     percept = world.degree[v] << SHIFT
     if v == 0:
@@ -204,7 +200,7 @@ def shown(world: WorldWords, dart: int) -> int:
 
 @inlined
 def exit_of(world: WorldWords, dart: int, door: int) -> int:
-    """The dart of the world that a door means to a robot with this reference dart."""
+    """The dart behind a door, from this reference dart."""
     v = world.vertex[dart]
     end = world.first[v] + world.degree[v]
     dart += door
@@ -215,13 +211,13 @@ def exit_of(world: WorldWords, dart: int, door: int) -> int:
 
 @inlined
 def end_of_trace(trace: TraceWords) -> int:
-    """Where the trace ends in the workspace."""
+    """Where the trace ends."""
     return trace.place_of("word") + trace.size
 
 
 @inlined
 def event_size(run: RunWords, case: CaseWords, i: int, end: int) -> int:
-    """How many words the event at i has; 0, and the verdict is open, if it is no event."""
+    """The words of the event at i; 0 (verdict open) if it is none."""
     kind = EventWords(run, i).kind
     size = 0
     if kind in (MOVE, CONFIRM):

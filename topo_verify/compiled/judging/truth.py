@@ -1,11 +1,9 @@
 """Claims 1 to 8 are judged while the trace is replayed in its world.
 
-Mirrors: checkers/replayed_trace.py, map_in_world.py and the first functions of claims.py. Differs:
-what a claim asks is asked at the event, so S need not know when a dart was born; and a finding is a
-bit in `wrong`. Bit k stands for claim k + 1.
-
-Positions follow from the doors alone. From the first door that is not there (`legal`) no event
-is judged; from the first false augmentation on (`spoiled`) no decision.
+Mirrors: checkers/replayed_trace.py, map_in_world.py and claims.py. Differs: a claim is asked at the
+event; a finding is a bit in `wrong`, bit k for claim k + 1. Positions follow from the doors alone.
+After the first door that does not exist (`legal`) no event is judged; after the first false
+augmentation (`spoiled`) no decision.
 """
 
 from __future__ import annotations
@@ -22,7 +20,7 @@ HASH_PRIME = 1099511628211
 
 @kernel
 def replay(run: RunWords, case: CaseWords) -> None:
-    """Follow the trace, draw S, and judge each event by claims 1, 2, 3, 4, 5 and 8."""
+    """Follow the trace and judge each event by claims 1, 2, 3, 4, 5 and 8."""
     start_replay(run.world, case)
     i = run.trace.place_of("word")
     end = end_of_trace(run.trace)
@@ -69,7 +67,7 @@ def start_replay(world: WorldWords, case: CaseWords) -> None:
 
 @inlined
 def draw_vertex(world: WorldWords, case: CaseWords, entry: int) -> None:
-    """Let S have a vertex more, that of a dart of the world: its first dart is that one."""
+    """Add a vertex to S, by its first dart in the world."""
     v = world.vertex[entry]
     first = case.size
     dart = entry
@@ -86,22 +84,19 @@ def draw_vertex(world: WorldWords, case: CaseWords, entry: int) -> None:
 
 @inlined
 def is_open(case: CaseWords, dart: int) -> bool:
-    """Whether this is a dart of S, and unexplored."""
+    """Whether this is an unexplored dart of S."""
     return 0 <= dart < case.size and case.alpha[dart] < 0
 
 
 @inlined
 def lesser(world: WorldWords, dart: int) -> int:
-    """The edge of the world that has this dart, by the lesser of its two."""
+    """The lesser dart of an edge of the world."""
     return min(dart, world.alpha[dart])
-
-
-# ---------------------------------------------------------------- moves
 
 
 @inlined
 def follow_move(run: RunWords, case: CaseWords, move: MoveWords) -> None:
-    """One move: the position, the percept (claim 1), and the word of the excursion."""
+    """One move: position, percept (claim 1), and the word of the excursion."""
     world = run.world
     case.cost += 1
     case.doors_hash = (case.doors_hash ^ move.door) * HASH_PRIME
@@ -140,12 +135,9 @@ def follow_move(run: RunWords, case: CaseWords, move: MoveWords) -> None:
         case.turned = 0
 
 
-# ---------------------------------------------------------------- decisions
-
-
 @inlined
 def decide(run: RunWords, case: CaseWords, event: DecisionWords) -> None:
-    """Judge a decision, and take note of it."""
+    """Judge a decision, and note it."""
     kind = event.kind
     e = event.edge
     opened = is_open(case, e)
@@ -211,7 +203,7 @@ def pose(run: RunWords, case: CaseWords, posed: PoseWords, edge: int, truth: int
 
 @inlined
 def settle_hypothesis(case: CaseWords, edge: int, h: int) -> None:
-    """A hypothesis behind an edge has its fate."""
+    """A hypothesis has its fate."""
     if edge >= 0 and 0 <= h < JUDGE_DARTS - 2:
         case.left[edge] &= ~(1 << h)
 

@@ -1,7 +1,6 @@
 """The verdict on one run: status and share of each claim.
 
-Mirrors: checkers/claims.py, `check`, and coverage.py. `judge` leaves `status`, `judged` and
-`of` of each claim, and returns the mask of the claims that fail; -1: the verdict is open.
+Mirrors: checkers/claims.py, `check`, and coverage.py.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from topo_verify.compiled.workspace import *
 
 @entry
 def judge(run: RunWords, case: CaseWords) -> int:
-    """Judge the run in the workspace: a mask of the claims that fail; -1: the verdict is open."""
+    """Judge the run: a mask of the failing claims; -1: open."""
     case.full = 0
     case.wrong = 0
     replay(run, case)
@@ -48,7 +47,7 @@ def judge(run: RunWords, case: CaseWords) -> int:
 
 @inlined
 def judge_delivery(run: RunWords, case: CaseWords) -> None:
-    """Claims 5, 6 and 7, at the end of the run."""
+    """Claims 5, 6 and 7, at the end."""
     cost = case.cost
     delivered = case.delivered != 0
     if case.spoiled != 0 or not delivered:
@@ -66,12 +65,9 @@ def judge_delivery(run: RunWords, case: CaseWords) -> None:
         case.wrong |= 1 << 6
 
 
-# ---------------------------------------------------------------- the delivered map
-
-
 @inlined
 def is_chart(chart: ChartWords, darts: int, vertices: int) -> bool:
-    """Whether the delivered map is a map of this size, its darts in range."""
+    """Whether the delivered map is a map of this size."""
     if chart.darts != darts or chart.vertices != vertices:
         return False
     for d in range(darts):
@@ -94,7 +90,7 @@ def is_chart(chart: ChartWords, darts: int, vertices: int) -> bool:
 
 @kernel
 def is_world(run: RunWords, case: CaseWords) -> bool:
-    """Whether the delivered map is the world, the marker on the marker."""
+    """Whether the delivered map is the world."""
     world = run.world
     if not is_chart(run.chart, case.darts, case.vertices):
         return False
@@ -147,14 +143,14 @@ def is_same_map(
     degree: int,
     root: int,
 ) -> bool:
-    """Whether the delivered map is isomorphic to the one in M, its dart 0 being the root there.
+    """Whether the delivered map is isomorphic to that in M, dart 0 to the root.
 
-    The image of a dart decides that of all darts of its vertex and of its other end. A map of as
-    many darts, onto a connected one, is one to one.
+    The image of a dart decides all others. A map of as many darts, onto a connected one, is one to
+    one.
 
     Args:
-        M: W or J. In it are, from these places on: of each dart its other end and its vertex; of
-            each vertex its first dart and its degree.
+        M: W or J, with other end and vertex of darts, first dart and degree of vertices at these
+        places.
     """
     darts = chart.darts
     for d in range(darts):
@@ -181,7 +177,7 @@ def is_same_map(
 def place_image(
     chart: ChartWords, case: CaseWords, d: int, image: int, first: int, degree: int
 ) -> bool:
-    """Map the vertex of d to that of `image`, whose first dart is `first`; False: other degrees."""
+    """Map the vertex of d to that of `image`; False: other degrees."""
     v = chart.vertex[d]
     if chart.degree[v] != degree:
         return False
@@ -190,9 +186,6 @@ def place_image(
         dart = d + k if d + k < begin + degree else d + k - degree
         case.image[dart] = image + k if image + k < first + degree else image + k - degree
     return True
-
-
-# ---------------------------------------------------------------- shares and status
 
 
 @inlined

@@ -1,10 +1,10 @@
-"""Theorems about every world with m edges and every reachable map of it, as clauses.
+"""Theorems about every world with m edges and every reachable map, as clauses.
 
-cnf.py         clauses over named Booleans, put to Z3
+cnf.py         clauses over named Booleans, and Z3's answers
 encoding.py    worlds, maps and walks as clauses
-statements.py  the bounded statements, in words, symbols and clauses
-theorems.py    the statements as theorems; lists the worlds of the encoding
-mutants.py     false claims and rules with one mistake, as theorems that must be refuted
-replay.py      decodes an assignment, and repeats the counterexample in the simulator
-drup.py        refutations found by a SAT solver and checked by another program
+statements.py  the bounded statements
+theorems.py    proves them; lists the worlds of the encoding
+mutants.py     false claims and faulty rules, which must be refuted
+replay.py      repeats a counterexample in the simulator
+drup.py        checked refutations
 """

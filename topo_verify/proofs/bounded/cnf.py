@@ -1,17 +1,10 @@
 """Formulas in conjunctive normal form over named Booleans, in named groups of clauses.
 
-A formula is in conjunctive normal form from the start, so every solver, and the checker of
-certificates, reads the same clauses: no translation stands between them that would have to be
-trusted. As in DIMACS a literal is a number: `v` says that Boolean `v` is true, `-v` that it is
-false. Clauses stand in named **groups**, one for each premise, so that an unsatisfiable core names
-premises. The group `REFUTED` is the negated conclusion. A formula without it is the premises alone,
-and must be satisfiable: otherwise the theorem is vacuous.
-
-Z3 reads the SMT-LIB 2 text that is also exported and handed to other solvers, so all of them answer
-the same question.
-
-    row           literals of which exactly one is true: "which dart", "which door"
-    one-hot       writing a value as such a row
+Every solver, and the checker of certificates, reads the same clauses, so no translation must be
+trusted. As in DIMACS, literal `v` says that Boolean `v` is true, `-v` that it is false. Each
+premise is a **group**, so an unsatisfiable core names premises. Group `REFUTED` is the negated
+conclusion; without it the formula must be satisfiable, or the theorem is vacuous. A **row** is a
+list of literals of which exactly one is true, such as "which door" (one-hot).
 """
 
 from __future__ import annotations
@@ -31,14 +24,14 @@ REFUTED = "refuted"
 """The group of the negated conclusion."""
 
 MET = "met"
-"""The group, in the premises alone, that makes the conclusion speak of at least one case."""
+"""The group that, in the premises alone, requires a case for the conclusion."""
 
 
 class Formula:
-    """A conjunction of clauses that grows. Names are unique; Boolean `v` is `names[v - 1]`.
+    """A growing conjunction; Boolean `v` is `names[v - 1]`.
 
     Attributes:
-        met: clauses of the group `MET`, kept aside until `premises` is asked for.
+        met: clauses of group `MET`.
     """
 
     def __init__(self) -> None:
@@ -46,39 +39,37 @@ class Formula:
         self.groups: dict[str, list[Clause]] = {}
         self.met: list[Clause] = []
 
-    # ------------------------------------------------------------ adding clauses
-
     def boolean(self, name: str) -> CnfLiteral:
-        """A new Boolean of this name."""
+        """A new Boolean."""
         self.names.append(name)
         return len(self.names)
 
     def booleans(self, name: str, size: int) -> CnfRow:
-        """New Booleans `name.0`, `name.1`, …, under no constraint."""
+        """New Booleans `name.0`, `name.1` ...."""
         return tuple(self.boolean(f"{name}.{index}") for index in range(size))
 
     def row(self, group: str, name: str, size: int) -> CnfRow:
-        """A new row of Booleans of which exactly one is true."""
+        """A new one-hot row."""
         row = self.booleans(name, size)
         self.exactly_one(group, row)
         return row
 
     def add(self, group: str, *literals: CnfLiteral) -> None:
-        """Add the clause that at least one of these holds."""
+        """Add the clause that one of these holds."""
         self.groups.setdefault(group, []).append(literals)
 
     def imply(self, group: str, premises: Sequence[CnfLiteral], *conclusions: CnfLiteral) -> None:
-        """Add the clause that one of the conclusions holds if all premises do."""
+        """Add: if all premises hold, so does one of the conclusions."""
         self.add(group, *(-premise for premise in premises), *conclusions)
 
     def exactly_one(self, group: str, literals: Sequence[CnfLiteral]) -> None:
-        """Add the clauses that one of these holds, and no two."""
+        """Add: exactly one of these holds."""
         self.add(group, *literals)
         for one, other in combinations(literals, 2):
             self.add(group, -one, -other)
 
     def define_and(self, group: str, name: str, literals: Sequence[CnfLiteral]) -> CnfLiteral:
-        """A new Boolean that holds exactly if all of these do."""
+        """A new Boolean: all of these hold."""
         both = self.boolean(name)
         for literal in literals:
             self.add(group, -both, literal)
@@ -86,26 +77,24 @@ class Formula:
         return both
 
     def define_or(self, group: str, name: str, literals: Sequence[CnfLiteral]) -> CnfLiteral:
-        """A new Boolean that holds exactly if at least one of these does."""
+        """A new Boolean: one of these holds."""
         # De Morgan, so that only `define_and` needs clauses that are right.
         return -self.define_and(group, name, [-literal for literal in literals])
 
     def equate(self, group: str, guard: Sequence[CnfLiteral], one: CnfRow, other: CnfRow) -> None:
-        """Add the clauses that two rows are equal, literal by literal, where the guard holds."""
+        """Add: where the guard holds, two rows are equal."""
         for a, b in zip(one, other, strict=True):
             self.imply(group, (*guard, a), b)
             self.imply(group, (*guard, b), a)
 
     def define_equal(self, group: str, name: str, one: CnfRow, other: CnfRow) -> CnfLiteral:
-        """A new Boolean that holds exactly if the two one-hot rows are equal."""
+        """A new Boolean: the two one-hot rows are equal."""
         equal = self.boolean(name)
         self.equate(group, (equal,), one, other)
-        # One shared place is enough for equality, since each row has exactly one true literal.
+        # Rows are one-hot, so one shared place suffices.
         for a, b in zip(one, other, strict=True):
             self.imply(group, (a, b), equal)
         return equal
-
-    # ------------------------------------------------------------ reading clauses
 
     @property
     def clauses(self) -> list[Clause]:
@@ -113,7 +102,7 @@ class Formula:
         return [clause for clauses in self.groups.values() for clause in clauses]
 
     def premises(self) -> Formula:
-        """The premises alone, with `MET`: satisfiable exactly if the theorem is not vacuous."""
+        """The premises with `MET`: satisfiable unless the theorem is vacuous."""
         alone = Formula()
         alone.names = list(self.names)
         alone.groups = {name: row for name, row in self.groups.items() if name != REFUTED}
@@ -121,7 +110,7 @@ class Formula:
         return alone
 
     def smt2(self) -> str:
-        """SMT-LIB 2: one named assertion a group, no command after them."""
+        """SMT-LIB 2, one named assertion for each group."""
         lines = ["(set-logic QF_UF)"]
         # `(and true …` and `(or false …` keep empty and single clauses well-formed.
         lines += [f"(declare-const {name} Bool)" for name in self.names]
@@ -139,12 +128,9 @@ class Formula:
         return written[0] if len(written) == 1 else f"(or false {' '.join(written)})"
 
 
-# ----------------------------------------------------------- satisfiability and models, found by Z3
-
-
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """A model of a formula: the Booleans that are true; all others are false."""
+    """A model: the Booleans that are true."""
 
     true: frozenset[int]
 
@@ -153,7 +139,7 @@ class Assignment:
         return (abs(literal) in self.true) == (literal > 0)
 
     def index(self, row: CnfRow) -> int:
-        """The index of the literal of a one-hot row that is true."""
+        """The index of a one-hot row's true literal."""
         (place,) = (index for index, literal in enumerate(row) if self.holds(literal))
         return place
 
@@ -163,9 +149,8 @@ class SatResult:
     """Z3's answer about a formula.
 
     Attributes:
-        model: an assignment, if the answer is sat.
-        core: the groups of clauses that an unsat answer used; not minimal.
-        why: the reason for unknown, in Z3's words.
+        core: the groups that an unsat answer used; not minimal.
+        why: the reason for unknown.
     """
 
     answer: SolverAnswer
@@ -175,7 +160,7 @@ class SatResult:
 
 
 def solve(formula: Formula, budget: Budget) -> SatResult:
-    """Z3's answer to the question whether the formula is satisfiable; a time-out is `unknown`."""
+    """Ask Z3 for a model; a time-out is `unknown`."""
     question = Z3Question(formula.smt2(), budget, setup="clauses", labels=tuple(formula.groups))
     answer = question.check()
     model = _model(formula, question) if answer == "sat" else None
@@ -183,10 +168,9 @@ def solve(formula: Formula, budget: Budget) -> SatResult:
 
 
 def first_model(formula: Formula, over: CnfRow, budget: Budget) -> SatResult:
-    """As `solve`, but the model is the first of all in the order of the literals `over`.
+    """As `solve`, but the first model in the order of the literals `over`, earliest ones true.
 
-    The first makes the earliest literals true. Which model Z3 finds by itself may vary from run to
-    run, and a counterexample that is printed must not.
+    Z3's own model may vary from run to run; a printed counterexample must not.
     """
     question = Z3Question(formula.smt2(), budget, setup="clauses")
     if (answer := question.check()) != "sat":
@@ -195,7 +179,7 @@ def first_model(formula: Formula, over: CnfRow, budget: Budget) -> SatResult:
     assumed: dict[str, bool] = {}
     for literal in over:
         name = formula.names[abs(literal) - 1]
-        # Make one literal after the other true where that is possible, and assume the outcome.
+        # Make each literal true where possible, and assume the outcome.
         if not model.holds(literal):
             answer = question.check(assumed | {name: literal > 0})
             if answer == "unknown":
@@ -207,10 +191,10 @@ def first_model(formula: Formula, over: CnfRow, budget: Budget) -> SatResult:
 
 
 def models(formula: Formula, over: CnfRow, budget: Budget) -> Iterator[Assignment]:
-    """All models, one for each assignment of the Booleans `over`; the order is Z3's.
+    """Yield a model for each assignment of `over`.
 
     Raises:
-        SolverGaveUp: Z3 gave up before it had excluded further models.
+        SolverGaveUp: Z3 gave up before excluding further models.
     """
     question = Z3Question(formula.smt2(), budget, setup="clauses")
     names = {abs(literal): formula.names[abs(literal) - 1] for literal in over}

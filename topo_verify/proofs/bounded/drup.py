@@ -1,16 +1,13 @@
-"""Certificates that clauses are unsatisfiable: one program proves it, another checks the proof.
+"""Certificates that clauses are unsatisfiable: one program finds the proof, another checks it.
 
-A SAT solver (of python-sat) looks for a refutation and records the clauses that it learns: a DRUP
-proof, in which unit propagation derives each line from those before it, and the last line is the
-empty clause. `drup`, a checker extracted from a development verified in Why3, follows the proof. It
-calls no solver and trusts nothing that the solver reports.
+A SAT solver (of python-sat) records the clauses that it learns: a DRUP proof, in which unit
+propagation derives each line from those before it, up to the empty clause. `drup`, a checker
+extracted from a development verified in Why3, follows the proof and calls no solver.
 
-The checker is slow and the solver is fast. So the solver first reduces the clauses to those that it
-uses, several times over. The checker follows a refutation of these, and `objection` makes sure that
-they are clauses of the formula: if some of its clauses contradict each other, all of them do.
+The checker is slow, so the solver first reduces the clauses, several times, to those it uses.
+`objection` requires that they are clauses of the formula.
 
-What this does not show: that the clauses say what they should. The encoding is compared with the
-enumeration (`theorems.py`), and its rules with the simulator (`replay.py`).
+What this does not show: that the clauses say what they should (see `theorems.py`, `replay.py`).
 
 Source: M. Heule, W. Hunt, N. Wetzler, "Trimming while checking clausal proofs", FMCAD 2013.
 """
@@ -27,26 +24,26 @@ from topo_verify.proofs.theorem import RefutationCertificate
 
 FORMAT = "drup"
 SOLVERS = ("glucose4", "lingeling", "cadical153")
-"""The solvers that make a proof; the shortest proof is checked."""
+"""The shortest of their proofs is checked."""
 
 PER_SECOND = 100_000
-"""The product of clauses and steps that the checker manages in a second on a slow machine."""
+"""Clauses times steps that the checker manages in a second."""
 
 _ROUNDS = 8
 _FEWEST_CLAUSES = 400
-"""The least number of clauses of a formula with a long proof: limits the search for a proof."""
+"""The least number of clauses with a long proof: limits the search."""
 
 
 @dataclass(frozen=True, slots=True)
 class DrupRefutation:
-    """Contradictory clauses, and the learned clauses that show it; the last one is empty."""
+    """Contradictory clauses, and the learned clauses up to the empty one."""
 
     clauses: tuple[Clause, ...]
     steps: tuple[Clause, ...]
 
 
 def require_tools() -> None:
-    """Raise an `InputError` where python-sat or drup cannot be loaded."""
+    """Raise `InputError` if python-sat or drup cannot be loaded."""
     for package, module in (("python-sat", "pysat.solvers"), ("drup", "drup")):
         try:
             import_module(module)
@@ -64,15 +61,15 @@ def checker() -> str:
 
 
 def certify(formula: Formula, *, seconds: float = 60.0) -> RefutationCertificate | str:
-    """A checked certificate that the formula is unsatisfiable, or the reason why it has none.
+    """A checked certificate of unsatisfiability, or why there is none.
 
-    A proof that the checker refuses gives a certificate with `checked` false: a bug, not a limit.
+    `checked` is false if the checker refuses the proof: a bug, not a limit.
 
     Args:
-        seconds: the longest time, as estimated, that a proof may keep the checker busy.
+        seconds: the longest estimated time of the checker.
     """
     largest = round(seconds * PER_SECOND)
-    # The checker has time for `largest` clauses times steps, so a longer proof is of no use.
+    # The checker has no time for more than `largest` clauses times steps.
     refutation = refute(formula, most_steps=largest // _FEWEST_CLAUSES)
     if isinstance(refutation, str):
         return refutation
@@ -91,9 +88,9 @@ def certify(formula: Formula, *, seconds: float = 60.0) -> RefutationCertificate
 
 
 def refute(formula: Formula, *, most_steps: int = 1_000_000) -> DrupRefutation | str:
-    """A short refutation, or the reason why it has none: satisfiable, or too many steps."""
+    """A short refutation, or why there is none: satisfiable, or too many steps."""
     clauses = formula.clauses
-    # Each round keeps the clauses that the last one used, until a round drops less than 3 %.
+    # Keep only used clauses, until a round drops less than 3 %.
     for _ in range(_ROUNDS):
         used = _used(clauses, len(formula.names), most_steps)
         if isinstance(used, str):
@@ -106,7 +103,7 @@ def refute(formula: Formula, *, most_steps: int = 1_000_000) -> DrupRefutation |
 
 
 def objection(formula: Formula, refutation: DrupRefutation) -> str:
-    """The reason why the refutation is refused, or "" if it is accepted; calls no solver."""
+    """Why the refutation is refused, or ""; calls no solver."""
     drup: Any = import_module("drup")
     if not set(refutation.clauses) <= set(formula.clauses):
         return "it refutes clauses that are not those of the formula"
@@ -117,7 +114,7 @@ def objection(formula: Formula, refutation: DrupRefutation) -> str:
 
 
 def together(certificates: list[RefutationCertificate]) -> RefutationCertificate:
-    """One certificate for several formulas: checked if all are; clauses and steps are summed."""
+    """One certificate for several formulas, with sums."""
     return RefutationCertificate(
         format=FORMAT,
         checker=checker(),
@@ -129,9 +126,9 @@ def together(certificates: list[RefutationCertificate]) -> RefutationCertificate
 
 
 def _used(clauses: list[Clause], names: int, most_steps: int) -> list[Clause] | str:
-    """The clauses that a solver used to refute all of them, or the reason why it did not."""
+    """The clauses that a solver used in its refutation, or why there is none."""
     solvers: Any = import_module("pysat.solvers")
-    # A switch for each clause: assuming all switches, the core names the clauses that were used.
+    # Assuming a switch for each clause, the core names the used clauses.
     chosen = range(names + 1, names + 1 + len(clauses))
     with solvers.Solver(name=SOLVERS[0]) as solver:
         for clause, switch in zip(clauses, chosen, strict=True):
@@ -146,12 +143,10 @@ def _used(clauses: list[Clause], names: int, most_steps: int) -> list[Clause] | 
 
 
 def _proof(clauses: list[Clause], name: str) -> tuple[Clause, ...]:
-    """The clauses that a solver learned on its way to the empty one, without its deletions."""
     solvers: Any = import_module("pysat.solvers")
     with solvers.Solver(name=name, bootstrap_with=clauses, with_proof=True) as solver:
         solver.solve()
-        # Deletions may go: what propagation derives from some clauses, it derives from more.
+        # Without deletions propagation derives no less.
         learned = [line.split() for line in solver.get_proof() if not line.startswith("d")]
-    # A line ends with 0, as in DIMACS.
     steps = [tuple(map(int, line[:-1])) for line in learned]
     return (*(step for step in steps if step), ())

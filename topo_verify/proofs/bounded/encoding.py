@@ -1,41 +1,34 @@
 """Every world with m edges, every reachable map S of it, and walks on both, as clauses.
 
-**World.** The darts are 0 … 2m-1 and a vertex is an interval of them, clockwise from the dart by
-which it was first entered (docs/semantics.md, section 3; v0 from the marked dart, which is dart 0):
+**World.** The darts are 0 … 2m-1. A vertex is an interval of them, clockwise from the dart by which
+it was first entered (docs/semantics.md, section 3; v0 from the marked dart, dart 0):
 
     first[d]        dart d is the first of its vertex
     joined[a, b]    a and b are the two darts of one edge, a < b
     vertex[f, n]    the darts f … f+n-1 are a vertex (defined)
 
-**Map.** S is numbered in the order of its discovery, and so is the world: first the darts that S
-knows, then the others. S is thus a part of the world, and what corresponds is equal:
+**Map.** S and the world are numbered in the order of discovery: first the darts that S knows.
 
-    known[d]        d is a dart of S: known darts are a prefix of the numbers, in whole vertices
+    known[d]        d is a dart of S: a prefix of the numbers, in whole vertices
     explored[d]     S knows the edge of d, and so its other end
 
-Every vertex but v0 has its first dart joined with a smaller one (`entry`): the edge by which it was
-found. If S knows the vertex, that edge is explored. So the world is connected, and S is
-*reachable*: cross the entry edges in the order of the numbers, and any other edge once its ends are
-known. Conversely, every S that an exploration draws has these properties. The vertices that S does
-not know are numbered breadth-first from all darts before them, which leaves one numbering. So each
-pair of a world and a map of it (numbered by its discovery) is one model. With S = v0 alone this is
-the world's breadth-first numbering, and each rooted map is exactly one model: `theorems.py` counts
-them.
+The first dart of every vertex but v0 is joined with a smaller one (`entry`), by an explored edge if
+S knows the vertex. So the world is connected and S *reachable*: cross the entry edges in order, and
+any other edge once its ends are known. Conversely, every S of an exploration is of this form. The
+other vertices are numbered breadth-first, so each pair of a world and a map is one model. With
+S = v0 alone, each rooted map is one model: `theorems.py` counts them.
 
-**Positions.** A position is a one-hot row over darts: the robot's reference dart, or where tracing
-stands on S. Doors are one-hot rows too; turning and crossing are clauses. Rows that other rows
-determine are constrained to be one-hot again: this is redundant, and makes words of four doors
-feasible.
+**Positions** (the robot's reference dart, or the traced dart of S) and doors are one-hot rows. Rows
+that others determine are constrained to be one-hot again: redundant, but it makes words of four
+doors feasible.
 
-**Walks.** A word of doors is executed in the world and traced on a map. A robot has crossed the
-unexplored dart `e` and stands at `vu`, its reference dart `alpha(e)`. A hypothesis `h` says that
-this is dart h of S. Then a word of doors can be followed twice:
+**Walks.** A robot crossed the unexplored dart `e` and stands at `vu`, its reference dart
+`alpha(e)`. A hypothesis `h` says that this is dart h of S. A word of doors is followed twice:
 
     there     in the world, from alpha(e): the true positions of the robot
     here      on S, from h, over explored darts: the positions that the hypothesis predicts
 
-The rules compare the percepts there with those that S shows here. The statements speak of any word
-up to a number of doors, any map, and any world with m edges:
+The rules compare the percepts of both, for any word up to a number of doors:
 
     confirm   here ends at v0 and the last percepts are equal            ⇒  h = alpha(e)
     trace     h = alpha(e), every door crosses an explored dart          ⇒  all percepts are equal
@@ -44,11 +37,7 @@ up to a number of doors, any map, and any world with m edges:
     records   as history, and behind the unexplored dart the percepts of an earlier word that
               crossed it are compared, one place deep or as deep as the doors agree
 
-A `RuleFault` changes a rule in one way, so that it rejects a true hypothesis or confirms a false
-one in a small world. This shows that the statements can fail.
-
-Cost: O(m³) clauses for a world, a step, or a percept. Source: docs/semantics.md, sections 1 to 3,
-6, 7 and 9.
+Cost: O(m³) clauses for a world, a step, or a percept.
 """
 
 from __future__ import annotations
@@ -61,12 +50,12 @@ from typing import Literal
 from topo_verify.proofs.bounded.cnf import REFUTED, CnfLiteral, CnfRow, Formula
 
 MarkerDetail = Literal["directed", "undirected", "none"]
-"""How much of the marker is compared: its direction, its presence, or nothing."""
+"""What is compared of the marker: its direction, its presence, or nothing."""
 
 
 @dataclass(frozen=True, slots=True)
 class EncodedMap:
-    """A reachable map S of the world: the darts that it knows, and those that are explored."""
+    """A reachable map of the world."""
 
     known: CnfRow
     explored: CnfRow
@@ -74,7 +63,7 @@ class EncodedMap:
 
 @dataclass(frozen=True, slots=True)
 class EncodedPercept:
-    """A percept: the degree less one (one-hot), the marker's presence, and its door (one-hot)."""
+    """A percept; `degree` (less one) and the marker's door are one-hot."""
 
     degree: CnfRow
     here: CnfLiteral
@@ -82,12 +71,12 @@ class EncodedPercept:
 
 
 class Worlds(Formula):
-    """The clauses of all worlds with this many edges, to which maps, walks and claims are added.
+    """The clauses of all worlds with this many edges.
 
     Attributes:
         darts: 2m.
         first, joined, vertex: see the head of this file.
-        entry: entry[e, f] says that the vertex beginning with dart f was found through dart e < f.
+        entry: entry[e, f]: the vertex beginning with dart f was found through dart e < f.
         in_v0: per dart, is it a dart of v0?
     """
 
@@ -106,7 +95,7 @@ class Worlds(Formula):
         self.in_v0 = self._first_vertex()
 
     def edge(self, one: int, other: int) -> CnfLiteral:
-        """The Boolean that the two darts are joined."""
+        """Whether the two darts are joined."""
         return self.joined[min(one, other), max(one, other)]
 
     def _rotation(self) -> None:
@@ -114,7 +103,7 @@ class Worlds(Formula):
         self.add("rotation", self.first[0])
         for f in self.darts:
             for after in range(f + 1, end + 1):
-                # No dart inside begins another vertex, and the one after the last does, if any.
+                # No dart inside begins another vertex; the next one does, if any.
                 inside = [-self.first[d] for d in range(f + 1, after)]
                 closed = [] if after == end else [self.first[after]]
                 self.vertex[f, after - f] = self.define_and(
@@ -126,20 +115,17 @@ class Worlds(Formula):
             self.exactly_one("edges", [self.edge(d, x) for x in self.darts if x != d])
         for (e, f), joined in self.joined.items():
             self.entry[e, f] = self.define_and("edges", f"entry.{e}.{f}", [self.first[f], joined])
-        # Each vertex but v0 hangs on a smaller dart: by induction every vertex is joined with v0.
+        # By induction every vertex is joined with v0.
         for f in self.darts[1:]:
             self.imply("connected", [self.first[f]], *(self.entry[e, f] for e in range(f)))
 
     def _first_vertex(self) -> CnfRow:
-        """Per dart, the Boolean that it is a dart of v0."""
         degrees = [self.vertex[0, after] for after in range(1, len(self.darts) + 1)]
-        # Dart d is at v0 exactly if v0, which begins with dart 0, has more than d darts.
+        # v0 begins with dart 0, so dart d is at v0 if it has more than d darts.
         return tuple(self.define_or("rotation", f"in_v0.{d}", degrees[d:]) for d in self.darts)
 
-    # ------------------------------------------------------------ the map S
-
     def map(self, name: str) -> EncodedMap:
-        """A new reachable map of the world."""
+        """A new reachable map."""
         known = self.booleans(f"{name}.known", len(self.darts))
         explored = self.booleans(f"{name}.explored", len(self.darts))
         group = f"{name}.reachable"
@@ -156,12 +142,12 @@ class Worlds(Formula):
         return EncodedMap(known, explored)
 
     def number_the_rest(self, known: CnfRow | None = None) -> None:
-        """Require that a map's unknown vertices (None: all but v0) are numbered breadth-first."""
+        """Require that unknown vertices (None: all but v0) are numbered breadth-first."""
         known = self.in_v0 if known is None else known
         group = "numbering"
         for (e1, f1), earlier in self.entry.items():
             for (e2, f2), later in self.entry.items():
-                # Of two unknown vertices, the one with the earlier entry comes first.
+                # The unknown vertex with the earlier entry comes first.
                 if f1 < f2 and e1 > e2:
                     self.imply(group, [earlier, later], known[f1], known[f2])
         for (f, degree), vertex in self.vertex.items():
@@ -171,13 +157,13 @@ class Worlds(Formula):
                     self.imply(group, [vertex, self.edge(e, g)], *before, known[f])
 
     def include(self, group: str, smaller: EncodedMap, larger: EncodedMap) -> None:
-        """Require that the smaller map is a part of the larger."""
+        """Require that one map is a part of another."""
         for d in self.darts:
             self.imply(group, [smaller.known[d]], larger.known[d])
             self.imply(group, [smaller.explored[d]], larger.explored[d])
 
     def restrict(self, world_class: str) -> None:
-        """Require that the world is of a class: `any`, `loopless` or `simple`."""
+        """Require a class: `any`, `loopless` or `simple`."""
         if world_class == "any":
             return
         group = "class"
@@ -189,16 +175,14 @@ class Worlds(Formula):
             same[a, b] = same[b, a] = literal  # no vertex begins between a and b
         for (a, b), joined in self.joined.items():
             self.imply(group, [joined], -same[a, b])  # no loop
-            # No second edge c-d beside a-b. c and d come in both orders, and a is the least dart.
+            # No second edge c-d beside a-b.
             for c in self.darts if world_class == "simple" else ():
                 for d in self.darts:
                     if a < min(c, d) and b not in {c, d} and c != d:
                         self.add(group, -joined, -self.edge(c, d), -same[a, c], -same[b, d])
 
-    # ------------------------------------------------------------ walking
-
     def position(self, group: str, name: str) -> CnfRow:
-        """A new position: a one-hot row over darts."""
+        """A new one-hot row over darts."""
         return self.row(group, name, len(self.darts))
 
     def turn(
@@ -210,16 +194,16 @@ class Worlds(Formula):
         *guard: CnfLiteral,
         absolute: bool = False,
     ) -> None:
-        """Require, where the guard holds, that `leave` is the dart of this door at `at`.
+        """Require, under the guard, that `leave` is this door at `at`.
 
         Args:
-            absolute: count doors from the first dart of the vertex instead (a seeded fault).
+            absolute: count doors from the vertex's first dart (a seeded fault).
         """
         for (f, degree), vertex in self.vertex.items():
             for x in range(f, f + degree):
                 for k in self.darts:
                     here = (*guard, at[x], vertex)
-                    # A door beyond the degree does not exist: the row of doors must not choose it.
+                    # Doors beyond the degree do not exist.
                     if k < degree:
                         place = k if absolute else (x - f + k) % degree
                         self.imply(group, (*here, door[k]), leave[f + place])
@@ -227,23 +211,21 @@ class Worlds(Formula):
                         self.imply(group, here, -door[k])
 
     def cross(self, group: str, leave: CnfRow, arrive: CnfRow, *guard: CnfLiteral) -> None:
-        """Require, where the guard holds, that `arrive` is the partner of `leave`."""
+        """Require, under the guard, that `arrive` is the partner of `leave`."""
         for (a, b), joined in self.joined.items():
             self.imply(group, [*guard, leave[a], joined], arrive[b])
             self.imply(group, [*guard, leave[b], joined], arrive[a])
 
     def at_one_of(self, group: str, at: CnfRow, darts: CnfRow, name: str) -> CnfLiteral:
-        """A new Boolean that holds exactly if the position is one of these darts."""
+        """Whether the position is one of these darts."""
         found = self.boolean(name)
         for place, member in zip(at, darts, strict=True):
             self.imply(group, [place, member], found)
             self.imply(group, [place, -member], -found)
         return found
 
-    # ------------------------------------------------------------ sensing
-
     def sense(self, group: str, at: CnfRow, name: str) -> EncodedPercept:
-        """The percept of a robot whose reference dart is this position."""
+        """The percept of a robot with this reference dart."""
         degree = self.row(group, f"{name}.degree", len(self.darts))
         marker = self.booleans(f"{name}.marker", len(self.darts))
         here = self.at_one_of(group, at, self.in_v0, f"{name}.here")
@@ -253,7 +235,7 @@ class Worlds(Formula):
                 # From dart x of v0 the marked dart, 0, is x doors back: door -x modulo the degree.
                 if f == 0:
                     self.imply(group, [at[x], vertex], marker[-x % doors])
-        # Where v0 is not sensed, all of `marker` is false: at most one door, and none without it.
+        # Away from v0 all of `marker` is false.
         for one, other in combinations(marker, 2):
             self.add(group, -one, -other)
         for door in marker:
@@ -268,7 +250,7 @@ class Worlds(Formula):
         name: str,
         marker: MarkerDetail = "directed",
     ) -> CnfLiteral:
-        """A new Boolean that holds exactly if two percepts are equal in what is compared."""
+        """Whether two percepts are equal in what is compared."""
         parts = [self.define_equal(group, f"{name}.degree", one.degree, other.degree)]
         if marker != "none":
             parts.append(
@@ -283,25 +265,23 @@ class Worlds(Formula):
         return self.define_and(group, f"{name}.alike", parts)
 
 
-# ---------------------------------------------------------------- walks
-
 RuleFault = Literal[
     "", "through-unexplored", "absolute-doors", "shifted", "turned", "one-more", "first-dart"
 ]
-"""One mistake in a rule; "" is none:
+"""One mistake in a rule, so that it fails in a small world; "" is none:
 
     through-unexplored  an unexplored dart is traced as if it led back to itself
-    absolute-doors      doors are counted on S from the first dart of the vertex
-    shifted             a percept is compared with the one behind the next door
-    turned              after an excursion the robot forgets that its reference dart is turned
+    absolute-doors      doors on S are counted from the vertex's first dart
+    shifted             a percept is compared with the next one
+    turned              the robot forgets that an excursion turned its reference dart
     one-more            the door behind the common prefix is compared too
-    first-dart          records are traced again from the first dart of the vertex that was entered
+    first-dart          records are traced again from the entered vertex's first dart
 """
 
 
 @dataclass(frozen=True, slots=True)
 class Walk:
-    """A walk of n doors: n + 1 positions, the doors, the darts left by, and n + 1 percepts."""
+    """A walk of n doors: n + 1 positions and percepts, the doors, the darts left by."""
 
     at: tuple[CnfRow, ...]
     doors: tuple[CnfRow, ...]
@@ -311,12 +291,7 @@ class Walk:
 
 @dataclass(frozen=True, slots=True)
 class EdgeCrossing:
-    """A world, a map of it, and the robot behind an unexplored dart.
-
-    Attributes:
-        e: the dart crossed.
-        vu: the reference dart behind it.
-    """
+    """A world, a map, and the robot behind dart e, with reference dart vu."""
 
     world: Worlds
     chart: EncodedMap
@@ -325,7 +300,7 @@ class EdgeCrossing:
 
 
 def behind_an_edge(edges: int, *, world_class: str = "any") -> EdgeCrossing:
-    """A robot behind any unexplored dart e of any reachable map S in any world of the class."""
+    """A robot behind any unexplored dart of any map, in any world of the class."""
     world = Worlds(edges)
     world.restrict(world_class)
     chart = world.map("S")
@@ -335,7 +310,7 @@ def behind_an_edge(edges: int, *, world_class: str = "any") -> EdgeCrossing:
 
 
 def crossed(world: Worlds, chart: EncodedMap, name: str) -> tuple[CnfRow, CnfRow]:
-    """Any unexplored dart of a map, and the robot's reference dart after crossing it."""
+    """Any unexplored dart, and the reference dart after crossing it."""
     e = open_dart(world, chart, name)
     vu = world.position(name, f"{name}.behind")
     world.cross(name, e, vu)
@@ -352,7 +327,7 @@ def open_dart(world: Worlds, chart: EncodedMap, name: str) -> CnfRow:
 
 
 def hypothesis(scene: EdgeCrossing) -> CnfRow:
-    """Any hypothesis for e: another unexplored dart of S."""
+    """Any hypothesis for e: another unexplored dart."""
     h = open_dart(scene.world, scene.chart, "h")
     for one, other in zip(scene.e, h, strict=True):
         scene.world.add("h", -one, -other)
@@ -360,13 +335,10 @@ def hypothesis(scene: EdgeCrossing) -> CnfRow:
 
 
 def true_hypothesis(scene: EdgeCrossing) -> CnfRow:
-    """The true hypothesis for e: its other end, in worlds where S knows it."""
+    """The other end of e, in worlds where S knows it."""
     h = hypothesis(scene)
     scene.world.equate("h", (), h, scene.vu)
     return h
-
-
-# ------------------------------------------------------------------ walks
 
 
 def doors(world: Worlds, name: str, steps: int) -> tuple[CnfRow, ...]:
@@ -375,7 +347,7 @@ def doors(world: Worlds, name: str, steps: int) -> tuple[CnfRow, ...]:
 
 
 def going(world: Worlds, name: str, steps: int) -> tuple[CnfLiteral, ...]:
-    """Per step, is it made? This lets a word be shorter than the number of steps."""
+    """Per step, is it made? This allows shorter words."""
     go = world.booleans(f"{name}.go", steps)
     for before, after in pairwise(go):
         world.add(name, -after, before)
@@ -389,16 +361,16 @@ def walk(
     word: tuple[CnfRow, ...],
     go: tuple[CnfLiteral, ...] | None = None,
 ) -> Walk:
-    """The walk along a word in the world, which stays in place once `go` has ended."""
+    """The walk along a word in the world, at rest once `go` has ended."""
     at, leave, senses = [start], list[CnfRow](), [world.sense(name, start, f"{name}.0")]
     for i, door in enumerate(word):
-        # Where a step is not made, `leave` is any dart, and nothing reads it.
+        # Without a step, `leave` is any dart.
         guard = () if go is None else (go[i],)
         leave.append(world.position(name, f"{name}.leave.{i}"))
         at.append(world.position(name, f"{name}.at.{i + 1}"))
         world.turn(name, at[i], door, leave[i], *guard)
         world.cross(name, leave[i], at[i + 1], *guard)
-        if go is not None:  # a step that is not made stays in place
+        if go is not None:
             world.equate(name, (-go[i],), at[i], at[i + 1])
         senses.append(world.sense(name, at[i + 1], f"{name}.{i + 1}"))
     return Walk(tuple(at), word, tuple(leave), tuple(senses))
@@ -406,10 +378,10 @@ def walk(
 
 @dataclass(frozen=True, slots=True)
 class TracedWalk:
-    """A walk on a map, made until it crosses an unexplored dart.
+    """A walk on a map up to the first unexplored dart.
 
     Attributes:
-        alive: per position, has the walk crossed only explored darts so far?
+        alive: per position, were only explored darts crossed so far?
         ends: per step, is it the first to cross an unexplored dart?
     """
 
@@ -427,9 +399,9 @@ def trace(
     *,
     fault: RuleFault = "",
 ) -> TracedWalk:
-    """The walk along a word on a map, made as far as it crosses explored darts."""
+    """The walk along a word on a map."""
     at, leave, senses = [start], list[CnfRow](), [world.sense(name, start, f"{name}.0")]
-    # Dart 0 always begins a vertex: `first[0]` is the constant true of the encoding.
+    # `first[0]` is the constant true.
     alive, ends = [world.first[0]], list[CnfLiteral]()
     for i, door in enumerate(word):
         leave.append(world.position(name, f"{name}.leave.{i}"))
@@ -439,7 +411,7 @@ def trace(
         on = world.define_and(name, f"{name}.on.{i + 1}", [alive[i], known])
         ends.append(world.define_and(name, f"{name}.ends.{i}", [alive[i], -known]))
         world.cross(name, leave[i], at[i + 1], on)
-        # Once the walk has ended it stays in place, so that all rows keep a definite value.
+        # After its end the walk stays in place: all rows keep a definite value.
         world.equate(name, (-alive[i],), at[i], at[i + 1])
         through = fault == "through-unexplored"
         world.equate(name, (ends[i],), leave[i] if through else at[i], at[i + 1])
@@ -451,7 +423,7 @@ def trace(
 def stay_explored(
     world: Worlds, chart: EncodedMap, walked: Walk, go: tuple[CnfLiteral, ...]
 ) -> None:
-    """Require that every step made crosses an explored dart of the map."""
+    """Require that every step made crosses an explored dart."""
     for leave, on in zip(walked.leave, go, strict=True):
         for d in world.darts:
             world.add("explored-way", -on, -leave[d], chart.explored[d])
@@ -460,13 +432,12 @@ def stay_explored(
 def differ_somewhere(
     world: Worlds, pairs: Sequence[tuple[EncodedPercept, EncodedPercept, tuple[CnfLiteral, ...]]]
 ) -> None:
-    """Negate the conclusion: somewhere all guards hold and the two percepts differ.
+    """Negate the conclusion: somewhere all guards hold and the percepts differ.
 
-    The premises alone must let a guarded place be reached: otherwise nothing would be compared.
+    The premises alone must reach a guarded place, or nothing would be compared.
     """
     reached: list[CnfLiteral] = []
     seen: list[CnfLiteral] = []
-    # Without guards a place is always reached, and `met` has nothing to require for it.
     for i, (one, other, guards) in enumerate(pairs):
         same = world.alike("percepts", one, other, f"compare.{i}")
         if guards:

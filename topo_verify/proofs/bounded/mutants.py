@@ -1,30 +1,20 @@
-"""Theorems that must be refuted by a world: the negatives, and rules with one mistake.
+"""Theorems that a world must refute: the negatives, and rules with one mistake (`RuleFault`).
 
-    negative   a mapper that ignores the direction, or the whole, of the marker confirms a false
-               hypothesis: in the smallest worlds of their class (`SMALLEST`)
-    mutant     a rule with a fault (`RuleFault`) confirms a false hypothesis, or rejects the
-               true one
+The solver finds a world, a map and doors. The simulator repeats them, and the checkers must find
+that the claim fails (`replay.py`); a model that does not replay is a bug, and raises.
 
-The solver finds a world, a map and doors. Then the simulator repeats them, and the checkers must
-find that the claim fails (`replay.py`). A model that does not replay is a bug, and raises.
-
-**Negatives.** Without the marker's direction, mappers confirm false hypotheses. A mapper stands
-behind e and walks the way home of a hypothesis h, a shortest way on S from h to v0. It compares the
-percepts at each door and at both ends, but of the marker it compares only the presence
-(`undirected`), or nothing (`none`). Then there are worlds in which every percept is as expected
-although e does not end in h. The smallest have this many edges:
+**Negatives.** A mapper behind e walks a shortest way on S from hypothesis h to v0. Of the marker it
+compares only the presence (`undirected`) or nothing (`none`). In some worlds every percept is as
+expected although e does not end in h. The smallest have this many edges:
 
     class       undirected   none
     any         2            2
     loopless    3            2
     simple      4            3
 
-The way is any shortest one, whichever a breadth-first search would take: so there is no smaller
-world for any policy. Depths on S are one-hot:
+The way is any shortest one, so no policy has a smaller world. Depths on S are one-hot:
 
     depth[x][t]   the vertex of x is t edges from v0 on S       down[x]   x leads one nearer to v0
-
-Source: docs/semantics.md, sections 6, 7 and 10.
 """
 
 from __future__ import annotations
@@ -52,7 +42,7 @@ from topo_verify.proofs.theorem import Budget, Query, Theorem, TheoremResult, ti
 
 @dataclass(frozen=True, slots=True)
 class Negative:
-    """A false claim about a class of worlds, and the edges of the smallest that refutes it."""
+    """A false claim about a class, and the edges of the smallest world that refutes it."""
 
     marker: enc.MarkerDetail
     world_class: str
@@ -60,7 +50,7 @@ class Negative:
 
     @property
     def name(self) -> str:
-        """The name of the theorem, such as `undirected-simple`."""
+        """The theorem's name, such as `undirected-simple`."""
         return f"{self.marker}-{self.world_class}"
 
     @property
@@ -86,15 +76,15 @@ SMALLEST = (
 
 
 def premises(edges: int, world_class: str) -> Formula:
-    """Any unexplored dart of any map of any world of the class, without a hypothesis."""
-    # Without h: in the loopless world with one edge there is none, and the theorem counts it.
+    """Any unexplored dart of any map of any world of the class."""
+    # Without h: the loopless world with one edge has none, but counts.
     return enc.behind_an_edge(edges, world_class=world_class).world
 
 
 def false_confirmation(
     edges: int, world_class: str, marker: enc.MarkerDetail
 ) -> EncodedCounterexample:
-    """Every percept on a shortest way home from h is as expected, and e does not end in h."""
+    """Percepts on a shortest way home from a false h are as expected."""
     scene = enc.behind_an_edge(edges, world_class=world_class)
     world, h = scene.world, enc.hypothesis(scene)
     word = enc.doors(world, "door", edges)
@@ -102,7 +92,7 @@ def false_confirmation(
     here = enc.walk(world, "here", h, word, go)
     there = enc.walk(world, "there", scene.vu, word, go)
     enc.stay_explored(world, scene.chart, here, go)
-    # A step is made exactly if v0 is not reached yet, and after all steps it is.
+    # A step is made exactly if v0 is not reached yet.
     for i, on in enumerate(go):
         world.equate("way", (), (on,), (-here.senses[i].here,))
     world.add("way", here.senses[-1].here)
@@ -119,7 +109,7 @@ def false_confirmation(
 
 
 def depths(world: enc.Worlds, chart: enc.EncodedMap) -> tuple[CnfRow, ...]:
-    """Per dart, a one-hot row: the distance of its vertex from v0 on the map."""
+    """Per dart, one-hot: the distance of its vertex from v0 on the map."""
     group, levels = "depths", range(world.edges + 1)
     depth = tuple(world.booleans(f"depth.{d}", len(levels)) for d in world.darts)
     down = world.booleans("down", len(world.darts))
@@ -132,7 +122,7 @@ def depths(world: enc.Worlds, chart: enc.EncodedMap) -> tuple[CnfRow, ...]:
             for u in range(t):
                 world.add(group, -depth[d][t], -depth[d][u])
         world.imply(group, [down[d]], chart.explored[d])
-    # All darts of a vertex have one depth, and each vertex but v0 has a dart that leads nearer.
+    # A vertex has one depth, and a dart that leads nearer.
     for (f, degree), vertex in world.vertex.items():
         for x in range(f + 1, f + degree):
             world.equate(group, (vertex,), depth[x], depth[f])
@@ -153,7 +143,6 @@ def depths(world: enc.Worlds, chart: enc.EncodedMap) -> tuple[CnfRow, ...]:
 def _one_nearer(
     world: enc.Worlds, depth: tuple[CnfRow, ...], leave: CnfRow, arrive: CnfRow, on: int
 ) -> None:
-    """Require that a step that is made leads from depth t to depth t - 1."""
     for x in world.darts:
         for y in world.darts:
             for t in range(1, world.edges + 1):
@@ -161,12 +150,9 @@ def _one_nearer(
                 world.imply("shortest", made, depth[y][t - 1])
 
 
-# ---------------------------------------------------------------- theorems that must be refuted
-
-
 @dataclass(frozen=True, slots=True)
 class _FaultyRule:
-    """A rule with one mistake: its name, the fault, the edges of its smallest counterexample."""
+    """A rule with one mistake, and the edges of its smallest counterexample."""
 
     rule: str
     fault: enc.RuleFault | enc.MarkerDetail
@@ -175,12 +161,12 @@ class _FaultyRule:
 
 
 def negative_theorems() -> tuple[Theorem, ...]:
-    """Every negative as a theorem about its smallest size."""
+    """Each negative as a theorem about its smallest size."""
     return tuple(map(_negative, SMALLEST))
 
 
 def mutant_theorems() -> tuple[Theorem, ...]:
-    """Every faulty rule as a theorem about the smallest worlds in which it fails."""
+    """Each faulty rule as a theorem about the smallest worlds in which it fails."""
     return tuple(map(_mutant, _MUTANTS))
 
 
@@ -238,7 +224,7 @@ _MUTANTS = (
 def _mutant(case: _FaultyRule) -> Theorem:
     confirms = case.rule == "confirm"
     name = f"words-{case.rule}-{case.fault}"
-    # Words of as many doors as there are edges, as in the theorem that is changed.
+    # Words of m doors, as in the changed theorem.
     mistake = {"marker" if confirms else "fault": case.fault}
     build = partial(_RULES[case.rule], case.edges, case.edges, **mistake)
     return Theorem(
@@ -257,7 +243,7 @@ def _mutant(case: _FaultyRule) -> Theorem:
 
 
 def _replay_of(case: _FaultyRule) -> Callable[[BoundedCounterexample], ReplayedCounterexample]:
-    # A fault of `confirm` is how much of the marker is compared; any other is a `RuleFault`.
+    # A fault of `confirm` is a `MarkerDetail`, any other a `RuleFault`.
     match case.fault:
         case "directed" | "undirected" | "none" as marker:
             return partial(replay_confirmation, marker=marker, whole=False)
@@ -270,11 +256,10 @@ def _refute(
     replay: Callable[[BoundedCounterexample], ReplayedCounterexample],
     budget: Budget,
 ) -> TheoremResult:
-    """The result of looking for a model; one that is found is decoded and replayed."""
     encoded = build()
     result = first_model(encoded.world, decoded_booleans(encoded), budget)
     if result.model is None:
-        # No model: the mutant was not refuted, and EXHAUSTED is not what is expected of it.
+        # No model: EXHAUSTED is not the expected verdict.
         exhausted = result.answer == "unsat"
         return z3_result(
             verdict="EXHAUSTED" if exhausted else "UNKNOWN",

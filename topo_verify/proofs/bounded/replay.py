@@ -1,19 +1,14 @@
-"""Counterexamples: an assignment is decoded, and repeated in the simulator without a solver.
+"""Counterexamples: decode an assignment, and repeat it in the simulator without a solver.
 
-`decode` turns an assignment into a world, a map and doors, and judges nothing. The simulated robot
-draws the map of the counterexample edge by edge, crosses e and takes the doors; then the checkers
-judge the trace.
+`decode` returns a world, a map and doors. The simulated robot draws the map edge by edge, crosses e
+and takes the doors; the checkers judge the trace.
 
-    false confirmation   all percepts that the mapper compares are as expected; it confirms h, and
-                         claim `no-false-confirm` must fail at this very event
-    false rejection      the faulty rule, written here a second time as plain code on the map, finds
-                         an unexpected percept; it rejects h, and claim `true-hypothesis-kept` must
-                         fail at this very event
+    false confirmation   all percepts are as expected; the mapper confirms h, and claim
+                         `no-false-confirm` must fail at this event
+    false rejection      the faulty rule, written a second time as code on the map, finds an
+                         unexpected percept; it rejects h, and `true-hypothesis-kept` must fail
 
 A model that does not replay is a bug of the encoding and raises `Disagreement`.
-
-Source: docs/semantics.md, sections 4, 6, 7 and 9.
-
 """
 
 from __future__ import annotations
@@ -39,7 +34,7 @@ DoorWord = tuple[Door, ...]
 
 @dataclass(frozen=True, slots=True)
 class EarlierExcursion:
-    """An earlier excursion: the explored edges before it, the dart crossed, the doors behind it."""
+    """An earlier excursion: explored edges before it, dart crossed, doors behind it."""
 
     explored: frozenset[tuple[ev.MapDart, ev.MapDart]]
     e: ev.MapDart
@@ -48,16 +43,16 @@ class EarlierExcursion:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoundedCounterexample:
-    """A decoded counterexample. The darts of S and of the world have one numbering.
+    """A decoded counterexample; S and the world share one numbering of darts.
 
     Attributes:
-        explored: the edges of S, smaller dart first; S knows v0 besides.
-        e, h: the dart that was crossed, and the hypothesis for its other end.
+        explored: the edges of S, smaller dart first.
+        e, h: the dart that was crossed, and the hypothesis.
         word: the doors executed behind e.
-        own: the doors of the hypothesis' own way home.
-        turned: the door of a first excursion behind e, or None.
-        earlier: for records, the excursion behind another edge that was recorded before.
-        levels: for records, the depth to which they are compared; None: any depth.
+        own: the hypothesis' own way home.
+        turned: the door of a first excursion behind e, if any.
+        earlier: for records, the recorded excursion.
+        levels: for records, the depth compared; None: any.
     """
 
     world: World
@@ -72,7 +67,7 @@ class BoundedCounterexample:
 
 
 def decode_table(world: Worlds, model: Assignment) -> Table:
-    """The degrees and alpha of an assignment, with its numbers of darts."""
+    """The degrees and alpha of an assignment."""
     # (first dart, degree) of each vertex: sorted, they stand in the order of their darts.
     held = sorted(place for place, vertex in world.vertex.items() if model.holds(vertex))
     alpha = [0] * len(world.darts)
@@ -83,13 +78,13 @@ def decode_table(world: Worlds, model: Assignment) -> Table:
 
 
 def decode_world(world: Worlds, model: Assignment) -> World:
-    """The world of an assignment, with its numbers of darts."""
+    """The world of an assignment."""
     return World.from_code(decode_table(world, model))
 
 
 def decoded_booleans(encoded: EncodedCounterexample) -> CnfRow:
-    """The Booleans that `decode` reads; the others follow from them, or do not matter."""
-    # Their order decides which counterexample comes first, so a new one belongs at the end.
+    """The Booleans that `decode` reads."""
+    # Their order decides which counterexample comes first: append new ones.
     maps = [encoded.chart] if encoded.earlier is None else [encoded.earlier.chart, encoded.chart]
     rows = [encoded.world.first, tuple(encoded.world.joined.values())]
     rows += [row for chart in maps for row in (chart.known, chart.explored)]
@@ -100,9 +95,8 @@ def decoded_booleans(encoded: EncodedCounterexample) -> CnfRow:
 
 
 def decode(encoded: EncodedCounterexample, model: Assignment) -> BoundedCounterexample:
-    """The counterexample that an assignment encodes."""
+    """The counterexample of an assignment."""
     world = decode_world(encoded.world, model)
-    # The steps that are made are a prefix of the word, so their number says which they are.
     made = sum(map(model.holds, encoded.made)) if encoded.made is not None else None
     # Only `prefix` tells the two apart. There `made` speaks of the own way, and the executed word
     # is taken whole.
@@ -137,10 +131,8 @@ def _edges(
     return frozenset(edge for edge in world.edges if model.holds(chart.explored[edge[0]]))
 
 
-# ---------------------------------------------------------------- replay
-
 PerceptPairs = Iterator[tuple[int, Percept, Percept]]
-"""(step, the percept that the rule expects, the percept that it compares with it)."""
+"""(step, expected percept, compared percept)."""
 
 
 class Disagreement(InternalError):
@@ -149,7 +141,7 @@ class Disagreement(InternalError):
 
 @dataclass(frozen=True, slots=True)
 class ReplayedCounterexample:
-    """A replayed counterexample: the doors of all moves, and the event that fails the claim."""
+    """The doors of all moves, and the event that fails the claim."""
 
     world: World
     doors: DoorWord
@@ -163,9 +155,8 @@ def replay_confirmation(
     """Replay a false confirmation.
 
     Args:
-        marker: how much of the marker the mapper compares.
-        whole: require that all percepts are as expected and that the way is a shortest one; else
-            only that the last percept is as expected.
+        marker: what the mapper compares of the marker.
+        whole: require that all percepts are as expected on a shortest way; else only the last.
     Raises:
         Disagreement: the confirmation does not happen.
     """
@@ -210,9 +201,6 @@ def replay_rejection(
     raise Disagreement(f"{found}: the rule {rule} with the fault {fault!r} rejects nothing")
 
 
-# ------------------------------------------------------------------ the faulty rules
-
-
 def _compared(
     run: _Replayer, found: BoundedCounterexample, rule: str, fault: RuleFault
 ) -> PerceptPairs:
@@ -226,14 +214,12 @@ def _compared(
 
 
 def _along(run: _Replayer, way: list[ev.MapDart], fault: RuleFault) -> PerceptPairs:
-    """The percepts along a way, one for one; with the fault `shifted` one later."""
     later = int(fault == "shifted")
     for step, (at, seen) in enumerate(zip(way, run.pilot.percepts[later:], strict=False)):
         yield step, run.chart.percepts[at], seen
 
 
 def _prefix(run: _Replayer, found: BoundedCounterexample, fault: RuleFault) -> PerceptPairs:
-    """The percepts on the common prefix; with the fault `one-more` one door further."""
     way = _way(run.chart, found.h, found.own)
     shared = common_prefix(found.own, found.word) + int(fault == "one-more")
     for step in range(1, min(shared, len(found.own), len(found.word)) + 1):
@@ -241,9 +227,9 @@ def _prefix(run: _Replayer, found: BoundedCounterexample, fault: RuleFault) -> P
 
 
 def _records(run: _Replayer, found: BoundedCounterexample) -> PerceptPairs:
-    """The records behind the unexplored dart where tracing ends, as deep as the doors agree."""
+    """The records behind the dart where tracing ends, as deep as the doors agree."""
     assert found.earlier is not None
-    # One entry for vu and one for each door on S, so door number `step` is the one that leaves S.
+    # One entry for vu and one for each door on S: door `step` leaves S.
     step = len(_traced(run.chart, found.h, found.word))
     if run.recorded is None or step > len(found.word):
         return
@@ -258,7 +244,6 @@ def _records(run: _Replayer, found: BoundedCounterexample) -> PerceptPairs:
 
 
 def _way(chart: Chart, at: ev.MapDart, word: DoorWord) -> list[ev.MapDart]:
-    """The reference darts on a way over explored darts, the first included."""
     way = [at]
     for door in word:
         way.append(chart.across(chart.turn(way[-1], door)))
@@ -268,7 +253,7 @@ def _way(chart: Chart, at: ev.MapDart, word: DoorWord) -> list[ev.MapDart]:
 def _traced(
     chart: Chart, at: ev.MapDart, word: DoorWord, fault: RuleFault = ""
 ) -> list[ev.MapDart]:
-    """The reference darts while a word is traced, until it crosses an unexplored dart."""
+    """The reference darts while a word is traced, up to an unexplored dart."""
     way = [at]
     for door in word:
         here = chart.first[chart.vertex[way[-1]]] if fault == "absolute-doors" else way[-1]
@@ -281,7 +266,6 @@ def _traced(
 
 
 def _seen(percept: Percept, marker: MarkerDetail) -> object:
-    """The part of a percept that a mapper compares."""
     match marker:
         case "directed":
             return percept
@@ -291,11 +275,8 @@ def _seen(percept: Percept, marker: MarkerDetail) -> object:
             return percept.degree
 
 
-# ------------------------------------------------------------------ the robot
-
-
 class _Replayer:
-    """A robot that draws the map of a counterexample in its world. Lives for one replay."""
+    """A robot that draws a counterexample's map in its world."""
 
     def __init__(self, found: BoundedCounterexample, fault: RuleFault = "") -> None:
         self.world = found.world
@@ -303,7 +284,7 @@ class _Replayer:
         self.chart = Chart(self.robot.percept)
         self.pilot = Pilot(self.robot)
         self.at: ev.MapDart = 0
-        # The dart under which records are kept, and the index of its first percept.
+        # The recorded dart, and the index of its first percept.
         self.recorded: tuple[ev.MapDart, int] | None = None
         self.recorded_percepts: tuple[Percept, ...] = ()
         if found.earlier is not None:
@@ -311,10 +292,9 @@ class _Replayer:
         self._draw(found.explored)
 
     def cross(self, e: ev.MapDart, marker: MarkerDetail = "undirected") -> None:
-        """Walk to e, cross it, and pose the hypotheses that look like the vertex behind it."""
         del self.chart.unexplored[e]
         self.at = self.pilot.walk(self.chart, self.at, self.chart.vertex[e])
-        # Hypotheses are posed by what does not depend on the reference dart, hence no direction.
+        # Posing does not depend on the reference dart, hence no direction.
         signature: MarkerDetail = "undirected" if marker == "directed" else marker
         seen = _seen(self.pilot.cross(self.chart, self.at, e), signature)
         percepts = self.chart.percepts
@@ -322,20 +302,18 @@ class _Replayer:
         self.robot.declare(ev.Pose(e, tuple(alike)))
 
     def out(self, word: DoorWord) -> None:
-        """Take these doors in the simulator."""
         for door in word:
             self.pilot.forward(door)
 
     def excursion(self, word: DoorWord) -> None:
-        """Go out and back, then forget that the reference dart is turned (the fault `turned`)."""
+        """Go out and back, and forget that the reference dart is turned."""
         self.out(word)
         self.pilot.back(0)
         self.pilot.turned = 0
 
     def judge(self, decision: ev.Decision, claim: str) -> ReplayedCounterexample:
-        """Declare a decision; the checkers must find that the claim fails at this very event."""
+        """Declare a decision; the claim must fail at this event."""
         self.robot.declare(decision)
-        # The verdict of the trusted checkers counts, not that of the encoding.
         trace = (ev.Start(percept=first_percept(self.world)), *self.robot.events)
         event = len(trace) - 1
         findings = [found for judged in check(self.world, trace) for found in judged.findings]
@@ -345,8 +323,7 @@ class _Replayer:
         return ReplayedCounterexample(self.world, moves, event, claim)
 
     def _draw(self, explored: frozenset[tuple[ev.MapDart, ev.MapDart]]) -> None:
-        """Explore these edges: first those that find vertices, in their order, then the others."""
-        # First the edges by which vertices are found, or others would find them with other numbers.
+        # First the edges that find vertices, to keep their numbers.
         firsts = {rotation[0] for rotation in self.world.vertices[1:]}
         for e, end in sorted(explored, key=lambda edge: (edge[1] not in firsts, edge[1])):
             if self.chart.alpha[e] is None:
@@ -354,7 +331,6 @@ class _Replayer:
                 self._augment(e, end)
 
     def _augment(self, e: ev.MapDart, end: ev.MapDart) -> None:
-        """Go back behind e and join it with its end, a new vertex if S does not know it."""
         self.pilot.back(0)
         percept = self.robot.percept
         new = end >= len(self.chart.alpha)
@@ -365,7 +341,6 @@ class _Replayer:
         self.at = self.chart.turn(end, self.pilot.turned)
 
     def _learn(self, behind: EarlierExcursion, fault: RuleFault) -> None:
-        """Draw the earlier map, execute the word behind its dart, trace it again from there."""
         self._draw(behind.explored)
         self.cross(behind.e)
         self.out(behind.word)

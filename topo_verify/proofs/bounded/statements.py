@@ -1,28 +1,18 @@
 """The statements of the bounded theorems, in words, in symbols, and as clauses.
 
-Their clauses stand before them, a function for each: those that speak of one door, and those of
-whole words. `theorems.py` proves them. A new statement is one entry of a table below.
+A function returns the clauses of a failure; the statement is that nothing satisfies them
+(`theorems.py`). A new statement is one entry of a table below.
 
-    S, U        a map that can be reached; its unexplored darts         W     the world
-    p, r        a dart of S, a reference dart of the robot              p'    behind the door
+    S, U        a reachable map; its unexplored darts               W     the world
+    p, r        corresponding: a dart of S, a reference dart        p',r' behind the same door
     e, h        the dart that is crossed; a hypothesis for its other end
 
-**One arbitrary door**, at any place of any map: the steps of which words are made. Each function
-returns clauses that describe a failure at one door. The statement is that no world
-and no map satisfies them. By induction (docs/proofs.md) the statements hold for words of any length
-in every world with m edges.
+**One arbitrary door** at any place of any map: by induction (docs/proofs.md) this covers words of
+any length.
 
-    p, r      what corresponds: a dart of S, and a reference dart of the robot in the world
-    p', r'    the same behind the same door
-
-**Whole words** of up to `steps` doors, on every map of every world. Each function returns clauses
-that describe a failure of a rule: it confirms a false hypothesis, or rejects the true one.
-`encoding.py` explains the letters and the rules. No induction is needed, for words that are short.
-
-With a `fault` the rule is changed in one way, and there is a world in which it fails. The rows that
-say what happens there are in the `EncodedCounterexample`, for `replay.py`.
-
-Source: docs/semantics.md, sections 4, 6, 7 and 9.
+**Whole words** of up to `steps` doors, on every map of every world: a rule confirms a false
+hypothesis, or rejects the true one (letters and rules: `encoding.py`). With a `fault` the rule is
+changed, and some world makes it fail; `replay.py` reads the `EncodedCounterexample`.
 """
 
 from __future__ import annotations
@@ -36,7 +26,7 @@ from topo_verify.proofs.bounded.cnf import REFUTED, CnfLiteral, CnfRow, Formula
 
 
 def pose(edges: int) -> enc.Worlds:
-    """S knows the other end of e, which is explored or e itself: so it is no hypothesis."""
+    """S knows the other end of e, which is explored or e itself: not a hypothesis."""
     scene = enc.behind_an_edge(edges)
     world, known = scene.world, scene.chart.known
     for d in world.darts:
@@ -47,11 +37,11 @@ def pose(edges: int) -> enc.Worlds:
 
 
 def door(edges: int) -> enc.Worlds:
-    """Behind one explored door of corresponding darts, darts or percepts do not correspond."""
+    """Behind an explored door of corresponding darts, darts or percepts do not correspond."""
     world, chart = _map(edges)
     p = _known(world, chart, "p")
     r = world.position("r", "r")
-    # S is a part of the world with the same numbers, so what corresponds is equal.
+    # S and the world share numbers: corresponding darts are equal.
     world.equate("corresponding", (), p, r)
     word = enc.doors(world, "door", 1)
     here, there = enc.walk(world, "here", p, word), enc.walk(world, "there", r, word)
@@ -63,7 +53,7 @@ def door(edges: int) -> enc.Worlds:
 
 
 def confirm_back(edges: int) -> enc.Worlds:
-    """Two darts correspond behind one explored door, and did not before it."""
+    """Two darts correspond behind one explored door, but not before it."""
     world, chart = _map(edges)
     p, r = _known(world, chart, "p"), world.position("r", "r")
     word = enc.doors(world, "door", 1)
@@ -75,10 +65,10 @@ def confirm_back(edges: int) -> enc.Worlds:
 
 
 def confirm_final(edges: int, *, marker: enc.MarkerDetail = "directed") -> enc.Worlds:
-    """Two darts at v0 have equal percepts, marker direction included, and are different.
+    """Two different darts at v0 have equal percepts, marker direction included.
 
     Args:
-        marker: "undirected" looks at its presence only (a seeded fault).
+        marker: "undirected" compares its presence only (a seeded fault).
     """
     world, chart = _map(edges)
     p, r = _known(world, chart, "p"), world.position("r", "r")
@@ -91,7 +81,7 @@ def confirm_final(edges: int, *, marker: enc.MarkerDetail = "directed") -> enc.W
 
 
 def record(edges: int) -> enc.Worlds:
-    """One unexplored dart is crossed from two places, at two times; the percepts differ."""
+    """One unexplored dart is crossed at two times; the percepts differ."""
     world = enc.Worlds(edges)
     earlier, later = world.map("earlier"), world.map("later")
     world.include("grows", earlier, later)
@@ -108,7 +98,7 @@ def record(edges: int) -> enc.Worlds:
 
 
 def new_vertex(edges: int) -> enc.Worlds:
-    """S does not know the other end of e, and knows another dart of its vertex."""
+    """S does not know the other end of e, but another dart of its vertex."""
     scene = enc.behind_an_edge(edges)
     world, known = scene.world, scene.chart.known
     for d in world.darts:
@@ -120,7 +110,7 @@ def new_vertex(edges: int) -> enc.Worlds:
 
 
 def closed(edges: int) -> enc.Worlds:
-    """Every dart that S knows is explored, and S does not know every dart."""
+    """All darts of S are explored, but S does not know every dart."""
     world, chart = _map(edges)
     for known, explored in zip(chart.known, chart.explored, strict=True):
         world.imply("nothing-open", [known], explored)
@@ -147,12 +137,9 @@ def _explored(world: enc.Worlds, chart: enc.EncodedMap, leave: CnfRow) -> None:
         world.add("explored-door", -leave[d], chart.explored[d])
 
 
-# ---------------------------------------------------------------- whole words
-
-
 @dataclass(frozen=True, slots=True)
 class EncodedExcursion:
-    """An earlier excursion: the map before it, the dart crossed, the word executed behind it."""
+    """An earlier excursion: the map before it, the dart crossed, the word behind it."""
 
     chart: enc.EncodedMap
     e: CnfRow
@@ -161,15 +148,15 @@ class EncodedExcursion:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EncodedCounterexample:
-    """A formula, and the rows that say what happens in a world that satisfies it.
+    """A formula, and the rows that describe a counterexample.
 
     Attributes:
         chart: the map S.
         e, h: the dart crossed, and the hypothesis for its other end.
-        executed: the doors that the robot takes behind e.
+        executed: the doors taken behind e.
         made: per door, is it taken? None: all are.
-        own: for `prefix`, the doors of the hypothesis' own way home.
-        turned: for the fault of that name, the door of an earlier excursion.
+        own: for `prefix`, the hypothesis' own way home.
+        turned: for that fault, the door of an earlier excursion.
         earlier, levels: for `records`, the recorded excursion, and the depth compared.
     """
 
@@ -188,9 +175,9 @@ class EncodedCounterexample:
 def confirm(
     edges: int, steps: int, *, marker: enc.MarkerDetail = "directed"
 ) -> EncodedCounterexample:
-    """A way home from h ends with v0's percept as expected, and h is not the other end of e.
+    """A way home from a false h ends with v0's percept as expected.
 
-    Only the last percept is compared: comparing those between could only reject more.
+    Comparing percepts on the way could only reject more.
     """
     scene = enc.behind_an_edge(edges)
     world, h = scene.world, enc.hypothesis(scene)
@@ -211,7 +198,7 @@ def confirm(
 
 
 def trace_way(edges: int, steps: int, *, fault: enc.RuleFault = "") -> EncodedCounterexample:
-    """On a way over explored darts from the true h, a percept differs from the expected one."""
+    """On a way from the true h over explored darts, a percept is unexpected."""
     scene = enc.behind_an_edge(edges)
     world, h = scene.world, enc.true_hypothesis(scene)
     word, go = enc.doors(world, "door", steps), enc.going(world, "way", steps)
@@ -232,7 +219,7 @@ def trace_way(edges: int, steps: int, *, fault: enc.RuleFault = "") -> EncodedCo
 
 
 def prefix(edges: int, steps: int, *, fault: enc.RuleFault = "") -> EncodedCounterexample:
-    """On the common prefix of any executed word and the way of the true h, percepts differ."""
+    """On the common prefix of an executed word and the way of the true h, percepts differ."""
     scene = enc.behind_an_edge(edges)
     world, h = scene.world, enc.true_hypothesis(scene)
     own, go = enc.doors(world, "own", steps), enc.going(world, "way", steps)
@@ -256,7 +243,7 @@ def prefix(edges: int, steps: int, *, fault: enc.RuleFault = "") -> EncodedCount
 
 
 def history(edges: int, steps: int, *, fault: enc.RuleFault = "") -> EncodedCounterexample:
-    """Any executed word, traced on S from the true h, shows a percept that differs."""
+    """An executed word, traced on S from the true h, shows a percept that differs."""
     scene = enc.behind_an_edge(edges)
     world, h = scene.world, enc.true_hypothesis(scene)
     word = enc.doors(world, "door", steps)
@@ -276,12 +263,12 @@ def records(
 ) -> EncodedCounterexample:
     """A word traced from the true h crosses a recorded dart, and a percept differs from the record.
 
-    The map `before` has the unexplored dart `e1`; behind it the word `wrote` is executed, e1 turns
-    out to end in `entry`, which gives the map `earlier`, and the word is traced on it again. S is
-    any later map on which the dart where that ended is still unexplored.
+    Map `before` has the unexplored dart `e1`, behind which the word `wrote` is executed. e1 ends in
+    `entry`, which gives map `earlier`; the word is traced on it again. In S, a later map, the dart
+    where that ended is unexplored.
 
     Args:
-        levels: 1: only the place directly behind the dart; None: as deep as the doors agree.
+        levels: 1: only the place behind the dart; None: as deep as the doors agree.
     """
     world = enc.Worlds(edges)
     before, earlier, later = (world.map(name) for name in ("before", "earlier", "S"))
@@ -290,12 +277,12 @@ def records(
     world.number_the_rest(later.known)
     written, read = enc.doors(world, "wrote", steps), enc.doors(world, "door", steps)
     e1, entry = enc.crossed(world, before, "e1")
-    # `earlier` is `before` with the one edge e1-entry explored as well, and no other.
+    # `earlier` is `before` with just the edge e1-entry explored as well.
     for d in world.darts:
         for dart in (before.explored[d], e1[d], entry[d]):
             world.imply("augment", [dart], earlier.explored[d])
         world.imply("augment", [earlier.explored[d]], before.explored[d], e1[d], entry[d])
-    # `past` is where the robot was, `traced` where the rule believes it was: a fault parts them.
+    # The robot was at `past`; the rule believes `traced`.
     past = enc.walk(world, "past", entry, written)
     traced = enc.trace(world, "retraced", earlier, _root(world, entry, fault), written)
     e, vu = enc.crossed(world, later, "e")
@@ -315,7 +302,6 @@ def records(
 
 
 def _root(world: enc.Worlds, entry: CnfRow, fault: enc.RuleFault) -> CnfRow:
-    """The dart from which the earlier word is traced: the entry dart, or (a fault) the first."""
     if fault != "first-dart":
         return entry
     first = world.position("first-dart", "root")
@@ -332,7 +318,7 @@ def _links(
     later: enc.EncodedMap,
     levels: int | None,
 ) -> dict[tuple[int, int], CnfLiteral]:
-    """link[j, i]: the percept recorded behind door j is compared with the one behind door i."""
+    """link[j, i]: the percept recorded behind door j is compared with that behind door i."""
     link: dict[tuple[int, int], CnfLiteral] = {}
     for j, ended in enumerate(past.ends):
         explored = world.at_one_of("records", past.walk.leave[j], later.explored, f"dropped.{j}")
@@ -340,10 +326,10 @@ def _links(
             tag = f"{j}.{i}"
             one, other = past.walk.leave[j], now.walk.leave[i]
             same = world.define_equal("records", f"crossed.{tag}", one, other)
-            # Both walks end by crossing the same dart, which S has not explored: a record begins.
+            # Both walks end by crossing the same unexplored dart: a record begins.
             begins = [ended, ends, same, -explored]
             linked = world.define_and("records", f"begins.{tag}", begins)
-            # Behind linked doors, equal doors are linked as well: the record goes one place deeper.
+            # Behind linked doors, equal doors are linked: one place deeper.
             if levels is None and j and i:
                 words = past.walk.doors[j], now.walk.doors[i]
                 further = world.define_equal("records", f"door.same.{tag}", *words)
@@ -354,17 +340,14 @@ def _links(
     return link
 
 
-# ---------------------------------------------------------------- the statements
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoundedStatement:
-    """A bounded theorem, for any number of edges.
+    """A bounded theorem.
 
     Attributes:
-        refuted: given a number of edges, the clauses of a counterexample: they must contradict.
-        premises: the clauses that must be satisfiable, or the statement is vacuous; None: those of
-            `refuted` without the negated conclusion.
+        refuted: for a number of edges, the clauses of a counterexample.
+        premises: clauses that must be satisfiable, or the statement is vacuous; None: `refuted`
+            without the negated conclusion.
         least: the fewest edges with which it is not vacuous.
     """
 
@@ -380,7 +363,6 @@ class BoundedStatement:
 
 
 _BY_DOORS = ("doors",)
-"""The induction from one door to words of any length, by its name in docs/proofs.md."""
 
 ONE_DOOR_STATEMENTS = (
     BoundedStatement(
@@ -440,11 +422,11 @@ ONE_DOOR_STATEMENTS = (
 
 
 def _word(build: Callable[[int, int], EncodedCounterexample], edges: int) -> enc.Worlds:
-    # m doors are enough for any way home: it is simple, so it has at most n - 1 <= m.
+    # A way home is simple, so it has at most n - 1 <= m doors.
     return build(edges, edges).world
 
 
-# With one edge, which is e, S has explored nothing, so nothing would be compared.
+# With one edge, e, S has explored nothing to compare.
 _words_kept = partial(BoundedStatement, claims=("true-hypothesis-kept",), least=2)
 
 WHOLE_WORD_STATEMENTS = (

@@ -1,22 +1,16 @@
-"""The bounded theorems: they hold in every world with m edges, on every reachable map of it.
+"""The bounded theorems: they hold in every world with m edges, on every reachable map.
 
-    one-door   one arbitrary door at an arbitrary place, m = 1 … 6; words of any length by induction
-    words      whole words of up to m doors, m = 1 … 3; with --deep m = 4, where that is feasible
+    one-door   one door at any place, m = 1 … 6; words of any length by induction
+    words      whole words of up to m doors, m = 1 … 3; with --deep m = 4, where feasible
     below      no false confirmation without the marker's direction, below the sizes of `mutants.py`
-    worlds     the worlds of the encoding are the canonical codes, each of them once
+    worlds     the worlds of the encoding are the canonical codes, each once
 
-A theorem is EXHAUSTED if its clauses are unsatisfiable for each m; the worlds are counted in the
-encoding and by the formulas. Its premises alone must be satisfiable for each m.
-If the clauses are satisfiable, the model is decoded to a world that makes the theorem REFUTED.
+A theorem is EXHAUSTED if its clauses are unsatisfiable, and its premises satisfiable, for each m; a
+model is decoded to a world that makes it REFUTED.
 
-**The worlds of the encoding.** The solver lists them, and they are compared with the enumeration.
-With S = v0 alone a model of the encoding is a world in its breadth-first numbering. So the list of
-all models (each one found is forbidden before the next is asked for) must contain each rooted map
-once: the pairs (degrees, alpha) must be exactly the canonical codes of `world.enumeration`. There
-are 2, 10, 74, 706, 8162 of them with 1 … 5 edges. Hence "every world" in the bounded theorems means
-every world.
-
-Source: docs/semantics.md, sections 4 to 10 and 12.
+With S = v0 alone, a model of the encoding is a world in its breadth-first numbering. The list of
+all models must be the canonical codes of `world.enumeration`, (degrees, alpha), each once: 2, 10,
+74, 706, 8162 with 1 … 5 edges. So "every world" means every world.
 """
 
 from __future__ import annotations
@@ -43,11 +37,11 @@ from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.rank_order import Table
 
 LISTED_EDGES = 4
-"""Up to this size the worlds of a theorem are counted in its encoding; beyond, by formulas."""
+"""Up to this size worlds are counted in the encoding; beyond, by formulas."""
 
 
 def every_world(edges: int, world_class: str = "any") -> Worlds:
-    """The encoding of the worlds of a class, each in its breadth-first numbering."""
+    """The worlds of a class, in breadth-first numbering."""
     world = Worlds(edges)
     world.restrict(world_class)
     world.number_the_rest()
@@ -55,13 +49,13 @@ def every_world(edges: int, world_class: str = "any") -> Worlds:
 
 
 def codes(edges: int, world_class: str = "any", budget: th.Budget | None = None) -> Iterator[Table]:
-    """The pair (degrees, alpha) of each model, in the order in which the solver finds them.
+    """Yield the (degrees, alpha) of each model.
 
     Raises:
-        SolverGaveUp: the solver gave up before it had excluded further models.
+        SolverGaveUp: the solver gave up before excluding further models.
     """
     world = every_world(edges, world_class)
-    # These determine the world; every other Boolean is defined by them.
+    # These determine the world.
     over = (*world.first, *world.joined.values())
     for model in models(world, over, budget or th.Budget()):
         yield decode_table(world, model)
@@ -70,7 +64,7 @@ def codes(edges: int, world_class: str = "any", budget: th.Budget | None = None)
 def missing_and_spurious(
     edges: int, world_class: str = "any", budget: th.Budget | None = None
 ) -> tuple[int, list[Table], list[Table]]:
-    """The number of models; the codes without a model; the models that are no code, or repeated."""
+    """The number of models; codes without a model; models that are repeated or no code."""
     kind = WorldClass.parse(world_class)
     wanted = {table for table in rank_order.tables(edges) if kind.admits(table)}
     spurious: list[Table] = []
@@ -78,14 +72,14 @@ def missing_and_spurious(
     for code in codes(edges, world_class, budget):
         found += 1
         if code in wanted:
-            wanted.remove(code)  # so that a second model with this code counts as spurious
+            wanted.remove(code)  # a second model with this code is spurious
         else:
             spurious.append(code)
     return found, sorted(wanted), spurious
 
 
 def another_world(edges: int) -> Worlds:
-    """The clauses of a world that is none of the canonical codes: they must contradict."""
+    """The clauses of a world without a canonical code: they must contradict."""
     world = every_world(edges)
     for degrees, alpha in rank_order.tables(edges):
         # One clause for each code: the world has other vertices, or lacks one of its edges.
@@ -98,11 +92,7 @@ def another_world(edges: int) -> Worlds:
 
 @cache
 def worlds_encoded(edges: int, world_class: str = "any") -> int | None:
-    """The number of worlds of the class in the encoding; None if the solver gave up.
-
-    Up to `LISTED_EDGES` the models that the enumeration confirms are counted; beyond, the formulas
-    or the enumeration give the number.
-    """
+    """The number of worlds of the class; None if the solver gave up."""
     if edges > LISTED_EDGES:
         return WorldClass.parse(world_class).count(edges)
     try:
@@ -112,17 +102,15 @@ def worlds_encoded(edges: int, world_class: str = "any") -> int | None:
     return found - len(spurious)
 
 
-# ---------------------------------------------------------------- the theorems
-
 MOST_EDGES = 6
-"""The largest size of the one-door theorems: a few seconds in all."""
+"""The largest size of the one-door theorems: a few seconds."""
 
 WORD_EDGES, DEEP_WORD_EDGES = 3, 4
-"""The largest sizes of whole words: 4 edges take a minute each, and records longer."""
+"""The largest sizes of whole words; 4 edges take a minute each or longer."""
 
 
 def bounded(edges: int = MOST_EDGES) -> tuple[th.Theorem, ...]:
-    """All bounded theorems; the one-door ones speak of worlds up to this size.
+    """All bounded theorems; one-door ones up to this size.
 
     Raises:
         InputError: no edges, or too many to be feasible.
@@ -142,7 +130,7 @@ def bounded(edges: int = MOST_EDGES) -> tuple[th.Theorem, ...]:
             if statement.least <= edges
         ),
         *(
-            # Whatever `edges` is: `catalogue.choose` leaves out what is larger than asked for.
+            # `catalogue.choose` leaves out what is larger than `edges`.
             theorem(statement, deep, name=f"{statement.name}-deep", deep=True)
             for statement in WHOLE_WORD_STATEMENTS
             if not statement.name.startswith("words-records")
@@ -156,7 +144,7 @@ def bounded(edges: int = MOST_EDGES) -> tuple[th.Theorem, ...]:
 def theorem(
     statement: BoundedStatement, sizes: range, *, name: str | None = None, deep: bool = False
 ) -> th.Theorem:
-    """The statement as a theorem about worlds with these numbers of edges."""
+    """The statement as a theorem about worlds of these sizes."""
     name = name or statement.name
     sizes = range(max(sizes[0], statement.least), sizes[-1] + 1)
     return th.Theorem(
@@ -177,7 +165,6 @@ def theorem(
 
 
 def _below(negative: mutants.Negative) -> th.Theorem:
-    """The theorem that a negative has no counterexample below its smallest size."""
 
     def refuted(edges: int) -> Worlds:
         kind, marker = negative.world_class, negative.marker
@@ -195,13 +182,9 @@ def _below(negative: mutants.Negative) -> th.Theorem:
     return theorem(statement, range(1, negative.edges))
 
 
-# ------------------------------------------------------------------ proving them
-
-
 def _prove(
     name: str, statement: BoundedStatement, sizes: range, budget: th.Budget
 ) -> th.TheoremResult:
-    """The result over all sizes; the first size with an unexpected answer decides it."""
     if budget.certify:
         drup.require_tools()
     cores: set[str] = set()
@@ -233,21 +216,20 @@ def _prove(
         if result.answer != "unsat":
             return outcome(*_not_proved(formula, result, m))
         cores |= set(result.core)
-        # Unsatisfiable premises would make any conclusion hold, so they are asked for each size.
+        # Unsatisfiable premises would make any conclusion hold.
         alone = formula.premises() if statement.premises is None else statement.premises(m)
         premises.append({"sat": True, "unsat": False, "unknown": None}[solve(alone, budget).answer])
         worlds = worlds_encoded(m, statement.world_class)
         if worlds is None:
             return outcome("UNKNOWN", f"the worlds with {m} edges could not be counted")
         checked += worlds
-        # After one size without a certificate there can be none for the theorem: stop making them.
         if budget.certify and not any(isinstance(attempt, str) for attempt in attempts):
             attempts.append(drup.certify(formula, seconds=budget.timeout))
     return outcome("EXHAUSTED")
 
 
 def _not_proved(formula: Worlds, result: SatResult, m: int) -> tuple[Verdict, str, str | None]:
-    """Verdict, note and counterexample if the clauses of one size were not unsatisfiable."""
+    """Verdict, note and counterexample if the clauses were not unsatisfiable."""
     if result.model is not None:
         world = decode_world(formula, result.model).id
         return "REFUTED", f"it is false in {world}: `--smt2` writes the question", world
@@ -258,9 +240,9 @@ def _not_proved(formula: Worlds, result: SatResult, m: int) -> tuple[Verdict, st
 def _one_certificate(
     attempts: list[th.RefutationCertificate | str], sizes: range
 ) -> tuple[th.RefutationCertificate | None, str]:
-    """The certificates of all sizes as one; or, if a size has none, a note that says why."""
+    """The certificates of all sizes as one, or why there is none."""
     made = [attempt for attempt in attempts if isinstance(attempt, th.RefutationCertificate)]
-    # A certificate that the checker refused is a bug, so it is shown whatever the others are.
+    # A refused certificate is a bug, so it is always shown.
     if not attempts or any(not attempt.checked for attempt in made):
         return (drup.together(made) if made else None), ""
     if len(made) == len(sizes):
@@ -284,8 +266,7 @@ def _questions(
 def worlds_theorem(name: str, sizes: range, *, deep: bool = False) -> th.Theorem:
     """The models of the encoding are the canonical codes, each once.
 
-    The exported and certified question is that there is no other model; the list shows that there
-    is one for each code.
+    The certified question is that there is no other model; the list shows one for each code.
     """
 
     def prove(budget: th.Budget) -> th.TheoremResult:

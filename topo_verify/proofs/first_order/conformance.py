@@ -1,19 +1,14 @@
 """Conformance: the terms of `theory.py`, evaluated on real runs, decide as the code does.
 
-This is the link from the proofs to the code. A trace is read event by event: S is drawn from the
-declared augmentations, and percepts are taken from the moves. Wherever the algorithm decides, the
-terms that Z3 was given are evaluated on S and those percepts. They tell which darts are hypotheses,
-which of them the rule rejects and at which step, and where the motion stops. `compare` yields every
-difference.
+This links the proofs to the code. A trace yields S from its augmentations and percepts from its
+moves. At each decision the terms tell which darts are hypotheses, which of them the rule rejects
+and when, and where the motion stops; `compare` yields every difference.
 
-`structure` makes S, percepts and records of a real run a structure of the theory. No world is
-needed: the dart b of the terms is the number of a percept, and `rot(b, i) = root` means that the
-marker was sensed at door i.
+No world is needed: dart b of the terms is the number of a percept; `rot(b, i) = root` means that
+the marker was sensed at door i.
 
-What this does not show: policies, walks and costs, on which no claim rests; rule `folding`, which
-is compared with `checkers/folding.py` instead; and `planar`, which is not sound.
-
-Source: docs/semantics.md, sections 4, 6, 7 and 13.
+What this does not show: policies, walks and costs; rule `folding`, which is compared with
+`checkers/folding.py`; and `planar`, which is not sound.
 """
 
 from __future__ import annotations
@@ -28,14 +23,12 @@ from topo_verify.proofs.first_order.theory import RULES
 from topo_verify.robot.events import Augment, Confirm, Event, MapDart, Move, Pose, Reject, Start
 from topo_verify.robot.percept import Door, Percept
 
-# ---------------------------------------------------------------- a run as a structure
-
 NO_DOOR = -1
-"""The value of `rot(b, i)` for every dart but the root: it only has to differ from 0."""
+"""`rot(b, i)` where it is not the root, 0."""
 
 
 class RecordTrie:
-    """The records as numbered nodes: the percept seen, and by door the node behind it."""
+    """The records as numbered nodes: a percept, and by door the node behind."""
 
     def __init__(self) -> None:
         self.percepts: list[Percept] = []
@@ -43,7 +36,7 @@ class RecordTrie:
         self.records: dict[MapDart, int] = {}
 
     def node(self, percept: Percept) -> int:
-        """Add a node for this percept, and return its number."""
+        """Add a node; return its number."""
         self.percepts.append(percept)
         self.behind.append({})
         return len(self.percepts) - 1
@@ -55,7 +48,7 @@ def points(percept: Percept, door: Door) -> bool:
 
 
 def structure(chart: Chart, seen: Sequence[Percept], trie: RecordTrie) -> Structure:
-    """The structure of S, the sensed percepts, and the records."""
+    """S, the sensed percepts, and the records as a structure."""
     rows = {
         "root": nullary(0),
         "mroot": nullary(0),
@@ -104,7 +97,7 @@ def _of_records(trie: RecordTrie) -> dict[str, Function]:
 
 
 def nullary(value: Value) -> Function:
-    """A constant of the structure."""
+    """A constant."""
     return lambda: value
 
 
@@ -119,12 +112,9 @@ def binary(function: Callable[[int, int], Value]) -> Function:
     return function
 
 
-# ---------------------------------------------------------------- the decisions of a rule
-
-
 @dataclass(frozen=True, slots=True)
 class RuleRejection:
-    """The rejection of a hypothesis by a rule at a step of the executed sequence."""
+    """A rejection by a rule at a step of the executed sequence."""
 
     hypothesis: MapDart
     rule: str
@@ -133,12 +123,12 @@ class RuleRejection:
 
 @dataclass
 class DescribedRule:
-    """A rule as its terms describe it, with its records. It lives while one trace is read.
+    """A rule as its terms describe it, while one trace is read.
 
     Attributes:
         rule: `none`, `prefix`, `history` or `records`.
-        levels: the depth of records; None: as deep as was seen.
-        terms: the terms; default: `RULES`. A test passes changed ones, which must be noticed.
+        levels: the depth of records; None: any.
+        terms: default `RULES`; a test passes changed ones.
         trie: the records so far.
     """
 
@@ -148,13 +138,13 @@ class DescribedRule:
     trie: RecordTrie = field(default_factory=RecordTrie)
 
     def posed(self, chart: Chart, e: MapDart, seen: Percept) -> set[MapDart]:
-        """The hypotheses for e, behind which this percept was sensed."""
+        """The hypotheses for e with this percept behind it."""
         place = structure(chart, [seen], self.trie)
         open_darts = [d for d in range(len(chart.alpha)) if chart.alpha[d] is None]
         return {h for h in open_darts if place.holds(self.terms["posed"], e=e, h=h, b=0)}
 
     def moved(self, chart: Chart, h: Hypothesis, seen: Sequence[Percept]) -> int | None:
-        """The executed step at which the motion rejects h; None if it does not."""
+        """The step at which the motion rejects h, if any."""
         place = structure(chart, seen, self.trie)
         if not place.holds(self.terms["alike"], x=h.dart, b=0):
             return 0
@@ -167,13 +157,13 @@ class DescribedRule:
     def refuted(
         self, chart: Chart, h: Hypothesis, doors: Sequence[Door], seen: Sequence[Percept]
     ) -> RuleRejection | None:
-        """The rejection of a hypothesis by the rule after a sequence; None if it is kept."""
+        """The rule's rejection after a sequence, if any."""
         return self.refuted_at(structure(chart, seen, self.trie), h, doors)
 
     def refuted_at(
         self, place: Structure, h: Hypothesis, doors: Sequence[Door]
     ) -> RuleRejection | None:
-        """The same, given S and the percepts as a structure."""
+        """As `refuted`, in a structure."""
         if self.rule == "none":
             return None
         if self.rule == "prefix":
@@ -222,7 +212,7 @@ class DescribedRule:
         entry: MapDart,
         words: Iterable[tuple[list[Door], list[Percept]]],
     ) -> None:
-        """Write the records of one edge, whose entry dart is now known."""
+        """Record one edge, whose entry dart is known now."""
         if self.rule != "records":
             return
         # The edge is explored now: nothing is traced out of S through its darts any more.
@@ -252,11 +242,8 @@ class DescribedRule:
                 return
 
 
-# ---------------------------------------------------------------- reading a trace
-
-
 class TraceReader:
-    """S and the robot's word behind the current edge, as far as a trace has been read."""
+    """S, and the robot's word behind the current edge."""
 
     def __init__(self, start: Percept) -> None:
         self.chart = Chart(start)
@@ -265,7 +252,7 @@ class TraceReader:
         self.turned: Door = 0
 
     def move(self, move: Move) -> None:
-        """Extend the word by a door, take back its last door, or begin a new word."""
+        """Extend the word, take back its last door, or begin a new one."""
         if move.purpose in ("walk", "cross"):
             self.doors, self.seen, self.turned = [], [move.percept], 0
         elif move.purpose == "retrace":
@@ -278,7 +265,7 @@ class TraceReader:
             self.turned = 0
 
     def augment(self, event: Augment) -> MapDart:
-        """Let S grow, and return the entry dart."""
+        """Let S grow; return the entry dart."""
         if event.kind == "loop":
             self.chart.join(event.edge, event.dart)
             return event.dart
@@ -293,7 +280,7 @@ class TraceReader:
 
 
 def compare(trace: Sequence[Event], described: DescribedRule) -> Iterator[str]:
-    """The differences between the decisions of a run and those of the terms, a sentence each."""
+    """Yield each difference between a run's decisions and the terms', as a sentence."""
     start = trace[0]
     assert isinstance(start, Start)
     reading = TraceReader(start.percept)

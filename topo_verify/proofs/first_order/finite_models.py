@@ -1,12 +1,10 @@
-"""Models over tiny domains, found by writing out the quantifiers.
+"""Models over tiny domains, found by expanding the quantifiers.
 
-With quantifiers Z3 finds contradictions, but no models: it answers `unknown`. So each sort gets a
-few named elements, each `for all` becomes a conjunction, and each value of each function is one of
-the elements. Z3 decides the formulas that are left, which have no quantifier. A model is then read
-value by value, and each formula is evaluated in it again without Z3. If one fails there, that is a
-bug of ours and raises; it is never a result.
+With quantifiers Z3 finds contradictions, but no models. So each sort gets a few named elements,
+each `for all` becomes a conjunction, and each function value is one of the elements. Each formula
+is evaluated in the model again without Z3; if one fails, that is our bug and raises.
 
-What this does not show: that there is no larger model, where none of these sizes has one.
+What this does not show: that there is no larger model.
 """
 
 from __future__ import annotations
@@ -21,12 +19,12 @@ from topo_verify.proofs.solvers import z3_solver
 from topo_verify.proofs.theorem import Budget, SolverAnswer
 
 SIZES = ((1, 1), (2, 1), (2, 2), (3, 2), (3, 3), (4, 4))
-"""The number of darts of the world, and of elements of every other sort, in the order tried."""
+"""The number of darts of the world, and of elements of other sorts, in the order tried."""
 
 
 @dataclass(frozen=True, slots=True)
 class FiniteModel:
-    """The answer to a search for a model, with the structure and its tables if it is `sat`."""
+    """The answer to a search, with the structure and its tables if `sat`."""
 
     answer: SolverAnswer
     structure: terms.Structure | None = None
@@ -49,10 +47,10 @@ def smallest(assertions: Mapping[str, terms.Term], budget: Budget) -> FiniteMode
 
 
 def model(formulas: Sequence[terms.Term], sizes: Mapping[str, int], budget: Budget) -> FiniteModel:
-    """A model with these numbers of elements, if there is one.
+    """A model with these numbers of elements, if any.
 
     Raises:
-        InternalError: a formula does not hold in the solver's model.
+        InternalError: a formula fails in the solver's model.
     """
     entries = list(_entries(formulas, sizes))
     wanted = (*_elements(sizes), *(alias for alias, _, _, _ in entries))
@@ -87,7 +85,7 @@ def element(sort: str, number: int) -> terms.App:
 
 
 def ground(term: terms.Term, sizes: Mapping[str, int]) -> terms.Term:
-    """The formula with its quantifiers written out."""
+    """The formula with its quantifiers expanded."""
     match term:
         case terms.Var():
             return term
@@ -107,11 +105,10 @@ def _elements(sizes: Mapping[str, int]) -> Iterator[terms.App]:
 
 
 FunctionValue = tuple[terms.App, terms.Symbol, tuple[int, ...], terms.App]
-"""One value of one function: a constant that names it, the symbol, the arguments, the term."""
+"""The constant that names a value, its symbol, arguments and term."""
 
 
 def _entries(formulas: Sequence[terms.Term], sizes: Mapping[str, int]) -> Iterator[FunctionValue]:
-    """Every value of every function that occurs in the formulas, in a fixed order."""
     found = {symbol.name: symbol for formula in formulas for symbol in terms.symbols(formula)}
     named = {element(sort, n).symbol.name for sort, size in sizes.items() for n in range(size)}
     # The elements occur in formulas as constants, and name themselves.
@@ -124,7 +121,7 @@ def _entries(formulas: Sequence[terms.Term], sizes: Mapping[str, int]) -> Iterat
 
 
 def _domains(entries: Sequence[FunctionValue], sizes: Mapping[str, int]) -> Iterator[terms.Term]:
-    """The formulas that elements are different and that every value is one of them."""
+    """Elements are different, and every value is one of them."""
     for sort, size in sizes.items():
         for one, other in combinations(range(size), 2):
             yield terms.differ(element(sort, one), element(sort, other))
@@ -137,7 +134,7 @@ def _domains(entries: Sequence[FunctionValue], sizes: Mapping[str, int]) -> Iter
 
 
 def question(assertions: Mapping[str, terms.Term]) -> str:
-    """The SMT-LIB script that asks for a structure of the last of `SIZES`."""
+    """The SMT-LIB script for the last of `SIZES`."""
     formulas = list(assertions.values())
     sorts = sorted(set[str]().union(*map(terms.sorts_of, formulas)) - {terms.BOOL})
     darts, others = SIZES[-1]
@@ -145,7 +142,7 @@ def question(assertions: Mapping[str, terms.Term]) -> str:
 
 
 def grounded(formulas: Sequence[terms.Term], sizes: Mapping[str, int]) -> str:
-    """The SMT-LIB script that asks for a structure with these numbers of elements."""
+    """The SMT-LIB script for these numbers of elements."""
     entries = list(_entries(formulas, sizes))
     rows = [*(ground(formula, sizes) for formula in formulas), *_domains(entries, sizes)]
     # A script names its assertions, and no name may be that of a symbol: c0, c1, ... are free.
@@ -153,7 +150,7 @@ def grounded(formulas: Sequence[terms.Term], sizes: Mapping[str, int]) -> str:
 
 
 def described(found: FiniteModel) -> str:
-    """The structure in one line: sizes, then each symbol's values in the order of arguments."""
+    """The structure in one line: sizes, then values in the order of arguments."""
     assert found.structure is not None
     assert found.tables is not None
     sizes = ", ".join(f"{size} {sort}" for sort, size in found.structure.sizes.items())

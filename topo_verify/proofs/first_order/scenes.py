@@ -1,21 +1,13 @@
 """Scenes: exact worlds with a map S and a place behind an edge, in which a faulty rule fails.
 
-In a tiny structure, "is at v0", "degree" and "door" must mean what they mean in a world; otherwise
-a rule could fail there that fails in no world. So formulas beside the axioms require: doors are the
+Beside the axioms, formulas make a tiny structure a world with a reachable map: doors are the
 numbers modulo 12, which all degrees up to 4 divide; the degree is the least number of doors after
-which a turn comes round; the world is connected; S consists of v0 and of vertices that were entered
-by their first dart over an explored edge; malpha maps an unexplored dart of S to itself. A model is
-then a world with a map that an exploration can have drawn, and is decoded as such.
+which a turn comes round; the world is connected; S consists of v0 and of vertices entered by their
+first dart, `mfirst`, over an explored edge; malpha maps an unexplored dart to itself.
 
-    mfirst(x)   the first dart of x's vertex in S: the one by which it was entered
-
-Source: docs/semantics.md, sections 1 to 3.
-
-`SceneReplay` repeats a scene in the simulator, without a solver, to test a faulty rule. The robot
-of the trusted core starts at the marker of the scene's world. It crosses the edges that S of the
-scene has explored, in an order in which each vertex is entered by its first dart. Then it makes the
-moves of the mutant. The percepts on the way must be those that S shows; the rule is evaluated on S
-and on the percepts sensed behind e.
+`SceneReplay` repeats a scene in the simulator, without a solver. A robot crosses the edges that S
+has explored, in order, and makes the moves of the mutant. Percepts must be those of S; the rule is
+evaluated on S and on the percepts sensed behind e.
 """
 
 from __future__ import annotations
@@ -45,7 +37,7 @@ mfirst = terms.Symbol("mfirst", ("M",), "M")
 mtofirst = terms.Symbol("mtofirst", ("M",), "K")
 
 AXIOMS = tuple(name for name in t.CORRESPONDENCE if name not in t.LEMMAS)
-"""The axioms without the lemmas on doors, which follow and would only slow Z3 down."""
+"""The axioms without the lemmas on doors, which would slow Z3 down."""
 
 
 def door(number: int) -> terms.App:
@@ -54,7 +46,7 @@ def door(number: int) -> terms.App:
 
 
 def exact(darts: int, known: int) -> dict[str, terms.Term]:
-    """The formulas that make a structure with these numbers of darts, in world and S, exact."""
+    """The formulas that make a structure of this size exact."""
     doors = [terms.eq(t.succ(door(n)), door(n + 1)) for n in range(DOORS)]
     return {
         **{name: t.AXIOMS[name] for name in AXIOMS},
@@ -79,7 +71,7 @@ def _degrees() -> dict[str, terms.Term]:
 
 
 def _connected(darts: int) -> dict[str, terms.Term]:
-    """Every dart is reached from the root in fewer turns and crossings than there are darts."""
+    """Every dart is near the root: fewer turns and crossings than darts."""
     reached = [terms.Symbol(f"reached{n}", ("W",), terms.BOOL) for n in range(darts)]
     a = t.a
     rows = [terms.forall(a, terms.eq(reached[0](a), terms.eq(a, t.root)))]
@@ -90,7 +82,6 @@ def _connected(darts: int) -> dict[str, terms.Term]:
 
 
 def _discovered(known: int) -> dict[str, terms.Term]:
-    """S consists of v0 and of vertices entered by their first dart from one found before."""
     found = [terms.Symbol(f"found{n}", ("M",), terms.BOOL) for n in range(known)]
     x = t.x
     entered = [terms.forall(x, terms.eq(found[0](x), t.minv0(x)))]
@@ -108,19 +99,16 @@ def _discovered(known: int) -> dict[str, terms.Term]:
     }
 
 
-# ---------------------------------------------------------------- looking for one
-
-
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """A decoded model: the world, S as darts of the world, and the constants of the mutant.
+    """A decoded model.
 
     Attributes:
         world: has the darts of the model.
-        place: for each dart of S, the dart of the world that it is (phi).
+        place: for each dart of S, the dart of the world (phi).
         first: for each dart of S, the first dart of its vertex.
         explored: the explored darts of S.
-        constants: by name, darts of S, darts of the world, or doors.
+        constants: the mutant's: darts of S, darts of the world, or doors.
     """
 
     world: World
@@ -133,7 +121,7 @@ class Scene:
 def find(
     given: Mapping[str, terms.Term], budget: Budget, *, edges: int, known: int
 ) -> tuple[Scene | None, SolverAnswer, str]:
-    """A scene of this size in which these formulas hold.
+    """Search a scene of this size in which the formulas hold.
 
     Returns:
         The scene if the answer is `sat`, the answer, and Z3's reason if it is `unknown`.
@@ -182,17 +170,15 @@ def _decoded(
     )
 
 
-# ----------------------------------------- the replay of a scene in the simulator, without a solver
-
 MOVES = 10_000
 
 
 class SceneReplay:
-    """A robot in the world of a scene. It lives for one replay; its map grows as it moves.
+    """A robot in a scene's world, for one replay.
 
     Attributes:
-        chart: S as it was drawn; its darts are numbered in the order of discovery.
-        without: constants of the scene: the edges of these darts are left for the mutant to cross.
+        chart: S, numbered in the order of discovery.
+        without: constants whose edges are left for the mutant to cross.
     """
 
     def __init__(self, scene: Scene, *, without: Collection[str] = ()) -> None:
@@ -206,21 +192,16 @@ class SceneReplay:
         # Both darts of an edge are left out, whichever of them is named.
         left_out |= {self._other(x) for x in left_out}
         self.number: dict[int, MapDart] = {}
-        """For each dart of the scene's S, its number on the chart."""
         self._enter(self._at_place(scene.world.root), 0)
         self._draw(left_out)
 
-    # ------------------------------------------------------------ drawing S
-
     def _at_place(self, dart: int | None) -> int:
-        """The dart of the scene's S at this dart of the world."""
         return self.scene.place.index(dart if dart is not None else -1)
 
     def _other(self, x: int) -> int:
         return self._at_place(self.scene.world.alpha[self.scene.place[x]])
 
     def _enter(self, x: int, first: MapDart) -> None:
-        """Number the vertex of x, a dart of the scene's S, from dart `first` of the chart on."""
         world, degree = self.scene.world, self.chart.degree[self.chart.vertex[first]]
         dart = self.scene.place[x]
         for door in range(degree):
@@ -249,7 +230,6 @@ class SceneReplay:
                 self._join(x, self.number[self._other(x)])
 
     def _cross(self, x: int) -> Percept:
-        """Walk to a dart of the scene's S, cross it, and return the percept behind it."""
         e = self.number[x]
         self.at = self.pilot.walk(self.chart, self.at, self.chart.vertex[e])
         if self.robot.percept != self.chart.percepts[self.at]:
@@ -261,10 +241,8 @@ class SceneReplay:
         # The robot came in by `other`, so that is its reference dart.
         self.at = other
 
-    # ------------------------------------------------------------ the moves of the mutant
-
     def dart(self, name: str) -> MapDart:
-        """The number on the chart of a constant that is a dart of S."""
+        """The dart of the chart that a constant names."""
         return self.number[self.scene.constants[name]]
 
     def first(self, dart: MapDart) -> MapDart:
@@ -272,19 +250,19 @@ class SceneReplay:
         return self.chart.first[self.chart.vertex[dart]]
 
     def door(self, name: str, degree: int) -> Door:
-        """The door that a constant means at a vertex of this degree."""
+        """The door of a constant at this degree."""
         return self.scene.constants[name] % degree
 
     def behind(self, name: str) -> Percept:
-        """Cross a dart of S, and return the percept behind it."""
+        """Cross a dart of S; return the percept."""
         return self._cross(self.scene.constants[name])
 
     def forward(self, name: str) -> Percept:
-        """Take a door of the excursion as a mapper does that knows how it is turned."""
+        """Take a door as a mapper that knows how it is turned."""
         return self.pilot.forward(self.door(name, self.robot.percept.degree))
 
     def take(self, name: str) -> Percept:
-        """Take a door without regard to how the robot is turned."""
+        """Take a door regardless of how the robot is turned."""
         return self.robot.move(self.door(name, self.robot.percept.degree))
 
     def close(self, e: str, h: str) -> None:
@@ -298,24 +276,22 @@ class SceneReplay:
         """The dart as a hypothesis, with its way home."""
         return Hypothesis(self.dart(name), self.chart, self.chart.tree(0))
 
-    # ------------------------------------------------------------ judging
-
     def says(self, rule: terms.Term, *seen: Percept, **values: int) -> bool:
-        """Whether a term is true of S and of these percepts, which b = 0, 1, ... stand for."""
+        """Whether a term is true of S and percepts, for which b = 0, 1, ... stand."""
         return structure(self.chart, seen, self.trie).holds(rule, **values)
 
     def truth(self, e: str, h: str) -> bool:
-        """Whether e ends in h in the world."""
+        """Whether e ends in h."""
         place, constants = self.scene.place, self.scene.constants
         return self.scene.world.alpha[place[constants[e]]] == place[constants[h]]
 
     @cached_property
     def root(self) -> int:
-        """The marked dart of the world."""
+        """The marked dart."""
         assert self.scene.world.root is not None
         return self.scene.world.root
 
     @property
     def history(self) -> tuple[Door, ...]:
-        """The doors of all moves so far."""
+        """The doors so far."""
         return tuple(event.door for event in self.robot.events if isinstance(event, Move))

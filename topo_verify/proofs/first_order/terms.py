@@ -1,16 +1,13 @@
 """Formulas of many-sorted first-order logic: built once, used in three ways.
 
-A term is written out as SMT-LIB 2 (the script that every solver reads, so an exported file is the
-very question that was asked), expanded over tiny domains (`finite_models.py`), and evaluated in
-concrete structures with no solver at all (`Structure`). So the formula that is proved about a
-rule and the formula that a test compares with the code of that rule cannot drift apart.
+A term is written as SMT-LIB 2 for solvers, expanded over tiny domains (`finite_models.py`), and
+evaluated in concrete structures (`Structure`), so the proved and the tested formula are the same.
 
     Var     x, bound by a quantifier or free         App   f(a, b), also `and`, `=>`, `=`, ...
     Symbol  a function: name, sorts, result           Forall for all x ...: body
 
-A structure gives the number of elements of each sort and a function for each symbol; elements are
-the integers from 0. Every model that a solver finds is evaluated here before it counts, and tests
-evaluate the formulas of the theory in real worlds and real runs.
+A structure has the integers from 0 as the elements of each sort, and a function for each symbol.
+Every model of a solver is evaluated here before it counts.
 """
 
 from __future__ import annotations
@@ -24,7 +21,7 @@ BOOL = "Bool"
 
 @dataclass(frozen=True, slots=True)
 class Symbol:
-    """A function symbol; a constant has no arguments. Call it to apply it."""
+    """A function symbol; call it to apply it."""
 
     name: str
     arguments: tuple[str, ...]
@@ -34,7 +31,7 @@ class Symbol:
         """The application to these arguments.
 
         Raises:
-            TypeError: their sorts are wrong; unchecked, that would be a wrong theorem.
+            TypeError: a sort is wrong.
         """
         sorts = tuple(argument.sort for argument in arguments)
         if sorts != self.arguments:
@@ -67,8 +64,7 @@ class App:
 class Forall:
     """The body holds for all values of the variables.
 
-    `patterns` tell a solver at which terms to instantiate the variables (each a group of terms that
-    must occur together). They do not change the meaning.
+    `patterns`: groups of terms at which a solver instantiates; they do not change the meaning.
     """
 
     variables: tuple[Var, ...]
@@ -77,7 +73,7 @@ class Forall:
 
     @property
     def sort(self) -> str:
-        """The sort of a formula: Bool."""
+        """Bool."""
         return BOOL
 
 
@@ -85,27 +81,27 @@ Term = Var | App | Forall
 
 
 def conj(*parts: Term) -> Term:
-    """The formula that all of them hold."""
+    """All of them hold."""
     return parts[0] if len(parts) == 1 else _connect("and", *parts)
 
 
 def disj(*parts: Term) -> Term:
-    """The formula that at least one of them holds."""
+    """One of them holds."""
     return parts[0] if len(parts) == 1 else _connect("or", *parts)
 
 
 def neg(part: Term) -> Term:
-    """The formula that it does not hold."""
+    """It does not hold."""
     return _connect("not", part)
 
 
 def implies(*parts: Term) -> Term:
-    """The formula that the last holds if all others do."""
+    """The last holds if all others do."""
     return _connect("=>", conj(*parts[:-1]), parts[-1])
 
 
 def eq(one: Term, other: Term) -> Term:
-    """The formula that they are equal; between formulas, that one holds iff the other does."""
+    """They are equal; for formulas: equivalent."""
     if one.sort != other.sort:
         raise TypeError(f"= between {one.sort} and {other.sort}")
     # One symbol `=` for each sort, so that sorts are checked as for any other symbol.
@@ -113,14 +109,14 @@ def eq(one: Term, other: Term) -> Term:
 
 
 def differ(one: Term, other: Term) -> Term:
-    """The formula that they are not equal."""
+    """They are not equal."""
     return neg(eq(one, other))
 
 
 def forall(
     variables: Var | tuple[Var, ...], *parts: Term, tried_at: tuple[tuple[Term, ...], ...] = ()
 ) -> Term:
-    """The formula that for all values of the variables the last part holds if all others do."""
+    """For all values of the variables, the last part holds if all others do."""
     row = (variables,) if isinstance(variables, Var) else variables
     return Forall(row, parts[0] if len(parts) == 1 else implies(*parts), tried_at)
 
@@ -130,15 +126,12 @@ def _connect(name: str, *parts: Term) -> Term:
 
 
 def constant(name: str, sort: str) -> App:
-    """A new constant of this sort."""
+    """A new constant."""
     return Symbol(name, (), sort)()
 
 
-# ---------------------------------------------------------------- what is in a term
-
-
 def symbols(term: Term) -> Iterator[Symbol]:
-    """The symbols of a term that need a declaration, each as often as it occurs."""
+    """Yield the symbols that need a declaration, with repetitions."""
     match term:
         case Var():
             pass
@@ -168,10 +161,7 @@ def sorts_of(term: Term) -> set[str]:
 
 
 def substitute(term: Term, values: dict[Term, Term]) -> Term:
-    """The term with these free variables or constants replaced.
-
-    Callers replace them with closed terms, so no quantifier captures a variable by accident.
-    """
+    """Replace free variables or constants by closed terms."""
     if term in values:
         return values[term]
     match term:
@@ -183,9 +173,6 @@ def substitute(term: Term, values: dict[Term, Term]) -> Term:
             return Forall(variables, substitute(body, inner), hints)
         case App(symbol, arguments):
             return App(symbol, tuple(substitute(argument, values) for argument in arguments))
-
-
-# ---------------------------------------------------------------- text
 
 
 def text(term: Term) -> str:
@@ -207,7 +194,7 @@ _WORDS = {"and": " ∧ ", "or": " or ", "=>": " → ", "=": " = "}
 
 
 def shown(term: Term, *, inner: bool = False) -> str:
-    """The term in mathematical notation, for people."""
+    """The term in mathematical notation."""
     words = ""
     match term:
         case Var(name):
@@ -227,7 +214,7 @@ def shown(term: Term, *, inner: bool = False) -> str:
 
 
 def declarations(terms: Iterator[Term] | list[Term]) -> list[str]:
-    """The SMT-LIB declarations of all sorts and symbols in some terms, in a fixed order.
+    """The SMT-LIB declarations of all sorts and symbols, in a fixed order.
 
     Raises:
         TypeError: two symbols have one name.
@@ -248,10 +235,10 @@ def declarations(terms: Iterator[Term] | list[Term]) -> list[str]:
 
 
 def script(assertions: dict[str, Term], *, logic: str = "UF") -> str:
-    """The SMT-LIB 2 script that asks whether all these named formulas can hold at once.
+    """The SMT-LIB 2 script that asks whether all these formulas can hold.
 
     Raises:
-        TypeError: a name is also that of a symbol, which the language forbids.
+        TypeError: a name is also that of a symbol.
     """
     used = {symbol.name for term in assertions.values() for symbol in symbols(term)}
     if clash := sorted(used & assertions.keys()):
@@ -260,8 +247,6 @@ def script(assertions: dict[str, Term], *, logic: str = "UF") -> str:
     lines += [f"(assert (! {text(term)} :named {name}))" for name, term in assertions.items()]
     return "\n".join([*lines, "(check-sat)", ""])
 
-
-# ---------------------------------------------------------------- concrete structures
 
 Value = int | bool
 Function = Callable[..., Value]
@@ -272,15 +257,15 @@ class Structure:
     """The meaning of the symbols.
 
     Attributes:
-        sizes: the number of elements of each sort that is quantified over.
-        functions: the function of each symbol; a constant takes no arguments.
+        sizes: the number of elements of each quantified sort.
+        functions: of each symbol; a constant takes no arguments.
     """
 
     sizes: Mapping[str, int]
     functions: Mapping[str, Function]
 
     def holds(self, term: Term, **values: Value) -> bool:
-        """Whether a formula is true, with these values for its free variables."""
+        """Whether a formula is true for these values of its free variables."""
         return bool(self.value(term, values))
 
     def value(self, term: Term, values: Mapping[str, Value]) -> Value:
@@ -317,13 +302,13 @@ CONNECTIVES: Mapping[str, Callable[[Iterator[Value]], Value]] = {
     "=>": lambda row: not next(row) or next(row),
     "=": lambda row: next(row) == next(row),
 }
-"""The meaning of the symbols that need no declaration."""
+"""The symbols that need no declaration."""
 
 
 def of_tables(
     sizes: Mapping[str, int], tables: Mapping[str, Mapping[tuple[int, ...], Value]]
 ) -> Structure:
-    """The structure whose symbols are given by tables."""
+    """The structure given by tables."""
 
     def reading(table: Mapping[tuple[int, ...], Value]) -> Function:
         return lambda *arguments: table[arguments]

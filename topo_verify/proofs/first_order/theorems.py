@@ -1,12 +1,8 @@
 """The obligations as theorems, and for each a mutant that lacks one of its premises.
 
-**Theorem**: Z3 shows that the premises and the negated goal have no model. A tiny structure
-(`finite_models.py`) shows that the premises alone have one. A theorem whose premises have none is
-vacuous, and not `ok`.
-
-**Mutant**: without one premise, which the obligation names, there is a structure in which all other
-premises hold and the goal fails. It is evaluated without a solver before it counts.
-
+**Theorem**: Z3 shows that premises and negated goal have no model. A tiny structure
+(`finite_models.py`) satisfies the premises; without one the theorem is vacuous, and not `ok`.
+**Mutant**: without one needed premise a structure, evaluated without a solver, refutes the goal.
 **Mutant of a rule**: a scene refutes it (`mutants/`), which the simulator replays.
 """
 
@@ -77,12 +73,12 @@ def _prove(obligation: Obligation, budget: Budget) -> TheoremResult:
 
 
 def refute(assertions: dict[str, Term], budget: Budget) -> z3_solver.Z3Reply:
-    """Z3's reply: can all of these hold at once? The core consists of their names."""
+    """Z3's reply: can all of these hold? The core has their names."""
     return z3_solver.refute(script(assertions), assertions, budget)
 
 
 def mutant(obligation: Obligation, lost: str) -> Theorem:
-    """The obligation without one premise as a theorem that must be refuted."""
+    """The obligation without one premise, which must be refuted."""
     dropped = obligation.premises()[lost]
     formulas = obligation.premises(without=lost)
     # Where the premise holds, so does the goal (the theorem), so its negation loses no structure.
@@ -121,12 +117,12 @@ def mutant(obligation: Obligation, lost: str) -> Theorem:
 
 
 def _telling(obligation: Obligation) -> str:
-    """The most telling premise to drop: the first axiom or lemma that is needed, if any."""
+    """The first axiom or lemma that is needed, if any."""
     return next((n for n in obligation.needs if n in obligation.theory), obligation.needs[0])
 
 
 def rule_mutant(faulty: RuleMutant, kind: Literal["mutant", "negative"] = "mutant") -> Theorem:
-    """The statement that the faulty rule is right, as a theorem that must be refuted."""
+    """The claim that the faulty rule is right, which must be refuted."""
     edges, known = faulty.size
 
     def queries() -> Iterator[Query]:
@@ -172,7 +168,7 @@ def _refute(faulty: RuleMutant, budget: Budget) -> TheoremResult:
 
 
 OBLIGATIONS = hypotheses.OBLIGATIONS + growth.OBLIGATIONS
-"""All obligations; a lemma comes before those that use it."""
+"""A lemma comes before its uses."""
 
 RULE_MUTANTS = (
     faulty_hypotheses.REJECTIONS
@@ -189,4 +185,4 @@ AXIOM_MUTANTS: tuple[Theorem, ...] = tuple(mutant(one, _telling(one)) for one in
 FAULTY_RULES: tuple[Theorem, ...] = tuple(map(rule_mutant, RULE_MUTANTS))
 
 PLANAR: Theorem = rule_mutant(faulty_growth.PLANAR, "negative")
-"""The planar prior is not sound in all worlds: a torus with two edges refutes it."""
+"""The planar prior is not sound: a torus with two edges refutes it."""

@@ -14,18 +14,14 @@
     rot    rot(a,k)=sigma^k(a)  mrot
                                 explored: is malpha known?
 
-Doors are built from k0 and succ. They are never integers, about which Z3 answers `unknown` at once;
-the robot needs no more than to count. `wraps(g,i,j)`: at a vertex of degree g, doors i and j are
-the same (i = j modulo g). `toroot(a)`: a door that leads from a to the root, if a is a dart of v0;
-this function replaces an existential quantifier.
+Doors are not integers, about which Z3 answers `unknown`. `wraps(g,i,j)`: i = j modulo g.
+`toroot(a)`, a door that leads from a to the root within v0, replaces an existential quantifier. The
+percept at a is deg(a), inv0(a), and for each door i whether rot(a,i) = root. No axiom says that W
+is finite or connected; steps that need it are argued in words (docs/proofs.md).
 
-The percept at a is deg(a), inv0(a), and for each door i whether rot(a,i) = root. No axiom says that
-W is finite or connected: the steps that need this are argued in words (docs/proofs.md).
-
-**Rules.** A term says what one step of a rule decides about a dart of S (x), a door (k) and the
-dart of the world where the robot sensed the percept that it compares (b). Z3 proves theorems about
-these terms, and `conformance.py` evaluates the same terms on real runs and compares every decision
-with that of the code in algorithms/. A rule that is changed there and not here makes a test fail.
+**Rules.** A term says what one step of a rule decides about a dart x of S, a door k, and the dart b
+where the compared percept was sensed. Z3 proves theorems about these terms; `conformance.py`
+compares them with the decisions of the code.
 
     term             rule             true iff
     ALIKE            all              S shows at x what the robot senses at b
@@ -36,11 +32,8 @@ with that of the code in algorithms/. A rule that is changed there and not here 
     LEAVES           records          tracing leaves S through a dart with a record
     RECORD_DIFFERS   records          the record r shows something else than is sensed at b
 
-Records (sort R) are the places of the tries T: `record(x)` is T[x], where `recorded(x)`;
-`behind(r,k)` is the place recorded behind door k, where `deeper(r,k)`. `spot(r)` is the dart of the
-world at which the record was seen. No robot knows it; a record is true if it exists.
-
-Source: docs/semantics.md, sections 1 to 4, 6 and 7.
+Records (sort R) are places of the tries T: `record(x)` is T[x] if `recorded(x)`; `behind(r,k)` is
+the place behind door k if `deeper(r,k)`; `spot(r)`, unknown to robots, is where it was seen.
 """
 
 from __future__ import annotations
@@ -57,8 +50,6 @@ from topo_verify.proofs.first_order.terms import (
     neg,
 )
 
-# ---------------------------------------------------------------- the world
-
 sigma = Symbol("sigma", ("W",), "W")
 alpha = Symbol("alpha", ("W",), "W")
 deg = Symbol("deg", ("W",), "G")
@@ -67,14 +58,10 @@ rot = Symbol("rot", ("W", "K"), "W")
 root = Symbol("root", (), "W")()
 toroot = Symbol("toroot", ("W",), "K")
 
-# ---------------------------------------------------------------- doors
-
 k0 = Symbol("k0", (), "K")()
 succ = Symbol("succ", ("K",), "K")
 plus = Symbol("plus", ("K", "K"), "K")
 wraps = Symbol("wraps", ("G", "K", "K"), BOOL)
-
-# ---------------------------------------------------------------- the map S
 
 msigma = Symbol("msigma", ("M",), "M")
 mback = Symbol("mback", ("M",), "M")
@@ -86,8 +73,6 @@ mroot = Symbol("mroot", (), "M")()
 mtoroot = Symbol("mtoroot", ("M",), "K")
 explored = Symbol("explored", ("M",), BOOL)
 phi = Symbol("phi", ("M",), "W")
-
-# ---------------------------------------------------------------- words
 
 nil = Symbol("nil", (), "L")()
 cons = Symbol("cons", ("K", "L"), "L")
@@ -165,7 +150,7 @@ AXIOMS: dict[str, Term] = {
     # lemmas: proved by induction over words
     "trace": forall((x, w), stays(x, w), eq(phi(mwalk(x, w)), walk(phi(x), w))),
 }
-"""Every axiom and every lemma by name. A lemma is proved before an obligation may use it."""
+"""Every axiom and lemma by name. A lemma is proved before it is used."""
 
 LEMMAS = {
     "rot-injective": "rot-injective",
@@ -175,7 +160,7 @@ LEMMAS = {
     "turning-adds": "turning-adds",
     "trace": "word-trace",
 }
-"""The lemmas among the axioms, and the induction (obligations `-base` and `-step`) of each."""
+"""The lemmas, and the induction (`-base` and `-step`) of each."""
 
 WORLD = (
     "sigma-injective",
@@ -199,13 +184,11 @@ INVARIANT = (
     "explored-both-ends",
 )
 ALL_DOORS = ("rot-injective", "rot-degree", "rot-marker", "phi-rot")
-"""The lemmas on doors that do not speak of addition."""
+"""The lemmas on doors without addition."""
 
 CORRESPONDENCE = (*WORLD, *DOORS, *MAP, *MAP_DOORS, *INVARIANT, *ALL_DOORS)
-"""The axioms of a world and of a map S that is a part of it, and the lemmas on doors."""
+"""The axioms of a world with a map S, and the lemmas on doors."""
 
-
-# ---------------------------------------------------------------- the rules
 
 recorded = Symbol("recorded", ("M",), BOOL)
 record = Symbol("record", ("M",), "R")
@@ -222,33 +205,33 @@ e, h = Var("e", "M"), Var("h", "M")
 
 
 def signature_alike(x: Term, b: Term) -> Term:
-    """The parts of the percepts that do not depend on the reference dart are equal."""
+    """The percepts are equal but for the reference dart."""
     return conj(eq(mdeg(x), deg(b)), eq(minv0(x), inv0(b)))
 
 
 def marker_alike(x: Term, b: Term) -> Term:
-    """The marker, where it is present, points at the same door."""
+    """A present marker points at the same door."""
     same = eq(eq(mrot(x, i), mroot), eq(rot(b, i), root))
     return forall(i, minv0(x), same)
 
 
 def alike(x: Term, b: Term) -> Term:
-    """S shows at x the percept sensed at b: degree, presence and direction of the marker."""
+    """The percepts are equal."""
     return conj(signature_alike(x, b), marker_alike(x, b))
 
 
 def arrival(x: Term, door: Term) -> Term:
-    """The dart of S where a door of x leads."""
+    """The dart of S behind a door of x."""
     return malpha(mrot(x, door))
 
 
 def beyond(b: Term, door: Term) -> Term:
-    """The dart of the world where a door of b leads."""
+    """The dart of the world behind a door of b."""
     return alpha(rot(b, door))
 
 
 def record_alike(r: Term, b: Term) -> Term:
-    """The recorded percept is the one sensed at b."""
+    """The recorded percept is that sensed at b."""
     same = eq(rpoints(r, i), eq(rot(b, i), root))
     return conj(eq(rdeg(r), deg(b)), eq(rinv0(r), inv0(b)), forall(i, rinv0(r), same))
 
@@ -280,4 +263,4 @@ TRUE_RECORDS: dict[str, Term] = {
     "record-marker": forall(r, eq(rinv0(r), inv0(spot(r)))),
     "record-direction": forall((r, i), eq(rpoints(r, i), eq(rot(spot(r), i), root))),
 }
-"""The axioms that the records are true."""
+"""The axioms that records are true."""

@@ -1,13 +1,9 @@
-"""The format of certificates: data only, as lines of natural numbers.
+"""The format of certificates: natural numbers and nothing else.
 
-A certificate is a text. Its first line is `HEADER`; then come natural numbers in decimal digits,
-separated by spaces and line ends, and nothing else: no comment, no sign, no word. So it can hold a
-log, a claim and evidence, and cannot define or prove anything. coq/Certificate.v says what the
-numbers mean, and reads them; what is written here is not trusted. Only three things here are:
-`parse`, which finds the numbers of a text; `data_file`, which writes them for Coq; and `log_lines`,
-which says of which numbers a log consists.
-
-Source: docs/proofs.md; coq/Certificate.v.
+The first line is `HEADER`; then come decimal numbers separated by spaces and line ends. So a
+certificate can hold a log, a claim and evidence, but cannot define or prove anything. Their meaning
+is in coq/Certificate.v. Trusted here: `parse`; `data_file`, which writes the numbers for Coq; and
+`log_lines`, which states a log.
 """
 
 from __future__ import annotations
@@ -26,13 +22,13 @@ from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 
 HEADER = "topo-verify/certificate 1"
-"""The first line of a certificate: the format and its version."""
+"""The format and its version."""
 
 LARGEST = 2**60
-"""Larger numbers are in no certificate."""
+"""The largest number in a certificate."""
 
 WIDEST = 1_000_000
-"""The most doors that the places of a log may have together. Coq counts doors one by one."""
+"""Limit of the sum of degrees of a log. Coq counts doors one by one."""
 
 CertifiedStatement = Literal["map", "undetermined", "impossible"]
 
@@ -45,15 +41,11 @@ Line = Sequence[int]
 
 @dataclass(frozen=True, slots=True)
 class CoqCertificate:
-    """A statement about one log, with the evidence that a checker needs to verify it.
+    """A statement about one log; fold, numbering and decisions are not trusted.
 
     Attributes:
-        statement: one of the three at the head of certificates.py.
-        log: the events that the certificate is about.
-        fold: map, evidence and conflict; not trusted.
-        numbering: of each dart of the delivered map in order, the dart of the proved map, and
-            conversely; None if no map is delivered, or another one than is proved; not trusted.
-        decisions: the decisions of the trace that follow, with evidence; not trusted either.
+        numbering: see `certificates.numbering_of`; None without a right delivered map.
+        decisions: those that follow.
     """
 
     statement: CertifiedStatement
@@ -63,14 +55,11 @@ class CoqCertificate:
     decisions: evidence.EntailedDecisions
 
 
-# ---------------------------------------------------------------- reading
-
-
 def parse(text: bytes, *, name: str) -> Numbers:
-    """The numbers of a certificate.
+    """Read the numbers of a certificate.
 
     Raises:
-        InputError: it does not begin with the header, or holds anything but natural numbers.
+        InputError: no header, or anything but natural numbers.
     """
     head, _, rest = text.partition(b"\n")
     if head != HEADER.encode():
@@ -87,7 +76,7 @@ def parse(text: bytes, *, name: str) -> Numbers:
 
 
 def doubt(numbers: Sequence[int]) -> str:
-    """The reason why numbers are refused before any checker sees them; "" if there is none."""
+    """Why numbers are refused before a checker sees them, or ""."""
     if max(numbers, default=0) > LARGEST:
         return "a number is larger than 2^60"
     width = log_width(numbers)
@@ -101,7 +90,7 @@ _ARGUMENTS = {1: 2, 2: 2, 3: 3, 4: 3}
 
 
 def log_width(numbers: Sequence[int]) -> int:
-    """The sum of all degrees of the log at the head of these numbers, as far as it goes."""
+    """The sum of all degrees of the log at the head of these numbers."""
     stream = iter(numbers)
     width = next(stream, 0)
     next(stream, 0)
@@ -116,9 +105,9 @@ def log_width(numbers: Sequence[int]) -> int:
 
 
 def data_file(numbers: Sequence[int]) -> str:
-    """The numbers as Data.v, a source of Coq that defines them and nothing else."""
+    """The numbers as the Coq source Data.v."""
     parts = [numbers[i : i + 500] for i in range(0, len(numbers), 500)]
-    # Coq's parser needs more stack for a longer list: hence the parts.
+    # Coq's parser needs more stack for a longer list.
     defined = [
         f"Definition part_{i} : list N := [{'; '.join(map(str, part))}]."
         for i, part in enumerate(parts)
@@ -136,16 +125,13 @@ def data_file(numbers: Sequence[int]) -> str:
     )
 
 
-# ---------------------------------------------------------------- writing
-
-
 def text_of(certificate: CoqCertificate) -> str:
-    """The certificate as a text."""
+    """The certificate as text."""
     return "\n".join([HEADER, *(" ".join(map(str, line)) for line in lines_of(certificate)), ""])
 
 
 def lines_of(certificate: CoqCertificate) -> Iterator[Line]:
-    """The numbers of a certificate, line by line."""
+    """Yield the numbers of a certificate, line by line."""
     yield from log_lines(certificate.log)
     yield from _claim(certificate)
     decisions = certificate.decisions
@@ -164,12 +150,10 @@ _DECISIONS = (ev.Reject, ev.Confirm, ev.Augment)
 
 
 def stated_log(trace: Sequence[ev.Event]) -> tuple[ev.Event, ...]:
-    """The events of a trace that a certificate is about.
+    """Return the events of a trace that a certificate is about.
 
-    A decision about a number that no dart has follows from nothing, and so does no decision after
-    it: they are left out, and so is a delivered value that is no map at all; `left_out` says so.
-    Poses are left out as well, since they claim nothing of the world. The darts of a delivered map
-    are numbered anew if one of them is no natural number up to `LARGEST`.
+    Left out: poses, which claim nothing of the world; all decisions from the first on that names a
+    number no dart has; a delivered value that is no map. Darts outside 0..`LARGEST` are renumbered.
     """
     end = next((i for i, event in enumerate(trace) if not _is_natural(event)), len(trace))
     kept: list[ev.Event] = []
@@ -187,7 +171,7 @@ def stated_log(trace: Sequence[ev.Event]) -> tuple[ev.Event, ...]:
 
 
 def left_out(trace: Sequence[ev.Event]) -> str:
-    """The decisions and the map that no certificate about this trace states, and why, or ""."""
+    """Which decisions or map no certificate states, and why, or ""."""
     log = stated_log(trace)
     decisions = decisions_in(trace) - decisions_in(log)
     reasons: list[str] = []
@@ -210,7 +194,7 @@ def decisions_in(log: Sequence[ev.Event]) -> int:
 
 
 def log_lines(log: Sequence[ev.Event]) -> Iterator[Line]:
-    """The numbers at the head of each certificate about a log of `stated_log`, line by line."""
+    """Yield the numbers of a log from `stated_log`, line by line."""
     begin = log[0]
     assert isinstance(begin, ev.Start)
     yield _percept(begin.percept)
@@ -226,7 +210,6 @@ def log_lines(log: Sequence[ev.Event]) -> Iterator[Line]:
 
 
 def _is_natural(event: ev.Event) -> bool:
-    """Whether the numbers of a decision are natural ones that Coq can count to."""
     match event:
         case ev.Reject(edge, other) | ev.Confirm(edge, other):
             return 0 <= edge <= WIDEST and 0 <= other <= WIDEST
@@ -237,20 +220,12 @@ def _is_natural(event: ev.Event) -> bool:
 
 
 def _is_map(delivered: ev.MapData) -> bool:
-    """Whether a delivered value has edges of two darts, and a marker.
-
-    The map of the world without an edge has no marker.
-    """
     return (delivered.marker is None) == (delivered.vertices == ((),)) and all(
         len(edge) == 2 for edge in delivered.edges
     )
 
 
 def _with_natural_darts(delivered: ev.MapData) -> ev.MapData:
-    """The map; numbered anew from 0, in the order of its darts, if a dart is out of range.
-
-    Different darts keep different numbers, so the map is right just if the delivered one is.
-    """
     marker = () if delivered.marker is None else (delivered.marker,)
     darts = [*chain.from_iterable((*delivered.vertices, *delivered.edges)), *marker]
     if all(0 <= dart <= LARGEST for dart in darts):
@@ -264,7 +239,7 @@ def _with_natural_darts(delivered: ev.MapData) -> ev.MapData:
 
 
 def _event(event: ev.Event) -> Line | None:
-    """The numbers of an event; None of one that stands elsewhere, or nowhere."""
+    """The numbers of an event; None if it is stated elsewhere or not at all."""
     match event:
         case ev.Move(door, percept):
             return (0, door, *_percept(percept))
@@ -279,7 +254,6 @@ def _event(event: ev.Event) -> Line | None:
 
 
 def _claim(certificate: CoqCertificate) -> Iterator[Line]:
-    """The statement, with the map and the evidence that it needs."""
     fold, numbering = certificate.fold, certificate.numbering
     yield (STATEMENTS.index(certificate.statement),)
     if certificate.statement != "impossible":
@@ -296,7 +270,6 @@ def _claim(certificate: CoqCertificate) -> Iterator[Line]:
 
 
 def _counted(lines: Iterable[Line]) -> Iterator[Line]:
-    """A list: its length, then its elements."""
     elements = list(lines)
     yield (len(elements),)
     yield from elements

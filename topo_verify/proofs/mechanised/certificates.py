@@ -1,28 +1,18 @@
-"""Certificates: a statement about one log, and evidence with which Coq proves it by computing.
+"""Certificates: a statement about one log, which Coq proves by computation.
 
-The checkers of this package judge what a log proves. A certificate states the same for one log, and
-Coq proves it by running a checker whose correctness is a theorem (coq/Certificate.v). The log is
-folded in Python (`evidence.py`), which is not trusted: the kernel follows the evidence. A
-certificate makes one of three statements:
+Python folds the log (`evidence.py`) and is not trusted; Coq runs a checker that is proved correct
+(coq/Certificate.v, started by coq/Checked.v). A certificate states one of:
 
     map            every world that shows these percepts to these doors is isomorphic to this map,
-                   and to the map that was delivered, if a right one was
+                   and to the delivered map if that is right
     undetermined   two worlds that differ show them
     impossible     no world shows them
 
-Besides, each declared decision that follows is stated (claim 10): it is true in every world that
-shows the log up to that moment. The statements are about the declared events themselves.
-
-A certificate is data (`certificate_format.py`). One fixed file checks it, coq/Checked.v. Long ones
-take the kernel minutes; they go to the same checker, extracted as a program in OCaml, which trusts
-Coq's extraction and the OCaml compiler besides the kernel.
-
-The log of the world without an edge (degree 0, no move) has a certificate as well: its table has no
-row. A certificate in which some world shows the log speaks of all worlds, that one among them.
+and that decisions are true in every world that shows the log so far (claim 10). Long certificates
+take the kernel minutes; they go to the same checker, extracted to OCaml, which trusts Coq's
+extraction and the OCaml compiler as well.
 
 What this does not show: that the percepts are what happened.
-
-Source: docs/proofs.md; docs/semantics.md, section 11.
 """
 
 from __future__ import annotations
@@ -55,13 +45,12 @@ from topo_verify.robot.events import Event, Finish, MapData, Move, Start
 from topo_verify.robot.percept import Percept
 
 LIBRARY = "Certificate"
-"""The file of the library that the check builds on."""
+"""The file that the check builds on."""
 
 LONG = 200_000
-"""Certificates of more numbers are checked by the extracted program, if OCaml is installed."""
+"""Longer certificates go to the extracted program, if OCaml is installed."""
 
 EDGELESS = FoldedLog(table=(), meetings=(), conflict=None)
-"""The fold of the log of the world without an edge: a map without a dart, and no evidence."""
 
 _PROGRAM = ("certifier.mli", "certifier.ml", "driver.ml")
 
@@ -71,12 +60,12 @@ class CertificateCheck:
     """The result of checking a certificate.
 
     Attributes:
-        accepted: True, False, or None if it was not checked.
-        by: name and version of the checker; "" if none is installed.
-        why: the reason why it was refused, or not checked.
-        statement: what an accepted certificate states of its log; None if it is not accepted.
-        delivered: whether it states that the delivered map is right.
-        certified, decisions: how many decisions it states to follow, and how many its log has.
+        accepted: None if it was not checked.
+        by: the checker and its version; "" if none is installed.
+        why: why it was refused or not checked.
+        statement: None if it is not accepted.
+        delivered: does it state that the delivered map is right?
+        certified, decisions: number of decisions stated, and declared.
     """
 
     accepted: bool | None
@@ -89,11 +78,10 @@ class CertificateCheck:
 
 
 def certificate_of(trace: Sequence[Event]) -> CoqCertificate:
-    """The certificate of what a log proves, with its evidence.
+    """Return the certificate of what a log proves.
 
     Raises:
-        InputError: the trace is out of order; or the theory cannot state the log: it has numbers
-            below 0, or too many doors.
+        InputError: the trace is out of order, or has numbers below 0 or too many doors.
     """
     require_order(trace)
     percepts, doors = _walk(trace)
@@ -101,7 +89,7 @@ def certificate_of(trace: Sequence[Event]) -> CoqCertificate:
     edgeless = not doors and percepts[0] == Percept(0, None)
     fold = EDGELESS if edgeless else fold_log(percepts, doors)
     shown: CertifiedStatement = "map" if fold.closed else "undetermined"
-    # After a conflict the table is empty, too, and `closed` is true of an empty table.
+    # After a conflict the table is empty, and so closed.
     statement = "impossible" if fold.conflict else shown
     log = certificate_format.stated_log(trace)
     delivered = log[-1]
@@ -113,7 +101,7 @@ def certificate_of(trace: Sequence[Event]) -> CoqCertificate:
 
 
 def is_about(numbers: Sequence[int], trace: Sequence[Event]) -> bool:
-    """Whether the log in the numbers of a certificate is the log of this trace.
+    """Whether the numbers of a certificate begin with the log of this trace.
 
     Raises:
         InputError: as `certificate_of`.
@@ -122,12 +110,11 @@ def is_about(numbers: Sequence[int], trace: Sequence[Event]) -> bool:
     _require_statable(*_walk(trace))
     lines = certificate_format.log_lines(certificate_format.stated_log(trace))
     log = list(chain.from_iterable(lines))
-    # What a log is can be told from its front, so no log is the beginning of another one.
+    # No log is the beginning of another one.
     return list(numbers[: len(log)]) == log
 
 
 def _walk(trace: Sequence[Event]) -> tuple[tuple[Percept, ...], tuple[int, ...]]:
-    """The percepts and the doors of a trace."""
     return (
         tuple(event.percept for event in trace if isinstance(event, Start | Move)),
         tuple(event.door for event in trace if isinstance(event, Move)),
@@ -135,7 +122,6 @@ def _walk(trace: Sequence[Event]) -> tuple[tuple[Percept, ...], tuple[int, ...]]
 
 
 def _require_statable(percepts: Sequence[Percept], doors: Sequence[int]) -> None:
-    """Raise InputError if the theory cannot state this log."""
     sensed = chain.from_iterable((p.degree, p.marker or 0) for p in percepts)
     if min(chain(doors, sensed)) < 0:
         raise InputError(
@@ -150,11 +136,9 @@ def _require_statable(percepts: Sequence[Percept], doors: Sequence[int]) -> None
 
 
 def numbering_of(delivered: MapData, table: Sequence[MapRow]) -> tuple[tuple[int, int], ...] | None:
-    """The correspondence of a delivered map with a proved one; None if it is another map.
+    """The isomorphism from a delivered map to a proved one; None if they differ.
 
-    It lists for each dart of the delivered map, in order, the dart of the table, and for each dart
-    of the table the place of the delivered one in that order. The map without an edge has one
-    vertex, no dart, and an empty correspondence.
+    Pair i: the table's dart for delivered dart i, the position of table dart i.
     """
     if not table:
         return () if delivered.vertices == ((),) and not delivered.edges else None
@@ -175,7 +159,7 @@ def numbering_of(delivered: MapData, table: Sequence[MapRow]) -> tuple[tuple[int
         if label not in after or label not in other or partner is None:
             return None
         todo += [(table[dart].following, after[label]), (partner, other[label])]
-    # A map that only looks alike so far is refused by the checker: it compares every dart.
+    # The checker compares every dart again.
     if any(of_table[dart] != label for dart, label in todo) or len(of_table) < len(table):
         return None
     back = [place[of_table[dart]] for dart in range(len(table))]
@@ -189,31 +173,25 @@ def checking(
 ) -> Generator[Callable[[Sequence[int]], CertificateCheck]]:
     """Yield a function that checks the numbers of a certificate.
 
-    coqc checks them, or the extracted program if they are many and OCaml is installed. The library
-    is compiled once, for the first certificate, in a folder that is removed at the end.
-
     Args:
         timeout: seconds for each call of a program.
-        progress: is called with a few words before each step.
+        progress: called with a few words before each step.
     """
     with TemporaryDirectory() as folder:
         yield _Checker(Path(folder), timeout, progress).check
 
 
 class _Checker:
-    """Checks certificates in one folder, which keeps what was compiled."""
-
     def __init__(self, folder: Path, timeout: float, progress: Callable[[str], None]) -> None:
         self.folder, self.timeout, self.progress = folder, timeout, progress
 
     def check(self, numbers: Sequence[int]) -> CertificateCheck:
-        """The result of checking a certificate."""
         if why := certificate_format.doubt(numbers):
             return CertificateCheck(accepted=False, by="topo-verify", why=why)
         if why := toolchain.missing():
             return CertificateCheck(accepted=None, by="", why=why)
         try:
-            # It needs all the others, so it is compiled last.
+            # It is compiled last.
             if not (self.folder / f"{LIBRARY}.vo").exists():
                 self.progress("compiling the proofs")
                 build(self.folder, timeout=self.timeout)
@@ -226,11 +204,11 @@ class _Checker:
 
 
 def build(folder: Path, *, timeout: float) -> None:
-    """Compile in the folder the part of the library that the check needs.
+    """Compile the library that the check needs.
 
     Raises:
         InputError: the installed Coq refuses a file.
-        toolchain.Unfinished: a file takes too long, or coqc is killed or lacks memory.
+        toolchain.Unfinished: coqc timed out, was killed, or lacks memory.
     """
     names = toolchain.required(LIBRARY)
     toolchain.copy_library(folder, names)
@@ -243,18 +221,18 @@ def build(folder: Path, *, timeout: float) -> None:
 
 
 UNPROVED = "its numbers are no certificate, or their evidence does not prove what they state"
-"""The reason why a checker refuses numbers."""
+"""Why a checker refuses numbers."""
 
 _SUMMARY = re.compile(r"= Some \((\d), (\d), \((\d+), (\d+)\)\)")
 
 
 def by_kernel(folder: Path, numbers: Sequence[int], *, timeout: float) -> CertificateCheck:
-    """The result of compiling the fixed check with coqc, beside the compiled library."""
+    """Check with coqc, beside the compiled library."""
     (folder / "Data.v").write_text(certificate_format.data_file(numbers), encoding="utf-8")
     toolchain.copy_library(folder, ["Checked"])
     ran = toolchain.compile_all(folder, ["Data", "Checked"], timeout=timeout)
     found = _SUMMARY.search(ran.output)
-    # The theorem must be free of axioms: coqc accepts files with axioms, too.
+    # coqc accepts files with axioms, too.
     if not ran.accepted or toolchain.NO_AXIOMS not in ran.output or found is None:
         why = f"{UNPROVED} ({ran.output[-300:]})"
         return CertificateCheck(accepted=False, by=toolchain.version(), why=why)
@@ -262,7 +240,7 @@ def by_kernel(folder: Path, numbers: Sequence[int], *, timeout: float) -> Certif
 
 
 def extracted(folder: Path, numbers: Sequence[int], *, timeout: float) -> CertificateCheck:
-    """The result of the extracted program, which is compiled at its first use."""
+    """Check with the extracted program, compiled at first use."""
     program = folder / "certifier"
     by = f"the checker extracted by {toolchain.version()}"
     if not program.exists():
@@ -287,7 +265,6 @@ def extracted(folder: Path, numbers: Sequence[int], *, timeout: float) -> Certif
 
 
 def _accepted(by: str, summary: Iterable[int]) -> CertificateCheck:
-    """The result for an accepted certificate, in the words of its summary."""
     claim, delivered, certified, decisions = summary
     return CertificateCheck(
         accepted=True,

@@ -1,17 +1,14 @@
-"""The judge of coq/Judge.v, extracted as a program in OCaml: a second opinion on a trace.
+"""A second opinion on a trace by the judge of coq/Judge.v, extracted to OCaml.
 
-coq/Claims.v defines claims over a world and a trace, and Coq proves that the judge says `failed`
-of a claim exactly where its definition is violated (coq/JudgeCorrect.v, coq/JudgeDecisions.v,
-coq/JudgeEntailed.v). How
-much is judged, `judged` of `of`, is computed by the same program and no part of the theorems.
+coq/Claims.v defines claims over a world and a trace. Coq proves that the judge says `failed`
+exactly where a definition is violated (coq/JudgeCorrect.v, coq/JudgeDecisions.v,
+coq/JudgeEntailed.v). The theorems do not cover how much is judged, `judged` of `of`.
 
 Trusted besides Coq: its extraction, in which natural numbers become OCaml's integers; the OCaml
-compiler; `numbers` here and coq/judge_driver.ml, which hand the trace over.
+compiler; `numbers` here and coq/judge_driver.ml, which pass the trace.
 
-What this does not show: anything of claim 8, which Coq does not define yet; or of claim 10 where a
-trace declares the planar prior, since Coq does not define planarity.
-
-Source: docs/semantics.md, section 9; docs/proofs.md.
+What this does not show: claim 8, which Coq does not define yet; claim 10 where a trace declares the
+planar prior, since Coq does not define planarity.
 """
 
 from __future__ import annotations
@@ -33,16 +30,16 @@ from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import World
 
 MISSING = "rejection-justified"
-"""The claim that has no definition in Coq yet."""
+"""The claim that Coq does not define yet."""
 
 PROVED_CLAIMS = tuple(claim for claim in CLAIMS if claim != MISSING)
-"""The claims that the judge judges, in the order of its answer."""
+"""The judged claims, in the order of the answer."""
 
 LONG = 400
-"""Of traces with more events the judge is not asked claim 10: it folds the log at each decision."""
+"""Traces with more events are not judged for claim 10, which folds the log at each decision."""
 
 LARGEST = 2**60
-"""Larger numbers are not handed over: OCaml's integers have 63 bits."""
+"""OCaml's integers have 63 bits."""
 
 TracedRun = tuple[World, Sequence[ev.Event]]
 """A world, and what happened there."""
@@ -50,13 +47,7 @@ TracedRun = tuple[World, Sequence[ev.Event]]
 
 @dataclass(frozen=True, slots=True)
 class ProvedOpinion:
-    """What the extracted judge says of one trace.
-
-    Attributes:
-        by: what judged; "" if nothing is installed that could.
-        judgements: one for each claim of `judged_claims`, without findings; empty if not judged.
-        why: the reason why the trace was not judged; "" if it was.
-    """
+    """The judgements of one trace for `judged_claims`, or why there are none."""
 
     by: str
     judgements: tuple[Judgement, ...] = ()
@@ -66,7 +57,7 @@ class ProvedOpinion:
 def second_opinion(
     run: TracedRun, *, timeout: float, progress: Callable[[str], None] = lambda _: None
 ) -> ProvedOpinion:
-    """What the judge says of one run; it is built in a folder that is removed at the end.
+    """Judge one run.
 
     Raises:
         InputError: the installed Coq or OCaml refuses the sources; or as `numbers`.
@@ -87,18 +78,18 @@ def second_opinion(
 
 
 def missing() -> str:
-    """The reason why the judge cannot be built here; "" if it can."""
+    """Why the judge cannot be built here, or ""."""
     no_ocaml = shutil.which("ocamlfind") is None
     ocaml = "ocamlfind not installed: apt-get install ocaml-findlib" if no_ocaml else ""
     return toolchain.missing() or ocaml
 
 
 def build(folder: Path, *, timeout: float) -> Path:
-    """The program, compiled in this folder with the part of the library that it needs.
+    """Compile the program and the part of the library that it needs.
 
     Raises:
         InputError: a compiler refuses a file.
-        toolchain.Unfinished: a file takes too long, or a compiler is killed or lacks memory.
+        toolchain.Unfinished: a compiler timed out, was killed, or lacks memory.
     """
     names = [name for name in toolchain.required("Judge") if not (folder / f"{name}.vo").exists()]
     toolchain.copy_library(folder, [*names, "ExtractJudge"])
@@ -114,7 +105,7 @@ def build(folder: Path, *, timeout: float) -> Path:
 
 
 def judged_claims(trace: Sequence[ev.Event]) -> tuple[str, ...]:
-    """The claims that the judge judges of this trace."""
+    """The claims that are judged of this trace."""
     planar = any(isinstance(event, ev.Reject) and event.rule == "planar" for event in trace)
     return PROVED_CLAIMS[:-1] if planar or len(trace) > LONG else PROVED_CLAIMS
 
@@ -122,11 +113,11 @@ def judged_claims(trace: Sequence[ev.Event]) -> tuple[str, ...]:
 def judge(
     program: Path, runs: Iterable[TracedRun], *, timeout: float
 ) -> list[tuple[Judgement, ...]]:
-    """What the program says of each run: a judgement without findings for each claim.
+    """Judge each run; one judgement without findings for each claim.
 
     Raises:
         InputError: as `numbers`.
-        toolchain.Unfinished: it takes too long, is killed or lacks memory.
+        toolchain.Unfinished: the program timed out, was killed, or lacks memory.
     """
     lines = [" ".join(map(str, numbers(world, trace))) for world, trace in runs]
     stdin = "\n".join([str(len(lines)), *lines])
@@ -142,9 +133,6 @@ def _judgements(words: Sequence[str]) -> Iterator[Judgement]:
     for claim, (word, judged, of) in zip(PROVED_CLAIMS, rows, strict=False):  # 10 may be missing
         status: Status = next(status for status in get_args(Status) if status == word)
         yield Judgement(claim, status, int(judged), int(of))
-
-
-# ---------------------------------------------------------------- a run as natural numbers
 
 
 def numbers(world: World, trace: Sequence[ev.Event]) -> list[int]:
@@ -182,7 +170,7 @@ def _percept(percept: Percept) -> list[int]:
 
 
 def _optional(number: int | None) -> list[int]:
-    # A number below 0 stays below 0, and is refused.
+    # A number below 0 stays so, and is refused.
     return [0 if number is None else number + 1 if number >= 0 else number]
 
 
@@ -203,12 +191,11 @@ def _step(event: ev.Event) -> list[int]:
 
 
 def _ending(finish: ev.Finish) -> list[int]:
-    """The end; a map only if each edge is a pair, and a dart is marked if there is one."""
     vertices, edges, marker = finish.map.vertices, finish.map.edges, finish.map.marker
     head = [1, *_optional(finish.cost)]
     if any(len(edge) != 2 for edge in edges) or (marker is None) == any(vertices):
         return [*head, 0]
-    # Any labels may name the darts: here the numbers of their first appearance do.
+    # Darts are renumbered by first appearance.
     number: dict[int | None, int] = {}
     rows = [[number.setdefault(label, len(number)) for label in row] for row in (*vertices, *edges)]
     rotations, pairs = rows[: len(vertices)], rows[len(vertices) :]

@@ -1,20 +1,12 @@
-"""Theorems proved in Coq for worlds of any size, with no axiom; `prove` checks them again.
+"""Theorems proved in Coq for worlds of any size, without axioms; `prove` checks them again.
 
-Each entry names a theorem of coq/; its statement there is what is proved. One check serves all of
-them, since they share one library: the sources are searched for words that assume without proof;
-coqc compiles them in a temporary folder; Coq is asked which axioms the theorems of this file rest
-on, and must answer none; coqchk checks the compiled files again, and must find no axiom either.
+One check of the library serves all. No source may hold a word that assumes without proof; coqc
+compiles them in a temporary folder; Coq, asked about the theorems listed here, and then coqchk must
+find no axiom. The verdict is PROVED, or UNKNOWN if Coq is missing, a call timed out or a step
+failed; never REFUTED, since a failed proof is no counterexample.
 
-    verdict     when
-    PROVED      every step succeeded; the note is coqchk's summary
-    UNKNOWN     Coq is not installed, a call took too long, or a step failed; the note says which.
-                Never REFUTED: a proof that fails is no counterexample.
-
-What this does not show: that the statements say what they should (docs/proofs.md names the lines
-to read), nor anything about the Python code: its runs are certified one by one
-(`certificates.py`).
-
-Source: docs/proofs.md.
+What this does not show: that the statements mean what they should (docs/proofs.md names the lines
+to read), nor anything about the Python code.
 """
 
 from __future__ import annotations
@@ -30,12 +22,12 @@ from topo_verify.proofs.mechanised import toolchain
 from topo_verify.proofs.theorem import Budget, Theorem, TheoremResult
 
 LONGER = 10
-"""Compiling a file takes longer than a query: a call may take so many times its limit."""
+"""A coqc call takes longer than a query: factor of the time limit."""
 
 
 @dataclass(frozen=True, slots=True)
 class MechanisedStatement:
-    """A theorem of coq/: its file and name there, the claims that rest on it, its words."""
+    """A theorem of coq/, and the claims that rest on it."""
 
     name: str
     file: str
@@ -271,13 +263,7 @@ STATEMENTS: tuple[MechanisedStatement, ...] = (
 
 @dataclass(frozen=True, slots=True)
 class LibraryCheck:
-    """The result of checking the whole library.
-
-    Attributes:
-        why: the reason why nothing is proved; "" if every step succeeded.
-        summary: coqchk's summary in one line.
-        seconds: wall-clock time.
-    """
+    """The result of checking the library: why nothing is proved, or coqchk's summary."""
 
     why: str = ""
     summary: str = ""
@@ -286,7 +272,7 @@ class LibraryCheck:
 
 @cache
 def library(timeout: float) -> LibraryCheck:
-    """The result of one check of the library, made once; `timeout`: seconds for each call."""
+    """Check the library once; `timeout`: seconds for each call."""
     if why := toolchain.missing():
         return LibraryCheck(why=why)
     begin = perf_counter()
@@ -300,10 +286,10 @@ def library(timeout: float) -> LibraryCheck:
 
 
 def examine(folder: Path, *, timeout: float) -> LibraryCheck:
-    """The result of checking the library in an empty folder.
+    """Check the library in an empty folder.
 
     Raises:
-        toolchain.Unfinished: a call takes too long, is killed, or lacks memory.
+        toolchain.Unfinished: a call timed out, was killed, or lacks memory.
     """
     names = toolchain.files()
     toolchain.copy_library(folder, names)
@@ -322,17 +308,17 @@ def examine(folder: Path, *, timeout: float) -> LibraryCheck:
 
 
 def asked(folder: Path, *, timeout: float) -> str:
-    """Coq's answer about the axioms of all theorems together, asked beside the compiled library."""
+    """Coq's answer about the axioms of all theorems together."""
     imports = " ".join(dict.fromkeys(one.file for one in STATEMENTS))
     theorems = ", ".join(f"@{one.file}.{one.theorem}" for one in STATEMENTS)
-    # One tuple of all theorems: a single `Print Assumptions` then covers every one of them.
+    # One `Print Assumptions` of a tuple covers all theorems.
     text = f"From Topo Require {imports}.\nDefinition every := ({theorems}).\n"
     (folder / "asked.v").write_text(f"{text}Print Assumptions every.\n", encoding="utf-8")
     return toolchain.compile_one(folder, "asked", timeout=timeout).output
 
 
 def summary(output: str) -> str:
-    """coqchk's summary in one line: theory, axioms, and every other point that is not <none>."""
+    """coqchk's theory, axioms, and what is not <none>, in one line."""
     lines = output.partition("CONTEXT SUMMARY")[2].splitlines()
     points = [line.removeprefix("* ").strip() for line in lines if line.startswith("* ")]
     worth_saying = (p for p in points if p.startswith("Axioms") or not p.endswith("<none>"))
@@ -364,7 +350,7 @@ def _prover(statement: MechanisedStatement) -> Callable[[Budget], TheoremResult]
             verdict="UNKNOWN" if found.why else "PROVED",
             solver="coqc" if toolchain.missing() else toolchain.version(),
             seconds=found.seconds,
-            # Coq proves that worlds and runs exist (torus_world, run_exists): nothing is vacuous.
+            # Not vacuous: worlds and runs exist (torus_world, run_exists).
             premises_satisfiable=None if found.why else True,
             note=found.why or f"coqchk: {found.summary}",
         )

@@ -1,11 +1,10 @@
-"""Calls of coqc and coqchk: the library is compiled, checked again, and asked for its axioms.
+"""Calls of coqc and coqchk on the library in proofs/coq/.
 
-The library is the folder proofs/coq/; its `_CoqProject` lists the files in an order in which they
-can be compiled. Nothing is written there: it is compiled in a folder of the caller's. Every call
-has a time limit. A call that reaches it, is killed, or runs out of memory or stack raises
-`Unfinished`, which is neither a refusal nor a pass.
+`_CoqProject` lists the files in an order of compilation. They are compiled in the caller's folder,
+never in place. A call that times out, is killed, or runs out of memory or stack raises
+`Unfinished`: neither a refusal nor a pass.
 
-What this does not show: that the installed coqc is the one that its authors released.
+What this does not show: that the installed coqc is the one its authors released.
 """
 
 from __future__ import annotations
@@ -27,24 +26,24 @@ HOW_TO_GET_IT = (
 )
 
 NO_AXIOMS = "Closed under the global context"
-"""Coq's answer to `Print Assumptions` about a theorem that rests on no axiom."""
+"""Coq's answer to `Print Assumptions` for a theorem without axioms."""
 
 FORBIDDEN = re.compile(
     r"\b(Admitted|admit|give_up|Axioms?|Parameters?|Conjectures?|Declare\s+Module|Abort|Unset\s+"
     r"(?:Guard|Positivity|Universe)\s+Checking|bypass_check|type_in_type|Extract\s+Constant)\b"
 )
-"""Words with which a source could claim what it does not prove."""
+"""Words with which a source could assume what it claims to prove."""
 
 
 class Unfinished(Exception):
-    """A program reached its time limit, was killed, or lacked memory: it decided nothing."""
+    """A program timed out, was killed, or lacked memory: it decided nothing."""
 
 
 _LACKS = re.compile(r"(?i)out[ _]of[ _]memory|not enough memory|stack[ _]overflow|system error.*")
-"""In what Coq and programs in OCaml say when they lack memory, stack or room on the disk."""
+"""What Coq and OCaml programs print when they lack memory, stack or disk space."""
 
 _SHELL_SIGNALS = range(129, 160)
-"""Exit codes of a shell script around a program that a signal ended: 128 + its number."""
+"""Exit codes of a shell script whose program a signal ended: 128 + its number."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,14 +55,14 @@ class ProgramRun:
 
 
 def missing() -> str:
-    """The reason why nothing can be compiled here; "" if Coq is installed."""
+    """Why Coq cannot be called here, or ""."""
     lost = [program for program in ("coqc", "coqchk") if shutil.which(program) is None]
     return f"{' and '.join(lost)} not installed: {HOW_TO_GET_IT}" if lost else ""
 
 
 @cache
 def version() -> str:
-    """Name and version of the compiler; its name alone if it does not tell the version."""
+    """Name and version of the compiler."""
     output = subprocess.run(
         ["coqc", "-print-version"],  # noqa: S607  the one on PATH is meant
         capture_output=True, text=True, check=False,
@@ -72,17 +71,16 @@ def version() -> str:
 
 
 def files() -> tuple[str, ...]:
-    """The names of the library's files, in an order in which they can be compiled."""
+    """The library's files, in an order of compilation."""
     lines = (SOURCES / "_CoqProject").read_text(encoding="utf-8").splitlines()
     return tuple(line.removesuffix(".v") for line in lines if line.endswith(".v"))
 
 
 def required(name: str) -> tuple[str, ...]:
-    """The files that one file needs, itself included, in the order of compilation."""
+    """The files that one file needs, itself included, in order of compilation."""
     needed, todo = {name}, [name]
     while todo:
         text = (SOURCES / f"{todo.pop()}.v").read_text(encoding="utf-8")
-        # No source has more than one such line.
         found = re.search(r"^From Topo Require Import ([\w\s]+)\.", text, re.MULTILINE)
         new = set(found[1].split() if found else ()) - needed
         needed |= new
@@ -91,12 +89,12 @@ def required(name: str) -> tuple[str, ...]:
 
 
 def without_comments(text: str) -> str:
-    """A source without its comments, which must not be nested (none of ours is)."""
+    """A source without its comments, which must not be nested."""
     return re.sub(r"\(\*.*?\*\)", " ", text, flags=re.DOTALL)
 
 
 def claims_unproved(text: str) -> tuple[str, ...]:
-    """The words in a source with which it would assume what it ought to prove."""
+    """The forbidden words in a source."""
     return tuple(found[0] for found in FORBIDDEN.finditer(without_comments(text)))
 
 
@@ -109,10 +107,10 @@ def copy_library(folder: Path, names: Iterable[str]) -> None:
 def compile_all(
     folder: Path, names: Iterable[str], *, timeout: float, flags: Sequence[str] = ()
 ) -> ProgramRun:
-    """The result of compiling these sources of the folder in order, up to the first refused one.
+    """Compile these sources in order, up to the first refused one.
 
     Raises:
-        Unfinished: one takes longer than `timeout` seconds, is killed, or lacks memory.
+        Unfinished: as `run`.
     """
     ran = ProgramRun(accepted=True, output="")
     for name in names:
@@ -130,10 +128,10 @@ def compile_one(
 
 
 def recheck(folder: Path, names: Iterable[str], *, timeout: float) -> ProgramRun:
-    """Have coqchk check compiled files again; it accepts only if it names no axiom."""
+    """Check compiled files with coqchk; accepted only if it reports no axiom."""
     library = [f"Topo.{name}" for name in names]
     ran = run(["coqchk", "-silent", "-o", "-Q", ".", "Topo", *library], folder, timeout=timeout)
-    # coqchk succeeds with axioms, too; only its summary tells whether there are any.
+    # coqchk succeeds with axioms, too.
     return ProgramRun(ran.accepted and "* Axioms: <none>" in ran.output, ran.output)
 
 
@@ -141,7 +139,7 @@ def run(command: Sequence[str], folder: Path, *, timeout: float, stdin: str = ""
     """Run a program in the folder.
 
     Raises:
-        Unfinished: it took longer than `timeout` seconds, was killed, or lacked memory or stack.
+        Unfinished: it exceeded `timeout` seconds, was killed, or lacked memory or stack.
     """
     try:
         done = subprocess.run(  # noqa: S603  programs of Coq and OCaml, on files of our own

@@ -1,10 +1,7 @@
-"""cvc5, the second solver: it reads the very SMT-LIB 2 script that Z3 was asked.
+"""cvc5, the second solver, reads the same SMT-LIB 2 script as Z3.
 
-    agrees      both give the same answer
-    disagrees   one answers sat, the other unsat: one of them is wrong, which is an error
-    unknown     cvc5 gave up; this counts neither for nor against Z3's answer
-
-A question with quantifiers that cvc5 leaves open is asked once more, with `full-saturate-quant`.
+It agrees, disagrees (an error: one solver is wrong), or gives up, which counts neither way. A
+question with quantifiers that it leaves open is asked again with `full-saturate-quant`.
 """
 
 from __future__ import annotations
@@ -26,8 +23,6 @@ class SecondAnswer:
     """The answer of cvc5 to one question.
 
     Attributes:
-        solver: name and version.
-        answer: sat, unsat or unknown.
         expected: the answer that the theorem rests on.
         why: the reason for `unknown`, or the option that the answer took.
     """
@@ -41,7 +36,7 @@ class SecondAnswer:
 
     @property
     def agreement(self) -> Agreement:
-        """Whether the answer is the one that the theorem rests on."""
+        """Whether the answer is the expected one."""
         if self.answer == "unknown":
             return "unknown"
         return "agrees" if self.answer == self.expected else "disagrees"
@@ -57,7 +52,7 @@ class SecondAnswer:
 
 
 def require_tools() -> None:
-    """Raise an `InputError` where cvc5 cannot be loaded."""
+    """Raise `InputError` if cvc5 cannot be loaded."""
     try:
         import_module("cvc5")
     except (ImportError, OSError) as error:
@@ -68,10 +63,10 @@ def require_tools() -> None:
 
 
 def ask(query: Query, *, timeout: float = 60.0) -> SecondAnswer:
-    """The answer of cvc5 to the question.
+    """Ask cvc5.
 
     Args:
-        timeout: seconds, for each of the two times that it may be asked.
+        timeout: seconds for each of two tries.
     Raises:
         InputError: cvc5 is not installed, or cannot read the script.
     """
@@ -87,7 +82,7 @@ def ask(query: Query, *, timeout: float = 60.0) -> SecondAnswer:
 
 
 def export(query: Query, folder: Path) -> Path:
-    """Write the script to `<folder>/<name>.smt2` for any other solver, and return the path.
+    """Write the script to `<folder>/<name>.smt2`; return the path.
 
     Raises:
         InputError: the file cannot be written.
@@ -102,7 +97,6 @@ def export(query: Query, folder: Path) -> Path:
 
 
 def _check(query: Query, timeout: float, options: dict[str, str]) -> tuple[SolverAnswer, str]:
-    """The answer to the script's `check-sat`, and the reason for `unknown`."""
     cvc5: Any = import_module("cvc5")
     solver = cvc5.Solver(cvc5.TermManager())
     limit = str(Budget(timeout=timeout).milliseconds)

@@ -1,17 +1,15 @@
 """Z3: a script goes in, one of three answers comes out; every limit on Z3 is set here.
 
-Z3 reads SMT-LIB text, the same that `--smt2` writes to a file and that other solvers read. It is
-set up in one of three ways:
+Z3 reads the SMT-LIB text that `--smt2` exports, in one of three setups:
 
-    quantified   E-matching alone: `auto_config` and `mbqi` are off, since with them questions that
-                 take milliseconds can come back unknown
-    ground       the theory of equality with no quantifier, which Z3 decides
-    clauses      the solver for finite domains: of those tried the fastest on clauses
+    quantified   E-matching alone: with `auto_config` and `mbqi`, questions that take milliseconds
+                 can come back unknown
+    ground       equality without quantifiers, which Z3 decides
+    clauses      the solver for finite domains, the fastest tried on clauses
 
-Each question has a context of its own, so no answer depends on what was asked before. An answer of
-`unknown`, a time-out among them, is passed on with Z3's reason and is never taken for another.
+Each question has its own context, so answers do not depend on earlier ones.
 
-What this does not show: that Z3 is right. cvc5 reads the same scripts (`cvc5_solver`), and a second
+What this does not show: that Z3 is right. cvc5 reads the same scripts (`cvc5_solver`), and another
 program checks the refutations of clauses (`bounded/drup.py`).
 """
 
@@ -39,7 +37,7 @@ def name() -> str:
 
 
 z3_result = partial(TheoremResult, solver=name())
-"""A `TheoremResult` that names Z3 as its solver."""
+"""A `TheoremResult` from Z3."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,9 +45,9 @@ class Z3Reply:
     """Z3's answer to one question.
 
     Attributes:
-        why: the reason for `unknown`, in Z3's words.
-        core: the labels of assertions that cannot hold together (not a least set).
-        values: of a model, each constant that was asked for: name -> value as text.
+        why: the reason for `unknown`.
+        core: labels of assertions that cannot hold together, not minimal.
+        values: of the requested constants, as text.
     """
 
     answer: SolverAnswer
@@ -59,10 +57,10 @@ class Z3Reply:
 
 
 def refute(smt2: str, labels: Iterable[str], budget: Budget) -> Z3Reply:
-    """Z3's reply to a script with quantifiers: `unsat` with a core, or `unknown`.
+    """Ask a script with quantifiers: `unsat` with a core, or `unknown`.
 
     Args:
-        labels: names for the core, one for each assertion of the script, in its order.
+        labels: one for each assertion, in order.
     """
     question = Z3Question(smt2, budget, setup="quantified", labels=tuple(labels))
     answer = question.check()
@@ -70,10 +68,10 @@ def refute(smt2: str, labels: Iterable[str], budget: Budget) -> Z3Reply:
 
 
 def find_values(smt2: str, wanted: Mapping[str, str], budget: Budget) -> Z3Reply:
-    """Z3's reply to a script without quantifiers, with the values of constants if it is `sat`.
+    """Ask a script without quantifiers, with the values of constants if `sat`.
 
     Args:
-        wanted: the sort of each constant whose value is asked for.
+        wanted: the sort of each requested constant.
     """
     question = Z3Question(smt2, budget, setup="ground")
     answer = question.check()
@@ -82,12 +80,12 @@ def find_values(smt2: str, wanted: Mapping[str, str], budget: Budget) -> Z3Reply
 
 
 class Z3Question:
-    """A script put to Z3, to be asked again with assumptions or with models forbidden.
+    """A script put to Z3, which can be asked again with assumptions.
 
-    `why`, `core`, `values` and `true` speak of the last call of `check`.
+    `why`, `core`, `values` and `true` are about the last `check`.
 
     Args:
-        labels: one for each assertion, in their order; without them there is no core.
+        labels: one for each assertion, in order; without them there is no core.
     """
 
     def __init__(
@@ -116,7 +114,7 @@ class Z3Question:
             self._solver.set("rlimit", budget.rlimit)
 
     def check(self, assumed: Mapping[str, bool] | None = None) -> SolverAnswer:
-        """The answer, if the Booleans of these names have these values."""
+        """The answer if these Booleans have these values."""
         result = self._solver.check(*(self._literal(*one) for one in (assumed or {}).items()))
         if result == _z3.sat:
             self._answer = "sat"
@@ -125,30 +123,30 @@ class Z3Question:
         return self._answer
 
     def forbid(self, values: Mapping[str, bool]) -> None:
-        """From now on, at least one of these Booleans has the other value."""
+        """Require that one of these Booleans has the other value."""
         others = [self._literal(name, not value) for name, value in values.items()]
         self._solver.add(_z3.Or(others))
 
     @property
     def why(self) -> str:
-        """The reason for `unknown`; "" for any other answer."""
+        """The reason for `unknown`, or ""."""
         return str(self._solver.reason_unknown()) if self._answer == "unknown" else ""
 
     @property
     def core(self) -> tuple[str, ...]:
-        """The labels of an `unsat` answer, sorted; () for any other answer."""
+        """The sorted labels of an `unsat` answer."""
         if self._answer != "unsat":
             return ()
         return tuple(sorted(map(str, self._solver.unsat_core())))
 
     def true(self) -> frozenset[str]:
-        """The names of the Booleans that are true in the model of a `sat` answer."""
+        """The Booleans that are true in the model."""
         model = self._solver.model()
         # A Boolean that the model leaves open is not in it, and any value does: it counts as false.
         return frozenset(str(name) for name in model.decls() if _z3.is_true(model[name]))
 
     def values(self, wanted: Mapping[str, str]) -> dict[str, str]:
-        """The values, as text, of constants given with their sorts, in the model of `sat`."""
+        """The values of constants, given with their sorts, in the model."""
         model = self._solver.model()
         return {
             name: str(model.eval(_z3.Const(name, self._sort(sort)), model_completion=True))

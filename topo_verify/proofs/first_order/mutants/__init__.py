@@ -1,17 +1,14 @@
 """Rules with one mistake: each fails in some world, of which the smallest is found.
 
-A mutant is refuted by a scene: an exact world, a reachable map S of it, an edge e with a hypothesis
-h, and the moves behind e. The scene is then replayed in the simulator without a solver: the faulty
-rule, evaluated on S and on the sensed percepts, must reject what is true or confirm what is false.
-A scene that does not replay is a bug of ours, and raises.
+A scene refutes a mutant: an exact world, a reachable map S, an edge e with a hypothesis h, and the
+moves behind e. In the simulator, the faulty rule, evaluated on S and the sensed percepts, must
+reject what is true or confirm what is false; otherwise it raises.
 
-What this does not show: that a mapper with the reference policies would make these moves. Claims
-hold for every history, so any history that breaks one will do.
+What this does not show: that the reference policies make these moves. Claims hold for every
+history.
 
-    hypotheses.py   true hypotheses are rejected, records misplaced, false hypotheses confirmed
-    growth.py       S grows in the wrong place, what differs is identified
-
-Source: docs/semantics.md, sections 4, 6, 7 and 8.
+hypotheses.py   true hypotheses rejected, records misplaced, false hypotheses confirmed
+growth.py       S grows in the wrong place, folding identifies what differs
 """
 
 from __future__ import annotations
@@ -35,12 +32,12 @@ class RuleMutant:
         name: of the theorem.
         of: the obligation that the right rule meets.
         words: the mistake.
-        claims: the claims that it breaks.
+        claims: those it breaks.
         rule: the faulty rule, as in `theory.py`; for a fold step, its wrong conclusion.
-        scene: formulas of a scene in which it fails; with the right rule they contradict.
-        plays: makes the moves in a replay, and tells whether the rule fails there.
-        size: edges of the world and darts of S in the smallest scene.
-        without: darts of S whose edges are left for `plays` to cross.
+        scene: formulas; with the right rule they contradict.
+        plays: makes the moves, and tells whether the rule fails.
+        size: edges of the world and darts of S.
+        without: darts of S whose edges are left for `plays`.
     """
 
     name: str
@@ -73,9 +70,9 @@ HOMEWARD: dict[str, Term] = {
         eq(t.mrot(H, i), t.mrot(H, OWN)),
     ),
 }
-"""The way home of h is the one door `own`, and no other edge leads from h's vertex to v0."""
+"""The way home of h is door `own`, its only edge to v0."""
 
 
 def at_h(rule: Term, door: Term, sensed: Term) -> Term:
-    """A rule at h, for this door, about what is sensed there."""
+    """A rule at h, about what is sensed behind this door."""
     return substitute(rule, {x: H, k: door, own: OWN, b: sensed})

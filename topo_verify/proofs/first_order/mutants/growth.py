@@ -1,4 +1,4 @@
-"""Faulty growth and folding: S grows in the wrong place, or what is not one dart is identified."""
+"""S grows in the wrong place, or folding identifies two darts."""
 
 from __future__ import annotations
 
@@ -103,11 +103,8 @@ GROWTH: tuple[RuleMutant, ...] = (
 )
 
 
-# ---------------------------------- fold steps that identify what is not one dart; the planar prior
-
-
 def _plays_fold(replay: SceneReplay, doors: tuple[str | int, ...], one: int, other: int) -> bool:
-    """Whether two places of a walk from the start, which the rule identifies, are two darts."""
+    """Whether two places that the rule identifies are two darts."""
     world, at = replay.scene.world, replay.root
     arrivals = [at]
     for door in doors:
@@ -185,8 +182,6 @@ FOLD_STEPS: tuple[RuleMutant, ...] = (
 )
 
 
-# ---------------------------------------------------------------- the planar prior
-
 face = Symbol("face", ("M",), BOOL)
 
 
@@ -211,4 +206,4 @@ PLANAR = RuleMutant(
     },
     plays=_plays_planar,
 )
-"""Not a mistake in a rule but a rule that is not sound, so it must not be provable."""
+"""A rule that is not sound, so it must not be provable."""

@@ -36,7 +36,7 @@ from topo_verify.robot.percept import Percept
 
 
 def _one(replay: SceneReplay, rule: Term, door: str) -> bool:
-    """Whether the rule, after one door behind e, rejects h although it is true."""
+    """Whether the rule, after one door behind e, rejects the true h."""
     vu = replay.behind("e")
     sensed = replay.forward(door)
     k_, own_ = (replay.scene.constants.get(name, 0) for name in (door, "own1"))
@@ -76,7 +76,6 @@ def _plays_prefix(replay: SceneReplay, rule: Term) -> bool:
 
 
 def _unturned(replay: SceneReplay) -> tuple[Percept, Percept]:
-    """The percepts behind e and behind the own door, which is taken unturned after a way back."""
     vu = replay.behind("e")
     replay.forward("d1")
     # Back, but not by the pilot, which would turn the next door.
@@ -181,8 +180,6 @@ REJECTIONS: tuple[RuleMutant, ...] = (
 )
 
 
-# ----------------------------------------------------- faulty rules that confirm a false hypothesis
-
 _DEGREES = eq(t.mdeg(x), t.deg(b))
 
 
@@ -199,7 +196,7 @@ def _plays_confirm(replay: SceneReplay, rule: Term, doors: tuple[str, ...] = ())
 
 
 def _plays_taken(replay: SceneReplay, rule: Term) -> bool:
-    """Whether h is posed and taken for true behind e although it is false."""
+    """Whether h is taken for true behind e although it is false."""
     vu = replay.behind("e")
     darts = range(len(replay.chart.alpha))
     posed = [h for h in darts if replay.says(t.POSED, vu, e=replay.dart("e"), h=h, b=0)]
@@ -289,8 +286,6 @@ CONFIRMATIONS: tuple[RuleMutant, ...] = (
 )
 
 
-# ----------------------------------------------- faulty records: written or read in the wrong place
-
 E1, H1, D1 = constant("e_before", "M"), constant("h_before", "M"), constant("d_before", "K")
 
 _ENTERED_BY = forall(x, neg(t.minv0(x)), conj(differ(mfirst(x), E1), differ(mfirst(x), H1)))
@@ -298,13 +293,12 @@ BEFORE: dict[str, Term] = {
     "loop-before": conj(t.explored(E1), eq(t.malpha(E1), H1), neg(t.minv0(H1))),
     "loop-finds-nothing": _ENTERED_BY,
 }
-"""Edge e_before was validated as a loop to h_before, and a door was executed behind it."""
+"""e_before was validated as a loop to h_before, after a door behind it."""
 
 SEEN_BEFORE = t.beyond(t.phi(H1), D1)
 
 
 def _unlike(one: Term, other: Term) -> Term:
-    """The formula that two darts of the world show different percepts."""
     same = eq(eq(t.rot(one, i), t.root), eq(t.rot(other, i), t.root))
     return neg(
         conj(
@@ -318,7 +312,7 @@ def _unlike(one: Term, other: Term) -> Term:
 def _plays_records(
     replay: SceneReplay, *, entry: Callable[[SceneReplay], int], late: int, early: int
 ) -> bool:
-    """Whether records made behind e_before reject h behind e although it is true."""
+    """Whether records made behind e_before reject the true h."""
     vu = replay.behind("e_before")
     sensed = replay.forward("d_before")
     replay.close("e_before", "h_before")

@@ -1,7 +1,7 @@
-"""An obligation: premises, a goal that follows from them, and the premises that it needs.
+"""Obligations: premises, and a goal that follows from them.
 
-hypotheses.py  rules reject no true hypothesis and confirm no false one; records stay true
-growth.py      hypotheses are complete, augmentations are right, S ends as the world; folding
+hypotheses.py  rules reject no true and confirm no false hypothesis; records stay true
+growth.py      hypotheses are complete, augmentations right, S ends as the world; folding
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ ENTAILED = ("map-entailed", "decisions-entailed")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Obligation:
-    """A statement for Z3 to prove, about constants of which only the premises are known.
+    """A statement for Z3 to prove.
 
     Attributes:
         name: of the theorem; an induction is two obligations, `…-base` and `…-step`.
         words: the statement in words.
-        claims: the claims that rest on it.
-        theory: the names of its axioms, and of lemmas that earlier obligations prove.
+        claims: those that rest on it.
+        theory: names of axioms, and of lemmas proved earlier.
         given: further premises by name.
         goal: the conclusion.
         argued: the steps in words that use it, by their names in docs/proofs.md.
-        needs: premises without each of which some structure refutes the goal. The most telling
-            one gives a mutant; a slow test asks for all of them.
+        needs: premises without each of which some structure refutes the goal; the most telling one
+            gives a mutant.
     """
 
     name: str
@@ -44,7 +44,7 @@ class Obligation:
     needs: tuple[str, ...]
 
     def premises(self, *, without: str | None = None) -> dict[str, Term]:
-        """The premises by name, without the one that is left out."""
+        """The premises, without the one left out."""
         known = {**AXIOMS, **TRUE_RECORDS}
         row = {name: known[name] for name in self.theory} | self.given
         if without is not None:
@@ -52,7 +52,7 @@ class Obligation:
         return row
 
     def negation(self) -> dict[str, Term]:
-        """The premises and the negated goal, which must have no model."""
+        """The premises and the negated goal."""
         return self.premises() | {"goal-fails": neg(self.goal)}
 
 

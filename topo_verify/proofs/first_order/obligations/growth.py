@@ -1,17 +1,16 @@
 """S grows into the world: hypotheses are complete, augmentations right, and folding is sound.
 
-A loop joins e and a confirmed h. A new vertex is added when every hypothesis was rejected; since no
-rejection is false, the place behind e is then no vertex of S. Its darts are numbered from the entry
-dart on, so `phi2`, the correspondence afterwards, maps door k of the entry dart to door k of the
-place. At the start S is v0 alone: such a new vertex, with the root as its entry dart.
+A loop joins e and a confirmed h. A new vertex is added when every hypothesis was rejected; no
+rejection is false, so the place behind e is no vertex of S. Its darts are numbered from the entry
+dart, so `phi2`, the correspondence afterwards, maps door k of the entry dart to door k of the
+place. At the start S is v0, entered at the root.
 
-When no dart is unexplored, the image of phi is closed under sigma and alpha. Since the world is
-connected, S is the world, and phi is an isomorphism that maps root to root.
+When no dart is unexplored, the image of phi is closed under sigma and alpha. The world is
+connected, so phi is an isomorphism that maps root to root.
 
-**Folding** identifies only what is one dart, and a closed fold is the whole world. A place (sort P)
-is a dart of the fold: a visit of the robot and a door there. In a world that shows the same
-history, every place is a dart, `pi`: the visit's reference dart turned by the door. `same` is what
-folding has identified, `joined` what it knows to be the two ends of an edge.
+**Folding.** A place (sort P) is a visit of the robot and a door there. In a world that shows the
+history it is a dart, `pi`: the visit's reference dart turned by the door. `same` is what folding
+has identified, `joined` what it knows to be an edge.
 
     symbol               what it is
     pturn(p), prot(p,k)  the next place clockwise, the k-th next
@@ -20,13 +19,12 @@ folding has identified, `joined` what it knows to be the two ends of an edge.
     ptoroot(p)           the door from p to that place
     pacross(p)           where all is joined: what p is joined with
 
-Sound: after each step, and under each assumption that is true in the world, places that are `same`
-are one dart. So a contradiction refutes the assumption in every world that fits. Complete: when no
-place is open, places that are one dart are `same`. (Walk from each of the two to the marker by the
-same turns and crossings; there they are identified, and so, step by step backward, are the two.)
-So the fold is the world, and the history proves it.
+Sound: after each step, and under each assumption true in the world, places that are `same` are one
+dart; so a contradiction refutes the assumption. Complete: when no place is open, places that are
+one dart are `same`. (Walk from both to the marker by the same doors; there they are identified, and
+so, backward, are the two.) So the fold is the world, and the history proves it.
 
-Source: docs/semantics.md, sections 8 and 11; J. R. Stallings, Invent. Math. 71 (1983).
+Source: J. R. Stallings, Invent. Math. 71 (1983).
 """
 
 from __future__ import annotations
@@ -104,7 +102,7 @@ NEW_VERTEX: dict[str, Term] = {
 }
 
 ENTRY_THERE = eq(phi2(t.mrot(ENTRY, t.k0)), B)
-"""Door 0 of the new vertex, which is its first dart, is the dart behind e."""
+"""The first dart of the new vertex is the dart behind e."""
 
 
 def _apart(door: Term) -> Term:
@@ -243,8 +241,6 @@ GROWTH_OBLIGATIONS: tuple[Obligation, ...] = (
 )
 
 
-# ---------------------------------------------------------------- folding
-
 pturn = Symbol("pturn", ("P",), "P")
 prot = Symbol("prot", ("P", "K"), "P")
 pdeg = Symbol("pdeg", ("P",), "G")
@@ -269,10 +265,10 @@ FITS: dict[str, Term] = {
     "pi-marker": forall(p, eq(pinv0(p), t.inv0(pi(p))), tried_at=((pi(p),),)),
     "pi-points": forall(p, ppoints(p), eq(pi(p), t.root)),
 }
-"""The world fits the history: it shows the percepts seen at the doors walked."""
+"""The world shows the percepts of the history."""
 
 PI_ROT: dict[str, Term] = {"pi-rot": forall((p, t.k), eq(pi(prot(p, t.k)), t.rot(pi(p), t.k)))}
-"""A lemma, proved by `fold-turn-base` and `fold-turn-step`."""
+"""The lemma of `fold-turn-base` and `fold-turn-step`."""
 
 SAME: dict[str, Term] = {"identified": eq(pi(P), pi(Q))}
 
@@ -292,10 +288,10 @@ CLOSED: dict[str, Term] = {
         tried_at=((prot(p, t.i), prot(p, t.j)),),
     ),
 }
-"""Nothing is left to fold, and no place is open."""
+"""Nothing is left to fold; no place is open."""
 
 AT_MARKER = {name: CLOSED[name] for name in ("marker-folded", "marker-is-seen", "place-doors-wrap")}
-"""The part of `CLOSED` that is needed at the marker; the rest would only slow Z3 down."""
+"""The part of `CLOSED` needed at the marker; the rest slows Z3 down."""
 
 FOLDS = KEPT + ENTAILED
 BY_STEPS = ("induction over fold steps",)

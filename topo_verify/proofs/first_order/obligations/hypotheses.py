@@ -1,25 +1,21 @@
 """No rule rejects a true hypothesis, and none confirms a false one.
 
-**Doors.** What turning by any number of them preserves, by induction over doors. Also the way back:
-door 0 undoes a move but for a turn, which is added to the next door.
+**Doors.** Invariants of turning, by induction over doors. The way back: door 0 undoes a move but
+for a turn, which is added to the next door.
 
-**Traces** on S keep the correspondence with the world, so no rule rejects a true hypothesis. The
-rules `prefix` and `history`, and the motion itself, compare the percept that S shows with the
-one that is sensed. Base: if e ends in h, then vu is h's place. Step: across an explored edge, S and
-the world arrive at corresponding places. So, by induction, the percepts compared are equal along
-words of any length.
+**Traces** keep the correspondence with the world. The rules `prefix` and `history`, and the motion,
+compare the percept that S shows with the sensed one. Base: if e ends in h, then vu is h's place.
+Step: across an explored edge, S and the world arrive at corresponding places. So the percepts are
+equal along words of any length.
 
-**Confirmation.** A full match is never false, by induction backward from v0. The way home ends at
-v0, where the direction of the marker identifies the dart: equal percepts there mean that S and the
-world are at the same dart. Backward over each door, corresponding darts came from corresponding
-darts, since turning and crossing are injective. So h's place is where the robot began. The percepts
-in between are not needed for this; they only reject earlier.
+**Confirmation** is never false, by induction backward from v0, where equal percepts, with the
+marker's direction, identify the dart. Turning and crossing are injective, so corresponding darts
+came from corresponding darts, and h's place is where the robot began. Percepts in between only
+reject earlier.
 
-**Records.** Percepts recorded behind unexplored darts are true when written, and stay true. A
-record is true if it was sensed at a spot of the world that lies where the record's dart and doors
-say. Writing: the sequences are traced from the entry dart, which is known by then. Reading: tracing
-leaves S through an unexplored dart and descends the trie. Keeping: S only grows, and growth moves
-no dart that was there before.
+**Records** are true if sensed where the record's dart and doors say, and stay true. Writing:
+sequences are traced from the entry dart. Reading: tracing leaves S through an unexplored dart and
+descends the trie. Keeping: growth moves no dart of S.
 """
 
 from __future__ import annotations
@@ -70,7 +66,6 @@ def _induction(
     theory: tuple[str, ...],
     needs: tuple[tuple[str, ...], tuple[str, ...]],
 ) -> tuple[Obligation, Obligation]:
-    """Base and step of an induction over doors."""
     shared = partial(Obligation, claims=BOTH, theory=theory, argued=DOOR_INDUCTION)
     return (
         shared(
@@ -154,8 +149,6 @@ DOOR_OBLIGATIONS: tuple[Obligation, ...] = (
 )
 
 
-# ---------------------------------------------------------------- traces
-
 WORDS = ("walk-nil", "walk-cons", "map-walk-nil", "map-walk-cons", "stays-nil", "stays-cons")
 BY_WORDS = ("induction over words", "rules compare along words")
 
@@ -165,13 +158,13 @@ _confirms = partial(Obligation, claims=CONFIRMED)
 _confirms_by_words = partial(_confirms, argued=BY_WORDS)
 
 HERE = {"corresponds": eq(t.phi(X), B)}
-"""Dart x of S corresponds to dart b of the world, where the robot stands."""
+"""Dart x of S corresponds to b, where the robot stands."""
 
 ACROSS = {"on-explored-edges": t.explored(t.mrot(X, D))}
 
 
 def applied(rule: Term) -> Term:
-    """A rule at x, for door D, about what is sensed behind that door."""
+    """A rule at x, for door D, about the percept behind it."""
     return substitute(rule, {t.x: X, k: D, t.own: OWN, t.b: t.beyond(B, D)})
 
 
@@ -252,11 +245,8 @@ TRACE_OBLIGATIONS: tuple[Obligation, ...] = (
 )
 
 
-# ---------------------------------------------------------------- confirmation
-
-
 def _confirmed(word: Term) -> Term:
-    """If this word ends at corresponding darts, it began at corresponding darts."""
+    """If this word ends at corresponding darts, it began at such."""
     return forall(
         (t.x, t.a),
         t.stays(t.x, word),
@@ -308,8 +298,6 @@ CONFIRMATION_OBLIGATIONS: tuple[Obligation, ...] = (
 )
 
 
-# ---------------------------------------------------------------- records
-
 TRUE = (*t.CORRESPONDENCE, *t.TRUE_RECORDS)
 ON_RECORD = {"corresponds": eq(t.spot(R), B), "goes-deeper": t.deeper(R, D)}
 
@@ -332,7 +320,7 @@ recorded2 = Symbol("recorded2", ("M",), BOOL)
 
 
 def _followed(word: Term) -> Term:
-    """From a record, this word leads to the record of the spot where the word leads."""
+    """From a record, this word leads to the record of the spot where it leads."""
     return forall(
         (t.r, t.a),
         eq(t.spot(t.r), t.a),
