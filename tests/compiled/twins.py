@@ -10,7 +10,7 @@ from topo_verify import World
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.compiled.events import words
 from topo_verify.compiled.explore import CompiledRun, run_world
-from topo_verify.player.narrator import event_words
+from topo_verify.robot.event_words import event_words
 from topo_verify.robot.events import Event, Finish, MapData, Robot
 from topo_verify.robot.limits import MapperStopped
 from topo_verify.robot.simulator import SimulatedRobot

@@ -3,7 +3,6 @@
     narrator = Narrator(playback)
     narrator.sayings             # of every moment: a title, sentences, the percepts that differ
     narrator.line(moment)        # of a decision, for the text walk: exact, with its darts
-    event_words(event)           # the same as the mapper states it, without a replay
 
 A saying is for everybody: a vertex is a place, an edge a road, a dart an exit, a hypothesis a
 guess. The page and the animation show it. A line has the field's terms. Both rest on the same
@@ -23,17 +22,10 @@ from topo_verify.checkers.darts import KnownDart
 from topo_verify.errors import InputError, plural, shown
 from topo_verify.player.detours import SupposedWalk, tested_guesses
 from topo_verify.player.fold_places import FoldPlaces, fold_places
-from topo_verify.player.remarks import (
-    Homeward,
-    door_words,
-    homeward,
-    listed,
-    map_place,
-    percept_in_brackets,
-    world_place,
-)
+from topo_verify.player.remarks import Homeward, homeward, map_place, world_place
 from topo_verify.player.scenes import Mismatch, Moment, Playback
 from topo_verify.robot import events as ev
+from topo_verify.robot.event_words import cited_words, door_words, event_words, rejection_words
 from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import World
 
@@ -302,74 +294,18 @@ class Narrator:
         cited, spoiled = event.evidence, self.playback.replayed.spoiled
         if cited.contradiction is not None:
             return event_words(event)
-        words = _rejection(event)
+        words = rejection_words(event)
         if found is None:
             why = "cannot be found in the walk"
             if spoiled is not None and spoiled < number:
                 why = f"is not looked for: the mapper's map is false since event {spoiled}"
-            return f"{words}{_cited(cited)} at step {cited.step}, which {why}"
+            return f"{words}{cited_words(cited)} at step {cited.step}, which {why}"
         start = map_place(self.playback, found.traced[0])
         behind = f"behind {door_words(found.doors)} from {start}"
         behind = behind if found.doors else "behind the edge"
         of = "" if found.sequence is None else f" (sequence {found.sequence})"
         at = world_place(self.playback, found.trail[-1])
-        return f"{words}{behind}{of} it {_cited(cited)} at {at}"
-
-
-def event_words(event: ev.Event, *, brief: bool = False) -> str:
-    """An event in one exact sentence, as the mapper states it: no world and no replay is needed.
-
-    Args:
-        brief: a long list of hypotheses is cut, and the degree behind a loop is left out.
-    """
-    match event:
-        case ev.Start(percept=percept):
-            words = f"starts and sees {percept_in_brackets(percept)}"
-        case ev.Move(door, percept):
-            words = f"takes door {door} and sees {percept_in_brackets(percept)}"
-        case ev.Pose(edge, hypotheses):
-            names = listed(hypotheses) if brief else ", ".join(map(str, hypotheses))
-            to = f"to {names} or" if hypotheses else "no hypothesis, so"
-            words = f"asks where edge {edge} leads: {to} to a new vertex"
-        case ev.Reject():
-            words = f"{_rejection(event)}{_declared_evidence(event.evidence)}"
-        case ev.Confirm(edge, hypothesis, rule):
-            words = f"confirms that edge {edge} leads to {hypothesis} (by {rule})"
-        case ev.Augment(edge, "loop", dart, degree):
-            words = f"S grows: edge {edge} leads to {dart}"
-            words += "" if brief else f", of degree {degree}"
-        case ev.Augment(edge, _, dart, degree):
-            darts = f"dart {dart}" if degree == 1 else f"darts {dart} to {dart + degree - 1}"
-            words = f"S grows: edge {edge} leads to a new vertex, {darts}"
-        case ev.Finish(cost, delivered):
-            size = plural(len(delivered.vertices), "vertex", "vertices")
-            told = "" if cost is None else f", and a cost of {cost}"
-            words = f"delivers a map of {size} and {plural(len(delivered.edges), 'edge')}{told}"
-        case _:
-            assert_never(event)
-    return words
-
-
-def _rejection(event: ev.Reject) -> str:
-    return f"rejects that edge {event.edge} leads to {event.hypothesis} (by {event.rule}): "
-
-
-def _cited(cited: ev.Evidence) -> str:
-    expected, observed = map(percept_in_brackets, (cited.expected, cited.observed))
-    return f"expects {expected}, saw {observed}"
-
-
-def _declared_evidence(cited: ev.Evidence) -> str:
-    """The evidence of a rejection with every field that a mapper states."""
-    if cited.contradiction is not None:
-        return cited.contradiction
-    words = f"{_cited(cited)} at step {cited.step}"
-    words += "" if cited.sequence is None else f" of sequence {cited.sequence}"
-    words += "" if cited.at is None else f", at dart {cited.at}"
-    if cited.record is not None:
-        doors = door_words(cited.record.doors)
-        words += f", from the record behind dart {cited.record.dart}, {doors}"
-    return words
+        return f"{words}{behind}{of} it {cited_words(cited)} at {at}"
 
 
 def _testing(guess: int, seen: Percept | None, expected: Percept | None) -> Saying:

@@ -10,13 +10,14 @@ Percepts are short here: `5` is degree 5 with no marker, `5, marker 2` has the m
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from topo_verify.checkers.darts import KnownDart, WorldDart
 from topo_verify.player.detours import Turn, way_home
 from topo_verify.player.scenes import Mismatch, Moment, Playback
 from topo_verify.robot import events as ev
+from topo_verify.robot.event_words import door_words, listed, percept_in_brackets
 from topo_verify.robot.percept import Door, Percept
 
 
@@ -191,27 +192,7 @@ def _same_vertex(playback: Playback, one: WorldDart, other: WorldDart) -> bool:
     return playback.world.vertex_of[one] == playback.world.vertex_of[other]
 
 
-# ---------------------------------------------------------------- names of darts, doors, percepts
-
-
-def percept_words(percept: Percept | None) -> str:
-    """A percept: its degree, and the door of the marker where the marker is."""
-    if percept is None:
-        return "nothing"
-    marker = "" if percept.marker is None else f", marker {percept.marker}"
-    return f"{percept.degree}{marker}"
-
-
-def percept_in_brackets(percept: Percept | None) -> str:
-    """A percept within a sentence: `(5, marker 2)`, or `nothing`."""
-    return "nothing" if percept is None else f"({percept_words(percept)})"
-
-
-def door_words(doors: Sequence[Door]) -> str:
-    """Doors in the order in which they are taken: `doors 1 0 2`."""
-    if not doors:
-        return "no door"
-    return f"door{'s' if len(doors) > 1 else ''} {' '.join(map(str, doors))}"
+# ---------------------------------------------------------------- names of darts
 
 
 def world_place(playback: Playback, dart: WorldDart | None) -> str:
@@ -229,14 +210,3 @@ def map_place(playback: Playback, dart: KnownDart | None) -> str:
 def either_place(playback: Playback, known: KnownDart | None, dart: WorldDart | None) -> str:
     """A dart on S where S has it, else in the world."""
     return world_place(playback, dart) if known is None else map_place(playback, known)
-
-
-def listed(things: Iterable[object], none: str = "none") -> str:
-    """The things with commas; a long list is cut."""
-    texts = [str(thing) for thing in things]
-    if len(texts) > _MOST:
-        texts = [*texts[:_MOST], f"and {len(texts) - _MOST} more"]
-    return ", ".join(texts) or none
-
-
-_MOST = 12

@@ -23,16 +23,10 @@ from topo_verify.checkers.darts import KnownDart, WorldDart
 from topo_verify.errors import LINE, InputError, plural, shortened, shown
 from topo_verify.player.detours import circle, turns
 from topo_verify.player.narrator import Narrator
-from topo_verify.player.remarks import (
-    either_place,
-    listed,
-    map_place,
-    percept_words,
-    remarks,
-    world_place,
-)
+from topo_verify.player.remarks import either_place, map_place, remarks, world_place
 from topo_verify.player.scenes import DeclaredMap, Moment, Playback
 from topo_verify.robot import events as ev
+from topo_verify.robot.event_words import listed, percept_words
 from topo_verify.world.rooted_map import World
 
 WIDTH = 80

@@ -9,7 +9,7 @@ import pytest
 
 from tests.helpers import edited, place, trace_of, worlds
 from topo_verify import CATALOGUE
-from topo_verify.player.narrator import event_words
+from topo_verify.robot.event_words import event_words
 from topo_verify.robot.events import (
     Augment,
     Confirm,

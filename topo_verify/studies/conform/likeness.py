@@ -12,7 +12,7 @@ from itertools import zip_longest
 
 import msgspec
 
-from topo_verify.player.narrator import event_words
+from topo_verify.robot.event_words import event_words
 from topo_verify.robot.events import (
     Augment,
     Confirm,
