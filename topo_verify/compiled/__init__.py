@@ -1,14 +1,13 @@
 """The compiled twin: the algorithms of the catalogue for numba, over one array of integers.
 
-It is not trusted: tests compare it with `topo_verify/algorithms/` by every event of every run. Each
-file names the one that it mirrors; functions keep their names.
+It is not trusted: tests compare every event of every run with `topo_verify/algorithms/`. Functions
+keep the names of the file that theirs mirrors.
 
     kernel.py       what a kernel is; from sources to cached machine code
     names.py        names for words: `chart.first[v]`, and their offsets
     workspace.py    the fields of a run, and of an enumeration
     events.py       words of a trace, from and to events
     faults.py       some mistakes of topo_verify/faults, by number
-
     robot.py        robot/simulator.py        chart.py        algorithms/chart.py
     motion.py       motion.py, policies.py    evidence.py     enhancement_i, _ii, _iii, planar.py
     folding.py      folding.py                exploration.py  exploration.py
@@ -18,7 +17,7 @@ file names the one that it mirrors; functions keep their names.
     explore.py      one run in one world of any size, for use from Python
     native.py       a native mapper in the place of `explore`: native_call.py, native_run.py
 
-Kernels become one module with one set of constants, so they import vocabularies whole:
+Kernels become one module, so they import vocabularies whole:
 `from topo_verify.compiled.workspace import *`. Importing this package loads neither numba nor
 numpy.
 """

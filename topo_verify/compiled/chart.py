@@ -1,9 +1,8 @@
 """The map S that the mapper draws while it explores.
 
 Mirrors: algorithms/chart.py, `Chart`. Differs: U is a mark at each dart with a count at each
-vertex. The tree rooted at v0 is kept (`chart.has_tree`) until an edge may change it. A new vertex,
-hung at vk, leaves the others in their order; an edge between vertices at one distance is in no
-breadth-first tree; any other edge may change the tree.
+vertex. The tree rooted at v0 is kept (`chart.has_tree`) over edges that cannot change it: to a new
+vertex, which hangs at vk, and between vertices at one distance.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ def add_vertex(run: RunWords, percept: int) -> int:
     v = chart.vertices
     first = chart.darts
     degree = percept >> SHIFT
-    if first + degree > CHART_DARTS:  # a vertex has a dart, so there is room for vertices, too
+    if first + degree > CHART_DARTS:  # so is room for vertices
         run.stop = STOP_FULL + FULL_CHART
         return 0
     marker = percept & MASK  # 1 + marker
@@ -47,7 +46,7 @@ def add_vertex(run: RunWords, percept: int) -> int:
         chart.vertex[dart] = v
         chart.in_u[dart] = 1
         run.records.of_dart[dart] = -1
-        # Seen from one place further clockwise, the marker is one door nearer.
+        # From the next place clockwise, the marker is one door nearer.
         chart.percept[dart] = degree * P + marker
         if marker == 1:
             marker = degree
@@ -90,7 +89,7 @@ def turn(chart: ChartWords, dart: int, door: int) -> int:
     v = chart.vertex[dart]
     beyond = chart.first[v] + chart.degree[v]
     turned = dart + door
-    while turned >= beyond:  # once at most, but for the doors of another vertex
+    while turned >= beyond:
         turned -= chart.degree[v]
     return turned
 
@@ -120,7 +119,7 @@ def tree(chart: ChartWords, root: int, until: int) -> None:
     while head < tail:
         v = chart.reached[head]
         head += 1
-        # All vertices on its way to the root were reached before it.
+        # Its way to the root was reached before it.
         if v == until:
             return
         for dart in range(chart.first[v], chart.first[v] + chart.degree[v]):
@@ -128,7 +127,7 @@ def tree(chart: ChartWords, root: int, until: int) -> None:
             if other >= 0:
                 u = chart.vertex[other]
                 if chart.seen[u] != search:
-                    # `other` is the dart at the far end, so it is the one that leads back.
+                    # `other` leads back.
                     chart.seen[u] = search
                     chart.towards[u] = other
                     chart.reached[tail] = u
@@ -186,13 +185,13 @@ def reach(chart: ChartWords, root: int) -> int:
         v = chart.reached[head]
         head += 1
         if best >= 0 and chart.near[v] > distance:
-            break  # the search goes outward: no vertex as near is still to come
+            break  # the search goes outward
         if chart.open[v] > 0:
             opened = first_in_u(chart, v)
             if best < 0 or opened < best:
                 best = opened
                 distance = chart.near[v]
-        elif best < 0:  # else its neighbours are farther than the best
+        elif best < 0:
             for dart in range(chart.first[v], chart.first[v] + chart.degree[v]):
                 other = chart.alpha[dart]
                 if other >= 0:

@@ -1,20 +1,13 @@
 """Lists the worlds of a rank range inside the kernel, in place.
 
 The twin of `world/enumeration/rank_order.py` (class `any`) and `pruned.py` (other classes): the
-same growth, order and ranks. The letters are theirs: `u` open darts, `r` darts to create, `e` the
-smallest open dart, `c` its partner, F(u, r) the number of completions; `n` darts and `nv` vertices
-so far, `m2` darts at the end.
-
-Differs: ONE map grows in the workspace (`WorldWords`), and a step back undoes the last step. The
-state of the walk is an array, so it stops at each world and goes on:
+same growth, order, ranks and letters: `u` open darts, `r` darts to create, `e` the smallest open
+dart, `c` its partner, F(u, r) the number of completions; `n` darts and `nv` vertices so far, `m2`
+darts at the end. Differs: ONE map grows in the workspace, and a step back undoes the last step:
 
     walk = WalkWords(prepare(8, WorldClass.parse("planar"), 0, 1000))
     while next_world(world, walk) >= 0:      # the rank; -1: no further world
         ...                                  # it has walk.vertices vertices
-
-In other classes than `any` the pruners of `pruning.py` are asked before each step.
-`benchmarks/compiled.py --only enumeration` prints the speed, which is limited by the dependence of
-each step on the last.
 """
 
 from __future__ import annotations
@@ -77,7 +70,6 @@ def next_pruned(world: WorldWords, walk: WalkWords) -> int:  # noqa: PLR0912  sp
             u, nv, e, c = n, 1, 0, 0
             if walk.has_genus != 0:
                 look_around(walk, 0, 0)
-        # The next child of this step, its first child, and so on, down to a world.
         while u > 0:
             walk.rank = rank
             c = join_from(world, walk, k, e, c + 1, m2, n, u, nv)
@@ -116,7 +108,7 @@ def begin_next_root(world: WorldWords, walk: WalkWords) -> int:
             walk.root_after = after
             plant(world, walk, degree)
             return rank
-        # Also for a root that is pruned: ranks count the worlds of class `any`.
+        # Ranks count pruned roots too.
         rank = after
     walk.root = m2
     return -1
@@ -134,7 +126,7 @@ def join_from(
     ways = 0
     if c < n and u > 1:
         ways = walk.completions[(u - 2) * G_ROW + m2 - n]
-    # No way at all: the join would leave no open dart while darts remain (a dead end).
+    # A dead end: no dart would be open while darts remain.
     if ways == 0:
         return max(c, n)
     rank = walk.rank
@@ -237,7 +229,7 @@ def prepare(
     most = kind.most_genus if kind.genus is None else kind.genus
     walk.pruned = kind != WorldClass()
     walk.has_genus, walk.exact = most is not None, kind.genus is not None
-    # No map has 2g > m; so the bound of a class that asks for more excludes (or allows) nothing.
+    # No map has 2g > m.
     walk.most_genus = min(most or 0, edges)
     walk.most_degree = min(kind.most_degree or m2, m2)
     walk.loopless, walk.simple = kind.loopless or kind.simple, kind.simple
@@ -278,7 +270,7 @@ def next_of_all(world: WorldWords, walk: WalkWords) -> int:
         return -1
     m2, k, n, u, nv = walk.darts, walk.depth, walk.created, walk.opened, walk.vertices
     while True:
-        if k > 0:  # undo the last step; its next sibling follows
+        if k > 0:  # undo; the next sibling follows
             k -= 1
             e, c = walk.dart[k], walk.partner[k]
             world.alpha[e] = -1
@@ -325,7 +317,7 @@ def next_of_all(world: WorldWords, walk: WalkWords) -> int:
 @inlined
 def next_partner(world: WorldWords, c: int, m2: int, n: int, u: int) -> int:
     """The next partner from c on: an open dart, or a new vertex's last dart."""
-    # A step that leaves no open dart while darts remain is a dead end.
+    # A dead end: no dart would be open while darts remain.
     while c < m2:
         if c < n:
             if world.alpha[c] < 0 and (u > 2 or n == m2):

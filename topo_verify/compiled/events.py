@@ -143,7 +143,7 @@ def digest(trace: TraceWords) -> int:
     h = 1469598103934665603
     for i in range(trace.size):
         h = (h ^ trace.word[i]) * 1099511628211
-        h ^= (h >> 29) & 0x7FFFFFFFF  # the shift of a negative number keeps its sign
+        h ^= (h >> 29) & 0x7FFFFFFFF  # a shift keeps the sign
     return h
 
 

@@ -1,14 +1,10 @@
 """The rules that refute a hypothesis from what was seen; the complete rule is in folding.py.
 
-    rule      mirrors of algorithms/              what differs
-    prefix    enhancement_i.py, `PrefixRule`      the last sequence is the excursion itself
-    history   enhancement_ii.py, `HistoryRule`    the same; `beyond` is that of enhancement_iii.py
-    records   enhancement_iii.py, `RecordsRule`   a record is four words; those behind one place
-                                                  are a list
-    planar    planar.py, `PlanarRule`             the face is a mark on its darts
-
-A dropped record keeps its place until the run ends. The rule for one level writes no record behind
-another.
+rule      mirrors of algorithms/              what differs
+prefix    enhancement_i.py, `PrefixRule`      the last sequence is the excursion itself
+history   enhancement_ii.py, `HistoryRule`    the same; `beyond` is that of enhancement_iii.py
+records   enhancement_iii.py, `RecordsRule`   a record is four words, in a list for each place
+planar    planar.py, `PlanarRule`             the face is a mark on its darts
 """
 
 from __future__ import annotations
@@ -62,7 +58,7 @@ def refute_by_history(run: RunWords, h: int) -> bool:
         at = chart.first[chart.vertex[h]]
     for step in range(1, excursion.size + 1):
         exit_dart = turn(chart, at, excursion.door[step - 1])
-        # Negative also for e and h, which are joined only when h is confirmed.
+        # Negative also for e and h.
         at = chart.alpha[exit_dart]  # A3.11
         if at < 0:
             if planted(run.task, TAKES_UNKNOWN_FOR_A_MISMATCH):
@@ -84,7 +80,7 @@ def observe_sequence(run: RunWords) -> None:
     excursion, sequences = run.excursion, run.sequences
     n = excursion.size
     first = sequences.steps
-    if first + n + 1 > STEPS:  # each sequence is that of another dart, so all have their SQ_FIRST
+    if first + n + 1 > STEPS:
         run.stop = STOP_FULL + FULL_STEPS
         return
     sequences.first[sequences.number - 1] = first
@@ -106,7 +102,7 @@ def beyond(run: RunWords, exit_dart: int, step: int) -> bool:
         if records.percept[place] != excursion.percept[step]:
             cite(evidence, step, records.percept[place], excursion.percept[step], exit_dart)
             evidence.record = exit_dart
-            # Door number `step` is DOORS[step - 1], so the record's doors begin with this one.
+            # Door `step` has index step - 1: the record begins here.
             evidence.first = first
             return True
         if step == excursion.size:
@@ -129,7 +125,7 @@ def behind(records: RecordWords, place: int, door: int) -> int:
 def learn_records(run: RunWords, e: int, entry: int) -> None:
     """Record what sequences showed behind unexplored darts of the grown S."""
     records, sequences, chart = run.records, run.sequences, run.chart
-    # Before anything is recorded. Both are explored now, so neither gets a new record below.
+    # Both are explored now, and get no new record below.
     records.of_dart[e] = -1
     records.of_dart[entry] = -1
     origin = entry
@@ -154,7 +150,7 @@ def learn_records(run: RunWords, e: int, entry: int) -> None:
 def record(run: RunWords, exit_dart: int, sequence: int, step: int) -> None:
     """Record the percepts from this step on."""
     sequences, records = run.sequences, run.records
-    # What is recorded already stays: a place shows the same percept each time.
+    # A place shows the same percept each time.
     first = sequences.first[sequence]
     place = records.of_dart[exit_dart]
     if place < 0:
@@ -197,8 +193,8 @@ def face(run: RunWords, e: int) -> None:
     dart = e
     while True:
         faces.face[dart] = faces.number
-        # An unexplored dart is a dead end, so turn back. The next dart of the face is sigma∘alpha,
-        # where alpha of an open dart is the dart itself.
+        # At an unexplored dart turn back: the next dart of the face is sigma∘alpha,
+        # with alpha of an open dart the dart itself.
         if chart.alpha[dart] >= 0:
             dart = chart.alpha[dart]
         dart = turn(chart, dart, 1)

@@ -1,15 +1,12 @@
 """The exploration loop, which listings 1, 2 and 3 of the paper share.
 
     the paper's name   here
-    S, U               the fields of chart.py
     e = (vk, vu)       e: the dart that leaves vk
     e', e''            h: a hypothesis, the dart by which vu would have been entered
     H                  `remaining.dart`, in the order of the order policy, and how many there are
-    PE, P              percepts of the arrivals, and of the excursion
 
 Mirrors: algorithms/exploration.py, line by line. Differs: H is a row of darts; only `folding` and
-`planar` are asked before the first motion, since no other rule can reject there. A number selects
-the rule. Where the reference may raise, this looks at `stop` and returns.
+`planar` are asked before the first motion. Where the reference may raise, this looks at `stop`.
 """
 
 from __future__ import annotations
@@ -98,7 +95,7 @@ def settle(run: RunWords, at: int) -> int:
     """Explore one edge; return the reference dart on S."""
     sequences = run.sequences
     e = nearest(run.chart, at)  # A1.4 A2.4 A3.5
-    # e leaves U before H is made, since no edge ends in its own dart; `join` explores it later.
+    # No edge ends in its own dart.
     leave_u(run.chart, e)
     at = walk(run, at, run.chart.vertex[e])  # A1.5 A2.5 A3.6
     if run.stop != 0:
@@ -115,7 +112,7 @@ def settle(run: RunWords, at: int) -> int:
     if run.stop != 0:
         return 0
     if h >= 0:  # A1.16 A2.24 A3.25
-        # Declared where the robot stands: only `localise` walks it back, if at all.
+        # Declared before `localise` may walk back.
         join(run.chart, e, h)  # loop augmentation: A1.17 A2.25 A3.26
         declare_augment(run, e, LOOP, h, percept >> SHIFT)
         entered = h
@@ -129,7 +126,7 @@ def settle(run: RunWords, at: int) -> int:
         join(run.chart, e, entered)  # non-loop augmentation: A1.19 A2.27 A3.28
         declare_augment(run, e, NEW, entered, percept >> SHIFT)
     learn(run, e, entered, h < 0)
-    if run.stop != 0:  # a walk back that the budget ends would hide the reason
+    if run.stop != 0:
         return 0
     return localise(run, entered)
 
@@ -151,7 +148,7 @@ def hypotheses(run: RunWords, e: int, percept: int) -> int:
                     run.remaining.dart[number] = dart
                     number += 1
     if number > 0:
-        # One tree serves all hypotheses, because S does not change while e is validated.
+        # S does not change while e is validated.
         tree_of_v0(chart)
         shortest(run, number)
     if planted(run.task, TRIES_ONLY_THE_NEAREST_TWO) and number > 2:
@@ -164,7 +161,7 @@ def validate(run: RunWords, e: int, remaining: int) -> int:
     """The confirmed hypothesis, or -1."""
     task, excursion = run.task, run.excursion
     if task.rule >= RULE_FOLDING:
-        # Before any motion: with no sequence yet, only `folding` and `planar` can reject.
+        # Only `folding` and `planar` can reject before a motion.
         remaining = sift(run, e, remaining)
     while remaining > 0 and run.stop == 0:  # A1.7 A2.10 A2.20 A2.21 A3.8
         h = concluded(run, remaining)
@@ -184,7 +181,7 @@ def validate(run: RunWords, e: int, remaining: int) -> int:
             return h
         # The percepts differ: A1.14 A2.14 A3.23. The robot stays: A2.15.
         declare_reject(run, e, h, BY_MOTION)
-        if excursion.size == 0:  # vu shows the marker: nothing was executed that a rule could use
+        if excursion.size == 0:  # vu shows the marker: nothing was executed
             continue
         run.sequences.number += 1
         if task.rule != RULE_NONE:
@@ -229,14 +226,14 @@ def execute(run: RunWords, h: int, shared: int) -> int:
     """
     chart, excursion = run.chart, run.excursion
     length = chart.depth[chart.vertex[h]]
-    if shared < length:  # else its whole way is executed already: no motion
+    if shared < length:  # else its way is executed already
         back(run, shared)  # A1.15 A2.23 A3.24
         if run.stop != 0:
             return 0
     at = h
     step = 0
     while True:  # A1.9 A1.10 A2.8 A2.9 A3.18 A3.19
-        # What is shared is not walked again, but compared it is: the robot has seen those percepts.
+        # Shared percepts are compared, not walked again.
         if excursion.percept[step] != chart.percept[at]:  # A1.11 A2.11 A3.20
             if overlooked(run, at, step, length):
                 return -1
@@ -280,7 +277,7 @@ def localise(run: RunWords, entered: int) -> int:
         back(run, 0)
         return entered
     if marker > 0:
-        # The marker points at dart 0, `marker` doors clockwise from the reference dart.
+        # The marker points at dart 0.
         return 0 if marker == 1 else chart.degree[0] - marker + 1
     back(run, 0)
     turned = run.excursion.turned

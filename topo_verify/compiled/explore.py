@@ -2,12 +2,9 @@
 
     run = run_world(world, "enhancement-ii", trace=True)     # -> CompiledRun
 
-Worlds of up to 12 edges run in the small layout, others in the large one. Between rounds a run can
-be interrupted (Ctrl-C), and in the large layout its words of trace become events. A round that
-fills the trace is made again with four times the room; a run that needs more of anything else, in
-the large layout. A trace may take half of the free memory, or the run is refused.
-
-What this does not show: whether the run is the reference's. tests/compiled compares the two.
+Worlds of up to 12 edges run in the small layout, others in the large one, whose words of trace
+become events between rounds. A round that fills the trace is made again with four times the room; a
+run that needs more of anything else, in the large layout. A trace may take half of the free memory.
 """
 
 from __future__ import annotations

@@ -2,15 +2,12 @@
 
 Mirrors: algorithms/folding.py, `SeenPlaces`, `PartialFold` and `FoldingRule`, with the same dart
 numbers and the same order of identifications, which decides the first contradiction. Differs: there
-is one fold, and a **layer** is a list of changes. Changes are noted and taken back unless they
-follow from what was seen. A kept layer is made again before it folds on, so it sees what was joined
-since.
+is one fold, and a **layer** is a list of changes, each one word: where, and what stands there.
+Changes are undone unless they follow from what was seen. A kept layer is made again before it folds
+on, so it sees what was joined since.
 
-A change is one word: where, and what stands there (the new word in a layer, the old one for
-undoing). The darts of a node are numbers in a row.
-
-After each mismatch all remaining hypotheses are asked, in one **stage**: what was joined since is
-noted once for all (`layers.joined`, `layers.anew`), and kept layers move from one row to another.
+All remaining hypotheses are asked in one **stage**: what was joined since is noted once
+(`layers.joined`, `layers.anew`), and kept layers move from one row to another.
 """
 
 from __future__ import annotations
@@ -97,7 +94,7 @@ def join_places(run: RunWords, one: int, other: int) -> int:
         change(run, places.place_of("behind") + one, other)
     if has == 0:
         change(run, places.place_of("behind") + other, one)
-    # The last pair is folded first: what is behind h, if anything, with the vertex of e in S.
+    # The last pair is folded first.
     waiting = 0
     if had != 0:
         places.waiting[0] = had
@@ -132,14 +129,14 @@ def fold(run: RunWords, waiting: int, one_partner: int) -> int:
         n = places.node[large]
         if s == n:
             return TURNED_ITSELF
-        if places.known[s] != 0:  # it leads whatever is identified with it
+        if places.known[s] != 0:
             if places.known[n] != 0:
                 return TWO_OF_S
             small, large = large, small
         elif places.known[n] == 0:
             light = places.weight[s]
             heavy = places.weight[n]
-            if light > heavy:  # keeps every chain of leaders short
+            if light > heavy:  # path halving
                 small, large = large, small
                 n = s
             change(run, places.place_of("weight") + n, light + 1 + heavy)

@@ -1,29 +1,23 @@
 """Kernels: Python functions over one array of integers, which numba turns into machine code.
 
-A **kernel** is marked `kernel` or `inlined` (other kernels call it), `entry` (Python calls it) or
-`callback`. Imported, it is an ordinary function, which tests may run with every index checked.
-`compiled` makes machine code:
+Imported, a kernel is an ordinary function, which tests may run with every index checked. `compiled`
+makes machine code:
 
-1. It takes the sources of all kernels (`SOURCES`, or a layout's), without annotations and
-   docstrings.
-2. It writes arrays and offsets in place of names (`names.py`).
-3. It writes above them every upper-case integer of the modules and the workspace's offsets as
-   constants. So one source serves every layout.
-4. It makes every index unsigned, or numba would test each one for being negative.
-5. It writes one module into a cache folder named after a hash of that module, the versions of numba
+1. It takes the sources of all kernels, without annotations and docstrings.
+2. It writes arrays and offsets in place of names (`names.py`), and above them every upper-case
+   integer and offset as constants. So one source serves every layout.
+3. It makes every index unsigned, or numba would test each one for being negative.
+4. It writes one module into a cache folder named after a hash of that module, the versions of numba
    and Python, and the processor. Numba keeps machine code there, with checksums.
 
 Why so: numba's own cache does not notice changes in called functions of other files. `_nrt=False`
-switches off reference counting, which took more than half of the time; an allocation in a kernel is
-then a compilation error. Functions never travel as arguments, which miss the cache in every
-process: an integer in the workspace selects.
+switches off reference counting, which took more than half of the time. Functions never travel as
+arguments, which miss the cache in every process: an integer in the workspace selects.
 
 The cache: `$TOPO_VERIFY_CACHE`, or `topo-verify` in `$XDG_CACHE_HOME` or `~/.cache`; else a folder
 for this process. It may be deleted at any time. Processes that need a folder wait for its lock.
-Machine code without its checksum is compiled again.
 
-What this does not show: that no file was changed together with its checksum. Checksums guard
-against accidents.
+What this does not show: that no file was changed together with its checksum.
 """
 
 from __future__ import annotations
@@ -218,7 +212,7 @@ def machine_code(layout: WordLayout, checked: bool) -> ModuleType:  # noqa: FBT0
     source = module_source(layout, checked=checked)
     module = sys.modules[name] = ModuleType(name)
     module.__file__ = str(_stored(name, source))
-    # What is run is this text: the file tells numba where its machine code lies.
+    # The file tells numba where its machine code lies.
     exec(compile(source, module.__file__, "exec"), module.__dict__)  # noqa: S102  our own kernels
     return module
 
@@ -364,7 +358,7 @@ class _KeptCode:
         index = any(file.suffix == ".nbi" for file in files)
         try:
             return index and all(sums.get(file.name) == self._sum(file) for file in files)
-        except FileNotFoundError:  # another process removes what is damaged
+        except FileNotFoundError:
             return False
 
     @contextmanager
@@ -427,7 +421,7 @@ def cache_folder() -> Path:
         except OSError as error:
             why += f" ({error.strerror})"
         else:
-            # Machine code is run, so a folder that another user may have filled is not used.
+            # Another user may have filled the folder with machine code.
             if folder.stat().st_uid != os.getuid():
                 why += " (it belongs to another user)"
             elif os.access(folder, os.W_OK):

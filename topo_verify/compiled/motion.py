@@ -22,7 +22,7 @@ def walk(run: RunWords, at: int, v: int) -> int:
     chart = run.chart
     if chart.vertex[at] == v:
         return at
-    # Rooted at the end of the walk, so that each vertex on it has its dart towards the end.
+    # Rooted at the end of the walk.
     tree(chart, v, chart.vertex[at])
     while chart.vertex[at] != v:
         exit_dart = chart.towards[chart.vertex[at]]
@@ -50,7 +50,7 @@ def forward(run: RunWords, door: int) -> None:
     excursion, world = run.excursion, run.world
     relative = door if planted(run.task, SETS_OUT_UNTURNED) else door - excursion.turned
     degree = world.degree[world.vertex[run.robot.dart]]
-    # Twice at most: for a mapper that mistook the place, or the sign of `turned`.
+    # Twice at most, for a planted mistake.
     while relative < 0:
         relative += degree
     while relative >= degree:
@@ -72,7 +72,7 @@ def back(run: RunWords, steps: int) -> None:
     if planted(run.task, RETRACES_IN_THE_WRONG_ORDER):
         turn_round(excursion, steps)
     while excursion.size > steps:
-        # The dart of entry leads back; the reference dart is turned away from it by `turned`.
+        # The dart of entry leads back.
         relative = -excursion.turned
         degree = world.degree[world.vertex[run.robot.dart]]
         while relative < 0:
@@ -84,7 +84,7 @@ def back(run: RunWords, steps: int) -> None:
             return
         n = excursion.size - 1
         excursion.size = n
-        # It arrives by the dart that this door left by: so far is it turned from the entry.
+        # It arrives by the dart that this door left by.
         excursion.turned = excursion.door[n]
         if planted(run.task, FORGETS_ITS_ORIENTATION):
             excursion.turned = 0
@@ -119,7 +119,7 @@ def choice(run: RunWords, remaining: int) -> int:
     longest = -1
     for i in range(remaining):
         shared = common_prefix(run, run.remaining.dart[i])
-        # Of those that tie the first: the order policy decides.
+        # Ties: the order policy decides.
         if shared > longest:
             longest = shared
             best = i

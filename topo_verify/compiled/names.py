@@ -6,11 +6,9 @@ A **view** is a class whose annotations name the words of an array in order:
         vertices: int                                   # a single word
         alpha: Annotated[Words, "CHART_DARTS"]          # a row with this capacity
 
-`Fields` lays views out in an array with a letter (`W`, the workspace). A view may have parts:
-`run.chart.alpha[d]`. `Flat` turns a kernel into what numba compiles: a view becomes the array, a
-name a constant offset. Unchanged, the kernel runs as plain Python on a view of any row of integers.
-
-A **cursor** is a view that stands somewhere in an array: `MoveWords(run, i).door` is `W[i + 1]`.
+`Fields` lays views out in an array with a letter (`W`, the workspace). `Flat` turns a kernel into
+what numba compiles: a view becomes the array, a name a constant offset. A **cursor** is a view that
+stands somewhere in an array: `MoveWords(run, i).door` is `W[i + 1]`.
 """
 
 from __future__ import annotations
@@ -96,7 +94,7 @@ class Field:
             return self
         part = self.part or WordView
         row = part(view.array, view.origin + self.offset if self.capacity else 0)
-        vars(view)[self.name.rpartition(".")[2]] = row  # the name is looked up here no more
+        vars(view)[self.name.rpartition(".")[2]] = row
         return row
 
 
@@ -202,7 +200,7 @@ class Flat(ast.NodeTransformer):
     def __init__(self, namespace: Mapping[str, object]) -> None:
         self._namespace = namespace
         self._views: dict[str, type[WordView]] = {}
-        self._stands: dict[str, str] = {}  # of a cursor with a name: the name of its place
+        self._stands: dict[str, str] = {}  # cursor -> its place
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.FunctionDef:
         """Replace each view parameter by its array."""

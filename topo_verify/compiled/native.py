@@ -1,9 +1,8 @@
 """A native mapper in the place of `explore`: called by its address, it calls back.
 
-Mirrors: programs/library.py, the same robot behind a pipe; both refuse the same things. What is
-declared and delivered is written as robot.py writes it, so the judge sees no difference. After a
-refusal, or the map, each callback does nothing and returns `REFUSED`. Declarations are checked as
-far as Python takes them for an index or an event.
+Mirrors: programs/library.py; both refuse the same things. What is declared and delivered is written
+as robot.py writes it. After a refusal, or the map, each callback does nothing and returns
+`REFUSED`. Declarations are checked as far as Python takes them for an index or an event.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ from topo_verify.compiled.kernel import callback, entry, inlined, kernel
 from topo_verify.compiled.robot import declare, move, sensed, took
 from topo_verify.compiled.workspace import *
 
-if TYPE_CHECKING:  # native_call.py needs numba; the module of machine code imports it
+if TYPE_CHECKING:  # native_call.py needs numba
 
     def call_address(address: int, argument: int) -> int:
         """Call the function at this address."""
@@ -81,7 +80,7 @@ def explore_native(run: RunWords, darts: int, vertices: int) -> int:
     before = mark(run, darts, vertices)
     call_address(run.native.mapper, run.native.robot)
     if mark(run, darts, vertices) != before or is_torn(run):
-        # The enumeration goes on in the world where it stands, so no later world would be sound.
+        # The enumeration goes on in this world, so later ones would be wrong.
         call_address(run.native.exit, WROTE)
     return run.robot.cost if run.native.delivered != 0 and run.stop == 0 else -1
 
@@ -280,7 +279,7 @@ def native_deliver(
 def place_map(run: RunWords, vertices: int, degrees: int, alpha: int, marker: int) -> None:
     """Write the map as the chart, its darts in order of discovery."""
     run.chart.vertices = vertices
-    run.chart.darts = -1  # no map of a world of this layout
+    run.chart.darts = -1
     darts = place_vertices(run, vertices, degrees)
     if darts < 0 or not is_paired(run, alpha, darts):
         return
@@ -313,7 +312,7 @@ def place_vertices(run: RunWords, vertices: int, degrees: int) -> int:
             return -1
         if v >= CHART_DARTS or D[v] > CHART_DARTS - darts:
             return -1
-        run.chart.first[v] = darts  # for now: where the vertex begins in what was delivered
+        run.chart.first[v] = darts  # temporarily: where the vertex begins
         for k in range(D[v]):
             run.native.given[darts + k] = v
             run.native.named[darts + k] = -1
@@ -335,7 +334,7 @@ def is_paired(run: RunWords, alpha: int, darts: int) -> bool:
 @kernel
 def is_in_order(run: RunWords, A: Any, darts: int) -> bool:
     """Whether the numbers of S can be kept: each vertex is met from a lower dart."""
-    met = 0  # vertices 0 ... met, met in this order
+    met = 0
     for d in range(darts):
         if run.native.given[d] > met:
             return False

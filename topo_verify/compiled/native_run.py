@@ -4,12 +4,9 @@
     calls.run(world)                            # -> CompiledRun, ...: of one world
     examine_steps(..., calls=calls)             # shard.py: of a range of worlds
 
-Each row ends at a page without access and begins behind a fence; the robot lies in a read-only
-page. The system ends a mapper that runs over a row's end; the kernels (native.py) end one that
-writes before it or over the world.
-
-What this does not show: a write that hits one of our rows without touching fence or world, or that
-hits Python, is not noticed.
+Each row ends at a page without access and begins behind a fence; the robot is read-only. The system
+ends a mapper that runs over a row's end; the kernels (native.py) end one that writes before it or
+over the world. Other writes that hit one of our rows, or Python, are not noticed.
 """
 
 from __future__ import annotations

@@ -1,14 +1,9 @@
 """Stops a branch of the enumeration as soon as no completion is in the class.
 
-The twin of the pruners of `world/enumeration/pruned.py`, where the theory stands. Differs: `…_join`
-and `…_hang` change a pruner in place, or nothing if no completion is left; `…_undo_…` turns it
-back.
-
-    genus        A boundary word is a linked cyclic list (`next`, `before`). A join links the
-                 neighbours of two darts crosswise: that cuts one word in two, or joins two. The
-                 parity of the partner's place tells the effect (`look_around`, once a step).
-    neighbours   Counts and masks of each vertex. In simple worlds, vertices need a look only if
-                 one of the two ends has no open dart left.
+The twin of the pruners of `world/enumeration/pruned.py`, where the theory stands. Differs:
+`…_join` and `…_hang` change a pruner in place, or nothing if no completion is left; `…_undo_…`
+turns it back. A boundary word is a linked cyclic list (`next`, `before`); a join cuts one word in
+two, or joins two, as the parity of the partner's place tells.
 
 `left`: darts still to create after the step; `opened`: open darts after it.
 """
@@ -158,11 +153,11 @@ def genus_join(walk: WalkWords, k: int, e: int, c: int, opened: int, left: int) 
     words = walk.words
     is_odd = walk.word_odd[k]
     if (walk.word[k] >> c) & 1 != 0:
-        # c is the i-th behind e in a word of L darts: parts of i - 1 and L - i - 1 are left.
+        # c is i places behind e in a word of L darts: parts of i - 1 and L - i - 1.
         place_is_odd = (walk.word_places[k] >> c) & 1
         odd_words += (1 - place_is_odd) + ((is_odd + place_is_odd + 1) & 1) - is_odd
         words += 1
-        # A part without darts is no word: it is a finished face.
+        # A part without darts is a finished face.
         if walk.next[e] == c:
             words -= 1
         if walk.before[e] == c:
@@ -189,7 +184,7 @@ def genus_join(walk: WalkWords, k: int, e: int, c: int, opened: int, left: int) 
     walk.partner_next[k] = walk.next[c]
     walk.partner_before[k] = walk.before[c]
     link_boundary(walk, walk.before[e], walk.next[c])
-    # Read again: where one of the words was e or c alone, the first link has changed it.
+    # The first link may have changed it.
     link_boundary(walk, walk.before[c], walk.next[e])
     return True
 
@@ -263,7 +258,7 @@ def neighbours_join(
     """`NeighbourPruner.join`: no loop and, if simple, no double edge."""
     a = world.vertex[e]
     b = world.vertex[c]
-    # Without `simple` the masks stay 0, so only the loop is refused.
+    # Without `simple` the masks stay 0.
     if a == b or (walk.near[a] >> b) & 1 != 0:
         return False
     walk.open_at[a] -= 1
@@ -271,7 +266,6 @@ def neighbours_join(
     if walk.simple != 0:
         walk.near[a] |= 1 << b
         walk.near[b] |= 1 << a
-        # An end with open darts left costs the other end one place and one open dart.
         if walk.open_at[a] > 0 and walk.open_at[b] > 0:
             return True
     if neighbours_feasible(walk, opened, left, vertices):

@@ -17,7 +17,7 @@ def sensed(world: WorldWords, dart: int) -> int:
     """The percept at a dart of the world."""
     v = world.vertex[dart]
     percept = world.degree[v] << SHIFT
-    if v == 0:  # v0: from its dart d, dart 0 is -d doors further clockwise
+    if v == 0:  # from dart d of v0, dart 0 is door -d
         percept += 1
         if dart > 0:
             percept += world.degree[0] - dart

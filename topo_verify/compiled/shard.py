@@ -374,7 +374,7 @@ class CompiledChecks:
             if fits:
                 at = ws.SMALL.at("trace.word")
                 self._space[at : at + len(row)] = row
-        except (ValueError, OverflowError):  # the trace has what no word stands for
+        except (ValueError, OverflowError):
             return False
         if not fits:
             return False

@@ -51,7 +51,7 @@ class CountWords(WordView):
     failing_ranks: PerKeptRank
     claim_failing: PerClaim
     claim_first: PerClaim
-    # worlds in which this row is the first that fails, so the rows' sum counts no world twice
+    # worlds in which this row is the first that fails
     newly_failing: int
     claim_newly_failing: PerClaim
     status: PerStatus  # k * STATUS_COUNT + status
@@ -151,7 +151,7 @@ def examine_run(
     case.reported = reported
     wrong = judge(run, case)
     if wrong >= 0 and run.stop >= STOP_SKIP:
-        wrong = -1  # the mapper declined the world, or had no room: the verdict is open
+        wrong = -1  # declined, or without room
     return wrong
 
 

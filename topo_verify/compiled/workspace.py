@@ -1,14 +1,12 @@
 """The workspace: all that a run knows, as fields at fixed places of one array of 64-bit integers.
 
-`run.chart.alpha[d]` is a constant offset in machine code, as fast as a local array. (A tuple of
-eighteen arrays took 1.5 times as long; narrower integers were not faster.)
-
-Layouts: `SMALL`, up to 12 edges, keeps what a run touches in the fastest cache. `FAULTY` allows
-planted mistakes (`faults.py`), by which S may grow without end. `LARGE`, up to 65,536 edges: pages
-that are never touched take no memory.
+`run.chart.alpha[d]` is a constant offset in machine code. (A tuple of eighteen arrays took 1.5
+times as long; narrower integers were not faster.) Layouts: `SMALL`, up to 12 edges, keeps what a
+run touches in the fastest cache. `FAULTY` allows planted mistakes (`faults.py`). `LARGE`, up to
+65,536 edges: pages that are never touched take no memory.
 
 Nothing is cleared between runs: a kernel sets what it reads. A full buffer ends the run with a
-reason in `stop`; nothing is written beyond it.
+reason in `stop`.
 """
 
 from __future__ import annotations

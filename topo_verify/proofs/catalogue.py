@@ -77,7 +77,6 @@ def choose(
             close = get_close_matches(name, known, n=3)
             mend = f"do you mean {' or '.join(close)}? " if close else ""
             raise InputError(f"no theorem {name!r}: {mend}topo-verify prove --list lists them")
-    # In the order of the command line, each once.
     chosen = tuple(known[name] for name in dict.fromkeys(names)) or tuple(
         theorem
         for theorem in everything

@@ -1,8 +1,5 @@
 """The types that all engines share: a theorem, the budget of its proof, and its result.
 
-A theorem names which part a solver proves and which part is argued in words. No code turns one
-answer of a solver into another: `unknown` is not a proof.
-
     kind        about                                          verdict if all is well
     inductive   worlds of any size                             PROVED
     mechanised  worlds of any size, proved in Coq              PROVED
@@ -10,8 +7,8 @@ answer of a solver into another: `unknown` is not a proof.
     negative    a claim that is false, at its smallest size    REFUTED, with a world
     mutant      a theorem with one thing changed               REFUTED, with what breaks
 
-A theorem whose premises cannot all hold is **vacuous**: true, and empty. It is never `ok`, and is
-reported as UNKNOWN.
+A solver's `unknown` is not a proof. A theorem whose premises cannot all hold is **vacuous**: never
+`ok`, and reported as UNKNOWN.
 """
 
 from __future__ import annotations
@@ -145,7 +142,7 @@ class Theorem:
     """A statement, the claims that rest on it, and its proof.
 
     Attributes:
-        name: lower case with dashes. Scripts use it, so it never changes.
+        name: never changes, since scripts use it.
         kind: see the head of this file.
         claims: those of docs/semantics.md, section 9, that rest on it.
         words, symbols: the statement in words, and for the solver.
@@ -177,7 +174,7 @@ class Theorem:
 
     def ok(self, outcome: TheoremResult) -> bool:
         """Is this the expected result, with nothing vacuous, unknown, unreplayed or refused?"""
-        # `expected` is never UNKNOWN; the chain makes sure that no slip there turns into a pass.
+        # `expected` is never UNKNOWN; this makes sure.
         return outcome.verdict == self.expected != "UNKNOWN" and not self._doubt(outcome)
 
     def reported(self, outcome: TheoremResult) -> TheoremResult:
@@ -190,7 +187,7 @@ class Theorem:
     def _doubt(self, outcome: TheoremResult) -> str:
         """Why the expected verdict does not stand, or ""."""
         replayed, certificate = outcome.replayed, outcome.certificate
-        # What refutes a theorem is itself a model of the premises.
+        # A counterexample is a model of the premises.
         if self.expected != "REFUTED" and outcome.premises_satisfiable is not True:
             if outcome.premises_satisfiable is None:
                 return "its premises are not shown satisfiable"

@@ -7,8 +7,7 @@
     entailed.py     claims 9 and 10                                   checkers/entailment.py
     verdict.py      status and share of each claim; `judge`           claims.py, coverage.py
 
-The judge reads the world, the trace and the delivered map, and nothing else of the workspace. It is
-not trusted: tests compare it with `checkers/`, right and wrong mappers, in every small world. Where
-a buffer is full, a number is out of range, or a planar witness is needed, the verdict is **open**:
-the checkers must be asked.
+The judge reads the world, the trace and the delivered map only. Tests compare it with `checkers/`.
+Where a buffer is full, a number is out of range, or a planar witness is needed, the verdict is
+**open**: the checkers must be asked.
 """

@@ -53,7 +53,7 @@ def fold_history(run: RunWords, case: CaseWords) -> bool:
         if asked and kind != POSE and drawn.stands != 0:  # pyright: ignore[reportUnnecessaryComparison]  calls change it
             conclude_event(run, case, DecisionWords(run, i))
         elif kind == REJECT:
-            note_rejection(drawn, 0)  # S is not proved any more
+            note_rejection(drawn, 0)  # S is no longer proved
         i += event_size(run, case, i, end)
     return True
 
@@ -112,11 +112,11 @@ def conclude_event(run: RunWords, case: CaseWords, event: DecisionWords) -> None
     if follows:
         drawn.open[e] = 0
         drawn.open[other] = 0
-        # On the face each goes on beyond the other.
+        # The face is cut in two.
         after = drawn.after[e]
         drawn.after[e] = drawn.after[other]
         drawn.after[other] = after
-    else:  # from here on S is not proved
+    else:
         drawn.stands = 0
 
 
@@ -224,7 +224,7 @@ def may_lead_to(case: CaseWords, e: int, h: int) -> bool:
     slot = slot_of(case, e)
     end = fold.end_node[slot]
     node = find_node(fold, drawn.node[h])
-    if end >= 0:  # the usual case, seen at once
+    if end >= 0:  # the usual case
         end = find_node(fold, end)
         if fold.degree[end] != fold.degree[node]:
             return False
@@ -232,7 +232,7 @@ def may_lead_to(case: CaseWords, e: int, h: int) -> bool:
     wrong = join_ends(fold, drawn.node[e], drawn.dart[e], drawn.node[h], drawn.dart[h])
     if wrong == 0 and case.saw_planar != 0:
         if lay_out(fold) < 0 or not is_planar_fold(fold):
-            case.full = 1  # some further folding may be planar: the checkers look for it
+            case.full = 1  # the checkers look for a planar folding
     roll_back(fold, mark)
     return wrong == 0
 
@@ -262,6 +262,6 @@ def is_met(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:  
                 ):
                     found |= 1 << TWO_OF_S
     roll_back(fold, mark)
-    if (found >> cited) & 1 == 0 and found != 0:  # it may follow where the fold drew no more
+    if (found >> cited) & 1 == 0 and found != 0:  # it may still follow
         found = all_that_follow(case, e, h)
     return (found >> cited) & 1 != 0

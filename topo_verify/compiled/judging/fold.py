@@ -30,7 +30,7 @@ def visit(fold: FoldWords, percept: int) -> int:
     node = fold.nodes
     base = fold.doors
     degree = percept >> SHIFT
-    # Room is kept for what identification may note: two entries a door.
+    # Identification notes up to two entries a door.
     if node >= JUDGE_NODES or 4 * (base + degree) > JUDGE_DOORS:
         fold.full = 1
         return 0
@@ -99,7 +99,7 @@ def fold_move(fold: FoldWords, door: int, percept: int) -> bool:
         entry += marker - 1
         if entry >= fold.degree[node]:
             entry -= fold.degree[node]
-        # The usual case: it is v0 already, and not turned.
+        # The usual case.
         if find_node(fold, 0) != node or find_dart(fold, 0, 0) != entry:
             wrong = make_one(fold, node, entry, 0, 0)
             fold.undos = 0
@@ -275,14 +275,13 @@ def is_planar_fold(fold: FoldWords) -> bool:
             at = dart
             while (seen >> at) & 1 == 0:
                 seen |= 1 << at
-                # Across the edge (a leaf turns back into its dart), then clockwise.
+                # A leaf turns back into its dart.
                 if fold.alpha[at] >= 0:
                     at = fold.alpha[at]
                 node = fold.vertex[at]
                 at += 1
                 if at == fold.number[node] + fold.degree[node]:
                     at = fold.number[node]
-    # Each leaf adds a vertex and, with its edge, nothing else.
     edges = (fold.size + open_darts) // 2
     return vertices + open_darts - edges + faces == 2
 

@@ -95,7 +95,6 @@ def percepts_agree(run: RunWords, case: CaseWords, rejection: RejectionWords) ->
         if step == 0
         else case[percepts + step - 1]
     )
-    # Trace the word from the hypothesis on S, up to the first unexplored dart.
     at = rejection.h
     for k in range(step):
         exit_dart = case.number[exit_of(run.world, case.phi[at], case[doors + k])]
@@ -174,7 +173,7 @@ def record_sequences(world: WorldWords, case: CaseWords, start: int) -> None:
         for k in range(size):
             exit_dart = case.number[exit_of(world, case.phi[at], case.arena_door[begin + k])]
             if case.alpha[exit_dart] < 0:
-                record = case.records  # a sequence leaves one record at most, so there is room
+                record = case.records  # at most one for each sequence
                 case.record_at[record] = begin + k
                 case.record_rest[record] = size - k - 1
                 case.record_before[record] = case.record_of[exit_dart]

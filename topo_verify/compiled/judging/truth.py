@@ -118,7 +118,7 @@ def follow_move(run: RunWords, case: CaseWords, move: MoveWords) -> None:
     if move.percept != percept:
         case.true = 0
         case.wrong |= 1
-    # `Excursion.move`: going back by the dart of arrival cancels the last door.
+    # Going back cancels the last door.
     door += case.turned
     if door >= world.degree[v]:
         door -= world.degree[v]

@@ -29,7 +29,7 @@ def judge(run: RunWords, case: CaseWords) -> int:
             case.wrong |= 1 << 7
     elif case.level >= 9 or case.cited > 0:
         if not fold_history(run, case):
-            case.full = 1  # the world shows this history, so the fold cannot contradict it
+            case.full = 1  # impossible: the world shows this history
         if cites_in_vain(case):
             case.wrong |= 1 << 7
     if case.level >= 9 and (
@@ -110,7 +110,7 @@ def is_world(run: RunWords, case: CaseWords) -> bool:
 def proves_map(chart: ChartWords, case: CaseWords) -> bool:
     """Whether no dart of the fold is open, and the fold is the delivered map."""
     fold = case.fold
-    if lay_out(fold) != 0:  # without an open dart it is the world, for which there is room
+    if lay_out(fold) != 0:  # it is the world, and has room
         return False
     darts = fold.size
     vertices = 0
@@ -160,7 +160,7 @@ def is_same_map(
         return False
     for d in range(darts):
         if case.image[d] < 0:
-            case.full = 1  # S numbers its darts in the order of discovery; this map does not
+            case.full = 1  # not in the order of discovery
             return False
         other = chart.alpha[d]
         image = M[alpha + case.image[d]]

@@ -1,10 +1,9 @@
 """Formulas in conjunctive normal form over named Booleans, in named groups of clauses.
 
 Every solver, and the checker of certificates, reads the same clauses, so no translation must be
-trusted. As in DIMACS, literal `v` says that Boolean `v` is true, `-v` that it is false. Each
-premise is a **group**, so an unsatisfiable core names premises. Group `REFUTED` is the negated
-conclusion; without it the formula must be satisfiable, or the theorem is vacuous. A **row** is a
-list of literals of which exactly one is true, such as "which door" (one-hot).
+trusted. Literal `v` says that Boolean `v` is true, `-v` that it is false. Each premise is a
+**group**, which a core can name. Without group `REFUTED`, the negated conclusion, the formula must
+be satisfiable. A one-hot **row** has exactly one true literal, such as "which door".
 """
 
 from __future__ import annotations
@@ -78,7 +77,7 @@ class Formula:
 
     def define_or(self, group: str, name: str, literals: Sequence[CnfLiteral]) -> CnfLiteral:
         """A new Boolean: one of these holds."""
-        # De Morgan, so that only `define_and` needs clauses that are right.
+        # De Morgan.
         return -self.define_and(group, name, [-literal for literal in literals])
 
     def equate(self, group: str, guard: Sequence[CnfLiteral], one: CnfRow, other: CnfRow) -> None:
@@ -112,7 +111,7 @@ class Formula:
     def smt2(self) -> str:
         """SMT-LIB 2, one named assertion for each group."""
         lines = ["(set-logic QF_UF)"]
-        # `(and true …` and `(or false …` keep empty and single clauses well-formed.
+        # Well-formed for empty and single clauses, too.
         lines += [f"(declare-const {name} Bool)" for name in self.names]
         for group, clauses in self.groups.items():
             lines.append("(assert (! (and true")

@@ -1,13 +1,11 @@
 """Certificates that clauses are unsatisfiable: one program finds the proof, another checks it.
 
-A SAT solver (of python-sat) records the clauses that it learns: a DRUP proof, in which unit
-propagation derives each line from those before it, up to the empty clause. `drup`, a checker
-extracted from a development verified in Why3, follows the proof and calls no solver.
-
-The checker is slow, so the solver first reduces the clauses, several times, to those it uses.
+A SAT solver (of python-sat) records a DRUP proof, in which unit propagation derives each line from
+those before it, up to the empty clause. `drup`, a checker extracted from a development verified in
+Why3, follows it. The checker is slow, so the solver first reduces the clauses to those it uses;
 `objection` requires that they are clauses of the formula.
 
-What this does not show: that the clauses say what they should (see `theorems.py`, `replay.py`).
+What this does not show: that the clauses say what they should.
 
 Source: M. Heule, W. Hunt, N. Wetzler, "Trimming while checking clausal proofs", FMCAD 2013.
 """

@@ -1,41 +1,32 @@
 """Every world with m edges, every reachable map S of it, and walks on both, as clauses.
 
 **World.** The darts are 0 … 2m-1. A vertex is an interval of them, clockwise from the dart by which
-it was first entered (docs/semantics.md, section 3; v0 from the marked dart, dart 0):
+it was first entered (docs/semantics.md, section 3); v0 begins with the marked dart, 0.
 
     first[d]        dart d is the first of its vertex
     joined[a, b]    a and b are the two darts of one edge, a < b
     vertex[f, n]    the darts f … f+n-1 are a vertex (defined)
-
-**Map.** S and the world are numbered in the order of discovery: first the darts that S knows.
-
     known[d]        d is a dart of S: a prefix of the numbers, in whole vertices
     explored[d]     S knows the edge of d, and so its other end
 
-The first dart of every vertex but v0 is joined with a smaller one (`entry`), by an explored edge if
-S knows the vertex. So the world is connected and S *reachable*: cross the entry edges in order, and
-any other edge once its ends are known. Conversely, every S of an exploration is of this form. The
-other vertices are numbered breadth-first, so each pair of a world and a map is one model. With
-S = v0 alone, each rooted map is one model: `theorems.py` counts them.
+**Map.** S and the world share numbers in the order of discovery. The first dart of every vertex but
+v0 is joined with a smaller one (`entry`), by an explored edge if S knows the vertex. So the world
+is connected and S *reachable*: cross the entry edges in order, and other edges once their ends are
+known. Conversely, every S of an exploration is of this form. The other vertices are numbered
+breadth-first, so each pair of a world and a map is one model (`theorems.py` counts them).
 
-**Positions** (the robot's reference dart, or the traced dart of S) and doors are one-hot rows. Rows
-that others determine are constrained to be one-hot again: redundant, but it makes words of four
-doors feasible.
+**Positions** and doors are one-hot rows. Rows that others determine are constrained to be one-hot
+again: redundant, but it makes words of four doors feasible.
 
-**Walks.** A robot crossed the unexplored dart `e` and stands at `vu`, its reference dart
-`alpha(e)`. A hypothesis `h` says that this is dart h of S. A word of doors is followed twice:
-
-    there     in the world, from alpha(e): the true positions of the robot
-    here      on S, from h, over explored darts: the positions that the hypothesis predicts
-
-The rules compare the percepts of both, for any word up to a number of doors:
+**Walks.** The robot crossed the unexplored dart `e` and stands at `vu`, its reference dart
+`alpha(e)`. Hypothesis `h`: this is dart h of S. A word of doors is followed `there`, in the world
+from alpha(e), and `here`, on S from h over explored darts. The rules compare both percepts:
 
     confirm   here ends at v0 and the last percepts are equal            ⇒  h = alpha(e)
     trace     h = alpha(e), every door crosses an explored dart          ⇒  all percepts are equal
     prefix    h = alpha(e), another word was executed there              ⇒  equal on what they share
     history   h = alpha(e), any word, traced until a dart is unexplored  ⇒  equal until then
-    records   as history, and behind the unexplored dart the percepts of an earlier word that
-              crossed it are compared, one place deep or as deep as the doors agree
+    records   as history, then against the record of an earlier word behind the unexplored dart
 
 Cost: O(m³) clauses for a world, a step, or a percept.
 """
@@ -103,7 +94,6 @@ class Worlds(Formula):
         self.add("rotation", self.first[0])
         for f in self.darts:
             for after in range(f + 1, end + 1):
-                # No dart inside begins another vertex; the next one does, if any.
                 inside = [-self.first[d] for d in range(f + 1, after)]
                 closed = [] if after == end else [self.first[after]]
                 self.vertex[f, after - f] = self.define_and(
@@ -121,7 +111,7 @@ class Worlds(Formula):
 
     def _first_vertex(self) -> CnfRow:
         degrees = [self.vertex[0, after] for after in range(1, len(self.darts) + 1)]
-        # v0 begins with dart 0, so dart d is at v0 if it has more than d darts.
+        # Dart d is at v0 if v0 has more than d darts.
         return tuple(self.define_or("rotation", f"in_v0.{d}", degrees[d:]) for d in self.darts)
 
     def map(self, name: str) -> EncodedMap:
@@ -232,7 +222,7 @@ class Worlds(Formula):
         for (f, doors), vertex in self.vertex.items():
             for x in range(f, f + doors):
                 self.imply(group, [at[x], vertex], degree[doors - 1])
-                # From dart x of v0 the marked dart, 0, is x doors back: door -x modulo the degree.
+                # From dart x of v0 the marked dart is door -x.
                 if f == 0:
                     self.imply(group, [at[x], vertex], marker[-x % doors])
         # Away from v0 all of `marker` is false.
@@ -259,7 +249,7 @@ class Worlds(Formula):
                 )
             )
         if marker == "directed":
-            # "Not here" completes the marker's row to a one-hot one, as `define_equal` needs it.
+            # "Not here" makes the marker's row one-hot.
             away = (-one.here, *one.marker), (-other.here, *other.marker)
             parts.append(self.define_equal(group, f"{name}.marker", *away))
         return self.define_and(group, f"{name}.alike", parts)
@@ -411,7 +401,7 @@ def trace(
         on = world.define_and(name, f"{name}.on.{i + 1}", [alive[i], known])
         ends.append(world.define_and(name, f"{name}.ends.{i}", [alive[i], -known]))
         world.cross(name, leave[i], at[i + 1], on)
-        # After its end the walk stays in place: all rows keep a definite value.
+        # After its end the walk stays in place.
         world.equate(name, (-alive[i],), at[i], at[i + 1])
         through = fault == "through-unexplored"
         world.equate(name, (ends[i],), leave[i] if through else at[i], at[i + 1])
@@ -434,7 +424,7 @@ def differ_somewhere(
 ) -> None:
     """Negate the conclusion: somewhere all guards hold and the percepts differ.
 
-    The premises alone must reach a guarded place, or nothing would be compared.
+    The premises alone must reach a guarded place.
     """
     reached: list[CnfLiteral] = []
     seen: list[CnfLiteral] = []

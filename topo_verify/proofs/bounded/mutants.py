@@ -1,20 +1,19 @@
 """Theorems that a world must refute: the negatives, and rules with one mistake (`RuleFault`).
 
-The solver finds a world, a map and doors. The simulator repeats them, and the checkers must find
-that the claim fails (`replay.py`); a model that does not replay is a bug, and raises.
+The solver finds a world, a map and doors; the simulator repeats them, and the checkers must find
+that the claim fails (`replay.py`).
 
 **Negatives.** A mapper behind e walks a shortest way on S from hypothesis h to v0. Of the marker it
 compares only the presence (`undirected`) or nothing (`none`). In some worlds every percept is as
-expected although e does not end in h. The smallest have this many edges:
+expected although h is false. The smallest have this many edges, for any policy:
 
     class       undirected   none
     any         2            2
     loopless    3            2
     simple      4            3
 
-The way is any shortest one, so no policy has a smaller world. Depths on S are one-hot:
-
-    depth[x][t]   the vertex of x is t edges from v0 on S       down[x]   x leads one nearer to v0
+Depths on S are one-hot: depth[x][t] says that the vertex of x is t edges from v0, down[x] that x
+leads one nearer to v0.
 """
 
 from __future__ import annotations
@@ -114,7 +113,7 @@ def depths(world: enc.Worlds, chart: enc.EncodedMap) -> tuple[CnfRow, ...]:
     depth = tuple(world.booleans(f"depth.{d}", len(levels)) for d in world.darts)
     down = world.booleans("down", len(world.darts))
     for d in world.darts:
-        # Depth 0 is v0 alone. A dart has one depth if S knows it, and none otherwise.
+        # Known darts have one depth; 0 is v0.
         world.equate(group, (), (world.in_v0[d],), depth[d][:1])
         world.imply(group, [chart.known[d]], *depth[d])
         for t in levels:
@@ -134,7 +133,7 @@ def depths(world: enc.Worlds, chart: enc.EncodedMap) -> tuple[CnfRow, ...]:
             for t in levels[1:]:
                 joined = (world.edge(a, b), depth[x][t])
                 world.imply(group, (*joined, down[x]), depth[y][t - 1])
-                # An explored edge changes the depth by at most one: so depths are distances.
+                # So depths are distances.
                 farther = depth[y][t - 1 : t + 2]
                 world.imply(group, (*joined, chart.explored[x]), *farther)
     return depth

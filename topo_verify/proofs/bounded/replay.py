@@ -1,14 +1,11 @@
 """Counterexamples: decode an assignment, and repeat it in the simulator without a solver.
 
-`decode` returns a world, a map and doors. The simulated robot draws the map edge by edge, crosses e
-and takes the doors; the checkers judge the trace.
+The simulated robot draws the map edge by edge, crosses e and takes the doors; the checkers judge.
 
     false confirmation   all percepts are as expected; the mapper confirms h, and claim
                          `no-false-confirm` must fail at this event
     false rejection      the faulty rule, written a second time as code on the map, finds an
                          unexpected percept; it rejects h, and `true-hypothesis-kept` must fail
-
-A model that does not replay is a bug of the encoding and raises `Disagreement`.
 """
 
 from __future__ import annotations
@@ -68,7 +65,7 @@ class BoundedCounterexample:
 
 def decode_table(world: Worlds, model: Assignment) -> Table:
     """The degrees and alpha of an assignment."""
-    # (first dart, degree) of each vertex: sorted, they stand in the order of their darts.
+    # (first dart, degree) of each vertex
     held = sorted(place for place, vertex in world.vertex.items() if model.holds(vertex))
     alpha = [0] * len(world.darts)
     for (a, b), joined in world.joined.items():
@@ -98,7 +95,7 @@ def decode(encoded: EncodedCounterexample, model: Assignment) -> BoundedCountere
     """The counterexample of an assignment."""
     world = decode_world(encoded.world, model)
     made = sum(map(model.holds, encoded.made)) if encoded.made is not None else None
-    # Only `prefix` tells the two apart. There `made` speaks of the own way, and the executed word
+    # In `prefix`, `made` is about the own way, and the executed word
     # is taken whole.
     own = encoded.own or encoded.executed
     behind = encoded.earlier
@@ -294,7 +291,6 @@ class _Replayer:
     def cross(self, e: ev.MapDart, marker: MarkerDetail = "undirected") -> None:
         del self.chart.unexplored[e]
         self.at = self.pilot.walk(self.chart, self.at, self.chart.vertex[e])
-        # Posing does not depend on the reference dart, hence no direction.
         signature: MarkerDetail = "undirected" if marker == "directed" else marker
         seen = _seen(self.pilot.cross(self.chart, self.at, e), signature)
         percepts = self.chart.percepts

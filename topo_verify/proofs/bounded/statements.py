@@ -1,18 +1,14 @@
 """The statements of the bounded theorems, in words, in symbols, and as clauses.
 
-A function returns the clauses of a failure; the statement is that nothing satisfies them
-(`theorems.py`). A new statement is one entry of a table below.
+A function returns the clauses of a failure; the statement is that nothing satisfies them. A new
+statement is one entry of a table below.
 
     S, U        a reachable map; its unexplored darts               W     the world
     p, r        corresponding: a dart of S, a reference dart        p',r' behind the same door
     e, h        the dart that is crossed; a hypothesis for its other end
 
-**One arbitrary door** at any place of any map: by induction (docs/proofs.md) this covers words of
-any length.
-
-**Whole words** of up to `steps` doors, on every map of every world: a rule confirms a false
-hypothesis, or rejects the true one (letters and rules: `encoding.py`). With a `fault` the rule is
-changed, and some world makes it fail; `replay.py` reads the `EncodedCounterexample`.
+Statements about one arbitrary door cover words of any length by induction (docs/proofs.md). Those
+about whole words of up to `steps` doors need none. With a `fault` the rule fails in some world.
 """
 
 from __future__ import annotations
@@ -85,7 +81,7 @@ def record(edges: int) -> enc.Worlds:
     world = enc.Worlds(edges)
     earlier, later = world.map("earlier"), world.map("later")
     world.include("grows", earlier, later)
-    # The earlier map is a prefix of the later one, so one numbering serves both.
+    # The earlier map is a prefix of the later one.
     world.number_the_rest(later.known)
     q, p = _known(world, earlier, "q"), _known(world, later, "p")
     wrote = enc.walk(world, "wrote", q, enc.doors(world, "wrote.door", 1))
@@ -205,7 +201,7 @@ def trace_way(edges: int, steps: int, *, fault: enc.RuleFault = "") -> EncodedCo
     here = enc.walk(world, "here", h, word, go)
     enc.stay_explored(world, scene.chart, here, go)
     start, turned = scene.vu, None
-    if fault == "turned":  # the robot is turned by any door, and takes the doors as if it were not
+    if fault == "turned":  # the robot takes the doors as if it were not turned
         start, turned = world.position("turned", "start"), world.row("turned", "turn", 2 * edges)
         world.turn("turned", scene.vu, turned, start)
     there = enc.walk(world, "there", start, word, go)
@@ -227,7 +223,7 @@ def prefix(edges: int, steps: int, *, fault: enc.RuleFault = "") -> EncodedCount
     here = enc.walk(world, "here", h, own, go)
     enc.stay_explored(world, scene.chart, here, go)
     there = enc.walk(world, "there", scene.vu, executed)
-    # shared[i]: the first i doors agree, and the own way has that many. first[0] is always true.
+    # shared[i]: the first i doors agree, and the own way has them.
     shared = [world.first[0]]
     for i in range(steps):
         same = world.define_equal("prefix", f"same.{i}", own[i], executed[i])

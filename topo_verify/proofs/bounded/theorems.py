@@ -5,12 +5,9 @@
     below      no false confirmation without the marker's direction, below the sizes of `mutants.py`
     worlds     the worlds of the encoding are the canonical codes, each once
 
-A theorem is EXHAUSTED if its clauses are unsatisfiable, and its premises satisfiable, for each m; a
-model is decoded to a world that makes it REFUTED.
-
-With S = v0 alone, a model of the encoding is a world in its breadth-first numbering. The list of
-all models must be the canonical codes of `world.enumeration`, (degrees, alpha), each once: 2, 10,
-74, 706, 8162 with 1 … 5 edges. So "every world" means every world.
+EXHAUSTED: the clauses are unsatisfiable, and the premises satisfiable, for each m. REFUTED: a model
+is decoded to a world. "Every world" is every world: with S = v0 the models are compared with the
+codes of `world.enumeration`: 2, 10, 74, 706, 8162 with 1 … 5 edges.
 """
 
 from __future__ import annotations
@@ -82,7 +79,7 @@ def another_world(edges: int) -> Worlds:
     """The clauses of a world without a canonical code: they must contradict."""
     world = every_world(edges)
     for degrees, alpha in rank_order.tables(edges):
-        # One clause for each code: the world has other vertices, or lacks one of its edges.
+        # For each code: other vertices, or an edge less.
         firsts = {0, *accumulate(degrees[:-1])}
         numbers = [-world.first[d] if d in firsts else world.first[d] for d in world.darts]
         joined = [-world.edge(d, other) for d, other in enumerate(alpha) if d < other]

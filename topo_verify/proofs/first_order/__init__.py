@@ -1,6 +1,6 @@
 """Theorems about worlds of any size: a first-order theory, and obligations that Z3 proves.
 
-terms.py            formulas: as SMT-LIB, expanded over tiny domains, or evaluated
+terms.py            formulas
 theory.py           worlds, the map S, their correspondence, and the rules
 obligations/        the statements that Z3 proves, by theme
 mutants/            rules with one mistake, by the same themes

@@ -1,11 +1,9 @@
 """Conformance: the terms of `theory.py`, evaluated on real runs, decide as the code does.
 
-This links the proofs to the code. A trace yields S from its augmentations and percepts from its
-moves. At each decision the terms tell which darts are hypotheses, which of them the rule rejects
-and when, and where the motion stops; `compare` yields every difference.
-
-No world is needed: dart b of the terms is the number of a percept; `rot(b, i) = root` means that
-the marker was sensed at door i.
+At each decision of a trace the terms tell which darts are hypotheses, which of them the rule
+rejects and when, and where the motion stops; `compare` yields every difference. No world is needed:
+dart b of the terms is the number of a percept; `rot(b, i) = root` means that the marker was sensed
+at door i.
 
 What this does not show: policies, walks and costs; rule `folding`, which is compared with
 `checkers/folding.py`; and `planar`, which is not sound.
@@ -57,7 +55,7 @@ def structure(chart: Chart, seen: Sequence[Percept], trie: RecordTrie) -> Struct
         **_of_percepts(seen),
         **_of_records(trie),
     }
-    # Quantifiers over doors range up to the largest degree: beyond it, doors repeat.
+    # Beyond the largest degree, doors repeat.
     degrees = [*chart.degree, *(percept.degree for percept in seen), 1]
     return Structure({"K": max(degrees), "M": len(chart.alpha)}, rows)
 
@@ -66,7 +64,7 @@ def _of_chart(chart: Chart) -> dict[str, Function]:
     percepts, alpha = chart.percepts, chart.alpha
     return {
         "explored": unary(lambda x: alpha[x] is not None),
-        # No rule uses malpha at an unexplored dart; any value will do there.
+        # No rule uses malpha at an unexplored dart.
         "malpha": unary(lambda x: x if alpha[x] is None else chart.across(x)),
         "mrot": binary(chart.turn),
         "mdeg": unary(lambda x: percepts[x].degree),
@@ -103,7 +101,7 @@ def nullary(value: Value) -> Function:
 
 def unary(function: Callable[[int], Value]) -> Function:
     """A function of one element."""
-    # Only the type checker gains by this: it learns how many arguments there are.
+    # This tells type checkers the number of arguments.
     return function
 
 
@@ -181,7 +179,7 @@ class DescribedRule:
 
     def _traced(self, place: Structure, at: MapDart, doors: Sequence[Door]) -> RuleRejection | None:
         hypothesis, functions = at, place.functions
-        node: int | None = None  # of the trie, once tracing has left S through a dart with a record
+        node: int | None = None  # of the trie, beyond S
         depth = 0
         for step, door in enumerate(doors, 1):
             if node is None:
@@ -215,7 +213,7 @@ class DescribedRule:
         """Record one edge, whose entry dart is known now."""
         if self.rule != "records":
             return
-        # The edge is explored now: nothing is traced out of S through its darts any more.
+        # Nothing is traced out of S through an explored edge.
         self.trie.records.pop(e, None)
         self.trie.records.pop(entry, None)
         for doors, seen in words:
@@ -259,7 +257,7 @@ class TraceReader:
             self.turned = self.doors.pop()
             self.seen.pop()
         else:
-            # Validation: in runs of the catalogue every move has a purpose.
+            # Validation.
             self.doors.append((move.door + self.turned) % self.seen[-1].degree)
             self.seen.append(move.percept)
             self.turned = 0
@@ -304,14 +302,14 @@ def compare(trace: Sequence[Event], described: DescribedRule) -> Iterator[str]:
                 if step != evidence.step or expected:
                     yield f"event {when}: motion rejects {dart} at {evidence.step}, not {step}"
                 remaining.remove(dart)
-                # A mismatch after at least one door puts the rule to all remaining hypotheses.
+                # After a mismatch the rule judges all remaining hypotheses.
                 if reading.doors:
-                    # Copies, because the next moves change both lists.
+                    # The next moves change both lists.
                     words.append((reading.doors.copy(), reading.seen.copy()))
                     expected = list(_sifted(described, reading, remaining, tree))
             case Reject(_, dart, rule, evidence):
                 declared = RuleRejection(dart, rule, evidence.step)
-                # The rule's rejections must come in the described order, each exactly once.
+                # Rejections must come in the described order, each once.
                 if not expected or expected.pop(0) != declared:
                     yield f"event {when}: {declared} is not the rejection that the rule describes"
                 remaining.remove(dart)

@@ -1,8 +1,7 @@
 """Models over tiny domains, found by expanding the quantifiers.
 
-With quantifiers Z3 finds contradictions, but no models. So each sort gets a few named elements,
-each `for all` becomes a conjunction, and each function value is one of the elements. Each formula
-is evaluated in the model again without Z3; if one fails, that is our bug and raises.
+With quantifiers Z3 finds contradictions, but no models. So each sort gets a few named elements, and
+each `for all` becomes a conjunction. Each formula is evaluated in the model again without Z3.
 
 What this does not show: that there is no larger model.
 """
@@ -40,7 +39,7 @@ def smallest(assertions: Mapping[str, terms.Term], budget: Budget) -> FiniteMode
     for darts, others in SIZES:
         sizes = {sort: darts if sort == "W" else others for sort in sorts}
         last = model(formulas, sizes, budget)
-        # `unknown` ends the search as well: a larger model would not be the smallest.
+        # After `unknown` a larger model may not be the smallest.
         if last.answer != "unsat":
             return last
     return last
@@ -58,7 +57,7 @@ def model(formulas: Sequence[terms.Term], sizes: Mapping[str, int], budget: Budg
     reply = z3_solver.find_values(grounded(formulas, sizes), sorts, budget)
     if reply.answer != "sat":
         return FiniteModel(reply.answer, why=reply.why)
-    # Z3 names its elements as it likes: the value of the constant tells which element is which.
+    # The constants' values tell which element is which.
     number = {
         sort: {reply.values[element(sort, n).symbol.name]: n for n in range(size)}
         for sort, size in sizes.items()
@@ -72,7 +71,6 @@ def model(formulas: Sequence[terms.Term], sizes: Mapping[str, int], budget: Budg
         element(sort, n).symbol.name: {(): n} for sort, size in sizes.items() for n in range(size)
     }
     structure = terms.of_tables(sizes, {**rows, **named})
-    # Z3's model of the expanded formulas must be one of the formulas themselves.
     for formula in formulas:
         if not structure.holds(formula):
             raise InternalError(f"{formula} does not hold in the model that Z3 found for it")
@@ -111,7 +109,7 @@ FunctionValue = tuple[terms.App, terms.Symbol, tuple[int, ...], terms.App]
 def _entries(formulas: Sequence[terms.Term], sizes: Mapping[str, int]) -> Iterator[FunctionValue]:
     found = {symbol.name: symbol for formula in formulas for symbol in terms.symbols(formula)}
     named = {element(sort, n).symbol.name for sort, size in sizes.items() for n in range(size)}
-    # The elements occur in formulas as constants, and name themselves.
+    # Elements name themselves.
     for name in sorted(found.keys() - named):
         symbol = found[name]
         for row in product(*(range(sizes[sort]) for sort in symbol.arguments)):
@@ -125,7 +123,7 @@ def _domains(entries: Sequence[FunctionValue], sizes: Mapping[str, int]) -> Iter
     for sort, size in sizes.items():
         for one, other in combinations(range(size), 2):
             yield terms.differ(element(sort, one), element(sort, other))
-    # The alias makes Z3 name the value in its model; `disj` keeps it among the elements.
+    # The alias makes Z3 name the value in its model.
     for alias, symbol, _, applied in entries:
         yield terms.eq(alias, applied)
         if symbol.result != terms.BOOL:
@@ -145,7 +143,7 @@ def grounded(formulas: Sequence[terms.Term], sizes: Mapping[str, int]) -> str:
     """The SMT-LIB script for these numbers of elements."""
     entries = list(_entries(formulas, sizes))
     rows = [*(ground(formula, sizes) for formula in formulas), *_domains(entries, sizes)]
-    # A script names its assertions, and no name may be that of a symbol: c0, c1, ... are free.
+    # No symbol is called c0, c1, ...
     return terms.script({f"c{number}": term for number, term in enumerate(rows)}, logic="QF_UF")
 
 

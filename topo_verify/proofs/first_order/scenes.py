@@ -1,13 +1,12 @@
 """Scenes: exact worlds with a map S and a place behind an edge, in which a faulty rule fails.
 
-Beside the axioms, formulas make a tiny structure a world with a reachable map: doors are the
-numbers modulo 12, which all degrees up to 4 divide; the degree is the least number of doors after
-which a turn comes round; the world is connected; S consists of v0 and of vertices entered by their
-first dart, `mfirst`, over an explored edge; malpha maps an unexplored dart to itself.
+Formulas make a tiny structure a world with a reachable map: doors are the numbers modulo 12, which
+all degrees up to 4 divide; turns come round after `degree` doors and no sooner; the world is
+connected; S consists of v0 and of vertices entered by their first dart, `mfirst`, over an explored
+edge; malpha maps an unexplored dart to itself.
 
-`SceneReplay` repeats a scene in the simulator, without a solver. A robot crosses the edges that S
-has explored, in order, and makes the moves of the mutant. Percepts must be those of S; the rule is
-evaluated on S and on the percepts sensed behind e.
+`SceneReplay` repeats a scene in the simulator, without a solver; the rule is evaluated on S and on
+the percepts sensed behind e.
 """
 
 from __future__ import annotations
@@ -30,7 +29,7 @@ from topo_verify.robot.percept import Door, Percept
 from topo_verify.robot.simulator import SimulatedRobot
 from topo_verify.world.rooted_map import World
 
-# 12 is the least common multiple of 1, 2, 3, 4: every turn comes round after 12 doors.
+# The least common multiple of 1, 2, 3, 4.
 DOORS, MOST_DEGREE = 12, 4
 
 mfirst = terms.Symbol("mfirst", ("M",), "M")
@@ -157,7 +156,7 @@ def _decoded(
         tuple(int(of["sigma"](d)) for d in range(darts)),
         int(of["root"]()),
     )
-    # Degrees are elements 0, 1, ... of the sort G, so element n - 1 stands for degree n.
+    # Element n - 1 of G stands for degree n.
     for d in range(darts):
         if of["deg"](d) != world.degrees[world.vertex_of[d]] - 1:
             raise InternalError(f"the model's degree at dart {d} is not that of its world")
@@ -189,7 +188,6 @@ class SceneReplay:
         self.at: MapDart = 0
         self.trie = RecordTrie()
         left_out = {scene.constants[name] for name in without}
-        # Both darts of an edge are left out, whichever of them is named.
         left_out |= {self._other(x) for x in left_out}
         self.number: dict[int, MapDart] = {}
         self._enter(self._at_place(scene.world.root), 0)
@@ -238,7 +236,6 @@ class SceneReplay:
 
     def _join(self, x: int, other: MapDart) -> None:
         self.chart.join(self.number[x], other)
-        # The robot came in by `other`, so that is its reference dart.
         self.at = other
 
     def dart(self, name: str) -> MapDart:

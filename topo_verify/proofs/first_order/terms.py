@@ -1,13 +1,13 @@
-"""Formulas of many-sorted first-order logic: built once, used in three ways.
+"""Formulas of many-sorted first-order logic.
 
-A term is written as SMT-LIB 2 for solvers, expanded over tiny domains (`finite_models.py`), and
-evaluated in concrete structures (`Structure`), so the proved and the tested formula are the same.
+A term is written as SMT-LIB 2, expanded over tiny domains (`finite_models.py`), and evaluated in
+concrete structures (`Structure`), so the proved and the tested formula are the same.
 
     Var     x, bound by a quantifier or free         App   f(a, b), also `and`, `=>`, `=`, ...
     Symbol  a function: name, sorts, result           Forall for all x ...: body
 
-A structure has the integers from 0 as the elements of each sort, and a function for each symbol.
-Every model of a solver is evaluated here before it counts.
+The elements of a sort are the integers from 0. Every model of a solver is evaluated before it
+counts.
 """
 
 from __future__ import annotations
@@ -104,7 +104,7 @@ def eq(one: Term, other: Term) -> Term:
     """They are equal; for formulas: equivalent."""
     if one.sort != other.sort:
         raise TypeError(f"= between {one.sort} and {other.sort}")
-    # One symbol `=` for each sort, so that sorts are checked as for any other symbol.
+    # One symbol `=` for each sort, so sorts are checked.
     return App(Symbol("=", (one.sort, one.sort), BOOL), (one, other))
 
 
@@ -137,7 +137,7 @@ def symbols(term: Term) -> Iterator[Symbol]:
             pass
         case Forall(_, body, patterns):
             yield from symbols(body)
-            # A pattern may hold a symbol that the body does not: it needs a declaration, too.
+            # A pattern may hold other symbols than the body.
             for group in patterns:
                 for hint in group:
                     yield from symbols(hint)
@@ -226,7 +226,7 @@ def declarations(terms: Iterator[Term] | list[Term]) -> list[str]:
         for symbol in symbols(term):
             if found.setdefault(symbol.name, symbol) != symbol:
                 raise TypeError(f"two symbols are called {symbol.name}")
-    # Sorted: the same terms always give the same text, and so the same question.
+    # Sorted: the same terms give the same text.
     lines = [f"(declare-sort {sort} 0)" for sort in sorted(sorts - {BOOL})]
     return lines + [
         f"(declare-fun {symbol.name} ({' '.join(symbol.arguments)}) {symbol.result})"
@@ -298,7 +298,6 @@ CONNECTIVES: Mapping[str, Callable[[Iterator[Value]], Value]] = {
     "not": lambda row: not next(row),
     "and": all,
     "or": any,
-    # Two arguments each: no others are made above.
     "=>": lambda row: not next(row) or next(row),
     "=": lambda row: next(row) == next(row),
 }

@@ -56,13 +56,13 @@ def _solver_part(obligation: Obligation) -> str:
 
 def _prove(obligation: Obligation, budget: Budget) -> TheoremResult:
     reply = refute(obligation.negation(), budget)
-    # Only `unsat` is a proof. No model with quantifiers is evaluated, so `sat` refutes nothing.
+    # Only `unsat` is a proof; `sat` is not evaluated, and refutes nothing.
     if reply.answer != "unsat":
         why = reply.why or "no reason given"
         return z3_solver.z3_result(
             verdict="UNKNOWN", note=f"{z3_solver.name()} answers {reply.answer}: {why}"
         )
-    # Z3 cannot find models of quantified formulas, so a tiny one is sought for the premises.
+    # A tiny model of the premises is sought.
     premises = finite_models.smallest(obligation.premises(), budget).answer
     satisfiable = {"sat": True, "unsat": False, "unknown": None}[premises]
     return z3_solver.z3_result(
@@ -81,13 +81,13 @@ def mutant(obligation: Obligation, lost: str) -> Theorem:
     """The obligation without one premise, which must be refuted."""
     dropped = obligation.premises()[lost]
     formulas = obligation.premises(without=lost)
-    # Where the premise holds, so does the goal (the theorem), so its negation loses no structure.
+    # Its negation loses no structure: where the premise holds, so does the goal.
     formulas |= {"premise-fails": neg(dropped), "goal-fails": neg(obligation.goal)}
 
     def prove(budget: Budget) -> TheoremResult:
         found = finite_models.smallest(formulas, budget)
         if found.structure is None:
-            # No model of these sizes: the mutant was not refuted, and EXHAUSTED is unexpected.
+            # No model: EXHAUSTED is unexpected.
             largest = finite_models.SIZES[-1][0]
             return z3_solver.z3_result(
                 verdict="EXHAUSTED" if found.answer == "unsat" else "UNKNOWN",

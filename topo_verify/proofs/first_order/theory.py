@@ -6,22 +6,19 @@
     K      doors: k0, succ(k0), ...        i, j, k
     G      degrees                         only compared
     L      words of doors: nil, cons(k,w)  w
+    R      records, places of the tries T  r
 
-    world                       map S                           together
-    sigma, alpha, root          msigma, malpha, mroot           phi: M -> W, which dart of the
-    deg    degree               mdeg                            world a dart of S is
-    inv0   is it a dart of v0?  minv0
-    rot    rot(a,k)=sigma^k(a)  mrot
-                                explored: is malpha known?
+    sigma, alpha, root, deg, inv0 (at v0?), rot(a,k) = sigma^k(a): the world
+    msigma, malpha, mroot, mdeg, minv0, mrot, explored (is malpha known?): the map S
+    phi: M -> W, which dart of the world a dart of S is
 
 Doors are not integers, about which Z3 answers `unknown`. `wraps(g,i,j)`: i = j modulo g.
 `toroot(a)`, a door that leads from a to the root within v0, replaces an existential quantifier. The
 percept at a is deg(a), inv0(a), and for each door i whether rot(a,i) = root. No axiom says that W
 is finite or connected; steps that need it are argued in words (docs/proofs.md).
 
-**Rules.** A term says what one step of a rule decides about a dart x of S, a door k, and the dart b
-where the compared percept was sensed. Z3 proves theorems about these terms; `conformance.py`
-compares them with the decisions of the code.
+**Rules.** A term is one step of a rule: dart x of S, door k, dart b where the compared percept was
+sensed. `conformance.py` compares terms and code.
 
     term             rule             true iff
     ALIKE            all              S shows at x what the robot senses at b
@@ -32,8 +29,8 @@ compares them with the decisions of the code.
     LEAVES           records          tracing leaves S through a dart with a record
     RECORD_DIFFERS   records          the record r shows something else than is sensed at b
 
-Records (sort R) are places of the tries T: `record(x)` is T[x] if `recorded(x)`; `behind(r,k)` is
-the place behind door k if `deeper(r,k)`; `spot(r)`, unknown to robots, is where it was seen.
+`record(x)` is T[x] if `recorded(x)`; `behind(r,k)` the place behind door k if `deeper(r,k)`;
+`spot(r)`, unknown to robots, where it was seen.
 """
 
 from __future__ import annotations
@@ -89,7 +86,7 @@ AXIOMS: dict[str, Term] = {
     # the world
     "sigma-injective": forall((a, b), eq(sigma(a), sigma(b)), eq(a, b)),
     "alpha-involution": forall(a, eq(alpha(alpha(a)), a)),
-    # A loop has two darts: no edge consists of one dart alone.
+    # A loop has two darts.
     "alpha-no-fixed-point": forall(a, differ(alpha(a), a)),
     "degree-of-vertex": forall(a, eq(deg(sigma(a)), deg(a))),
     "marker-of-vertex": forall(a, eq(inv0(sigma(a)), inv0(a))),
@@ -97,7 +94,7 @@ AXIOMS: dict[str, Term] = {
     "v0-sees-root": forall(a, inv0(a), eq(rot(a, toroot(a)), root)),
     "rot-zero": forall(a, eq(rot(a, k0), a)),
     "rot-next": forall((a, k), eq(rot(a, succ(k)), sigma(rot(a, k)))),
-    # `tried_at` tells Z3 at which terms to instantiate, where its own choice is not enough.
+    # `tried_at` tells Z3 at which terms to instantiate.
     # Tried: without it here, fold-closed-home comes back `unknown`.
     "doors-wrap": forall(
         (a, i, j),
@@ -114,7 +111,7 @@ AXIOMS: dict[str, Term] = {
     "map-v0-sees-root": forall(x, minv0(x), eq(mrot(x, mtoroot(x)), mroot)),
     "map-rot-zero": forall(x, eq(mrot(x, k0), x)),
     "map-rot-next": forall((x, k), eq(mrot(x, succ(k)), msigma(mrot(x, k)))),
-    # S is finite, so msigma, which is injective, is onto; no other axiom says that S is finite.
+    # S is finite, so the injective msigma is onto.
     # Tried: without `tried_at`, new-apart-step comes back `unknown`.
     "map-sigma-onto": forall(x, eq(msigma(mback(x)), x), tried_at=((phi(x),),)),
     "map-doors-wrap": forall(
@@ -122,13 +119,13 @@ AXIOMS: dict[str, Term] = {
         eq(eq(mrot(x, i), mrot(x, j)), wraps(mdeg(x), i, j)),
         tried_at=((mrot(x, i), mrot(x, j)),),
     ),
-    # the invariant of an exploration: S is a part of the world, by the map phi
+    # the invariant: S is a part of the world
     "phi-root": eq(phi(mroot), root),
     "phi-injective": forall((x, y), eq(phi(x), phi(y)), eq(x, y)),
     "phi-sigma": forall(x, eq(phi(msigma(x)), sigma(phi(x)))),
     "phi-degree": forall(x, eq(mdeg(x), deg(phi(x)))),
     "phi-marker": forall(x, eq(minv0(x), inv0(phi(x)))),
-    # malpha means nothing at an unexplored dart: every use of it has `explored` as a premise.
+    # Every use of malpha has `explored` as a premise.
     "phi-alpha": forall(x, explored(x), eq(phi(malpha(x)), alpha(phi(x)))),
     "explored-both-ends": forall(x, explored(x), explored(malpha(x))),
     # words
@@ -141,13 +138,13 @@ AXIOMS: dict[str, Term] = {
         (x, k, w),
         eq(stays(x, cons(k, w)), conj(explored(mrot(x, k)), stays(malpha(mrot(x, k)), w))),
     ),
-    # lemmas: proved by induction over doors, each by an obligation of its own
+    # lemmas, by induction over doors
     "rot-injective": forall((a, b, k), eq(rot(a, k), rot(b, k)), eq(a, b)),
     "rot-degree": forall((a, k), eq(deg(rot(a, k)), deg(a))),
     "rot-marker": forall((a, k), eq(inv0(rot(a, k)), inv0(a))),
     "phi-rot": forall((x, k), eq(phi(mrot(x, k)), rot(phi(x), k))),
     "turning-adds": forall((a, i, j), eq(rot(rot(a, i), j), rot(a, plus(i, j)))),
-    # lemmas: proved by induction over words
+    # lemmas, by induction over words
     "trace": forall((x, w), stays(x, w), eq(phi(mwalk(x, w)), walk(phi(x), w))),
 }
 """Every axiom and lemma by name. A lemma is proved before it is used."""
@@ -238,8 +235,8 @@ def record_alike(r: Term, b: Term) -> Term:
 
 ALIKE = alike(x, b)
 POSED = conj(neg(explored(h)), differ(h, e), signature_alike(h, b))
-# MOTION and PREFIX follow the way home, which takes explored edges only: that is a premise where
-# they are used. HISTORY follows any door, so it must ask.
+# For MOTION and PREFIX, explored edges are a premise where
+# they are used. HISTORY follows any door.
 MOTION = neg(alike(arrival(x, k), b))
 PREFIX = conj(eq(own, k), neg(alike(arrival(x, own), b)))
 HISTORY = conj(explored(mrot(x, k)), neg(alike(arrival(x, k), b)))

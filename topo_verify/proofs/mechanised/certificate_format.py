@@ -1,9 +1,7 @@
-"""The format of certificates: natural numbers and nothing else.
+"""The format of certificates: a first line, `HEADER`, then natural numbers and nothing else.
 
-The first line is `HEADER`; then come decimal numbers separated by spaces and line ends. So a
-certificate can hold a log, a claim and evidence, but cannot define or prove anything. Their meaning
-is in coq/Certificate.v. Trusted here: `parse`; `data_file`, which writes the numbers for Coq; and
-`log_lines`, which states a log.
+So a certificate can hold a log, a claim and evidence, but cannot define or prove anything.
+coq/Certificate.v gives their meaning. Trusted here: `parse`, `data_file`, and `log_lines`.
 """
 
 from __future__ import annotations
@@ -71,7 +69,7 @@ def parse(text: bytes, *, name: str) -> Numbers:
             f" got {found[0].decode('latin-1')!r}"
         )
     words = rest.split()
-    # Longer words would take Python minutes to read; 2^60 has 19 digits.
+    # 2^60 has 19 digits; Python reads long words slowly.
     return [LARGEST + 1 if len(word) > 19 else int(word) for word in words]
 
 
@@ -300,7 +298,7 @@ def _conflict(conflict: evidence.Conflict) -> Line:
         case evidence.Alone(visit):
             return (2, visit)
         case evidence.Illegal():
-            return (1, 1)  # a filler: the log is illegal, which needs no conflict
+            return (1, 1)  # a filler: an illegal log needs no conflict
 
 
 def _reason(fact: evidence.Fact) -> Line:

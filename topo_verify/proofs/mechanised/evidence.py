@@ -3,10 +3,9 @@
 The fold of a log (docs/semantics.md, section 11) by union-find; coq/Checker.v repeats it. Visits
 are counted from 1. An **arc** is a move taken forwards or backwards, from one place (visit, dart)
 to another. Two arcs that leave by one dart **meet**: they arrive at one dart. Evidence is a list of
-meetings, each of which follows from those before it. This file is not trusted: a mistake makes a
-certificate that is refused. Where the conclusion is true, some evidence is accepted
-(coq/Accepted.v). The smaller class is linked under the larger: chains of parents have logarithmic
-length, and the checker follows 40 links. Complexity: nearly linear in the number of moves.
+meetings, each of which follows from those before it. A mistake here makes a certificate that is
+refused. The smaller class is linked under the larger, since the checker follows 40 links.
+Complexity: nearly linear in the number of moves.
 
 **Decisions** rest on facts about two places: an edge joins them (evidence: an arc), or none does
 (evidence: the merges that it would imply, up to a conflict).
@@ -16,9 +15,8 @@ length, and the checker follows 40 links. Complexity: nearly linear in the numbe
     augment new           an edge leads from e to where the robot came in, and none to any other
                           dart of S that is unexplored at that moment
 
-coq/Decisions.v fixes the order, and finds the facts itself. Places are not the checkers'
-representatives, which later merges replace. A decision that follows under the planar prior only is
-left out, since Coq has no planarity; after such an augmentation no later decision has evidence.
+Places are not the checkers' representatives, which later merges replace. Coq has no planarity: a
+decision that follows under the planar prior only is left out, and after such an augmentation all.
 """
 
 from __future__ import annotations
@@ -124,7 +122,6 @@ class ProofProducingFold:
     """A union-find over visits that records its merges; index 0 of each list is a filler.
 
     Attributes:
-        seen: the percept at each visit.
         edges: the places where each move leaves and arrives.
         parent, offset: dart d of a visit is dart d + offset of its parent.
         size: for each root, the visits in its class.

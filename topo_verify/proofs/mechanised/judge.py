@@ -1,14 +1,11 @@
 """A second opinion on a trace by the judge of coq/Judge.v, extracted to OCaml.
 
-coq/Claims.v defines claims over a world and a trace. Coq proves that the judge says `failed`
-exactly where a definition is violated (coq/JudgeCorrect.v, coq/JudgeDecisions.v,
-coq/JudgeEntailed.v). The theorems do not cover how much is judged, `judged` of `of`.
+Coq proves that the judge says `failed` exactly where a definition of coq/Claims.v is violated. How
+much is judged, `judged` of `of`, is not proved. Trusted besides Coq: its extraction, in which
+natural numbers become OCaml's integers; the OCaml compiler; `numbers` and coq/judge_driver.ml,
+which pass the trace.
 
-Trusted besides Coq: its extraction, in which natural numbers become OCaml's integers; the OCaml
-compiler; `numbers` here and coq/judge_driver.ml, which pass the trace.
-
-What this does not show: claim 8, which Coq does not define yet; claim 10 where a trace declares the
-planar prior, since Coq does not define planarity.
+What this does not show: claim 8, and claim 10 where a trace declares the planar prior.
 """
 
 from __future__ import annotations

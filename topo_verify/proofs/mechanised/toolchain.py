@@ -1,8 +1,7 @@
 """Calls of coqc and coqchk on the library in proofs/coq/.
 
-`_CoqProject` lists the files in an order of compilation. They are compiled in the caller's folder,
-never in place. A call that times out, is killed, or runs out of memory or stack raises
-`Unfinished`: neither a refusal nor a pass.
+Files are compiled in the caller's folder, never in place. A call that times out, is killed, or runs
+out of memory or stack raises `Unfinished`: neither a refusal nor a pass.
 
 What this does not show: that the installed coqc is the one its authors released.
 """

@@ -73,7 +73,7 @@ def ask(query: Query, *, timeout: float = 60.0) -> SecondAnswer:
     require_tools()
     began = perf_counter()
     answer, why = _check(query, timeout, {})
-    # The option concerns quantifiers only: without them the second answer would be the first.
+    # The option concerns quantifiers only.
     if answer == "unknown" and "forall" in query.smt2:
         answer, why = _check(query, timeout, {"full-saturate-quant": "true"})
         why = why or "full-saturate-quant"

@@ -1,7 +1,5 @@
 """Z3: a script goes in, one of three answers comes out; every limit on Z3 is set here.
 
-Z3 reads the SMT-LIB text that `--smt2` exports, in one of three setups:
-
     quantified   E-matching alone: with `auto_config` and `mbqi`, questions that take milliseconds
                  can come back unknown
     ground       equality without quantifiers, which Z3 decides
@@ -9,8 +7,7 @@ Z3 reads the SMT-LIB text that `--smt2` exports, in one of three setups:
 
 Each question has its own context, so answers do not depend on earlier ones.
 
-What this does not show: that Z3 is right. cvc5 reads the same scripts (`cvc5_solver`), and another
-program checks the refutations of clauses (`bounded/drup.py`).
+What this does not show: that Z3 is right (see `cvc5_solver`, `bounded/drup.py`).
 """
 
 from __future__ import annotations
@@ -23,7 +20,7 @@ from typing import Any, Literal
 
 from topo_verify.proofs.theorem import Budget, SolverAnswer, TheoremResult
 
-# The z3 package has no types. It is loaded here, as `Any`, and in no other file.
+# The z3 package has no types.
 _z3: Any = import_module("z3")
 
 Z3Setup = Literal["quantified", "ground", "clauses"]
@@ -102,9 +99,9 @@ class Z3Question:
         assertions = _z3.parse_smt2_string(smt2, ctx=self._context)
         if not labels:
             self._solver.add(assertions)
-        # Strict: with a label too few, an assertion would be left out.
+        # With a label too few, an assertion would be left out.
         for label, assertion in zip(labels, assertions if labels else (), strict=True):
-            # Z3 drops the names of a script when it parses it; tracking gives them back.
+            # Z3 drops the names of a script.
             self._solver.assert_and_track(assertion, label)
 
     def _limit(self, budget: Budget) -> None:
@@ -142,7 +139,7 @@ class Z3Question:
     def true(self) -> frozenset[str]:
         """The Booleans that are true in the model."""
         model = self._solver.model()
-        # A Boolean that the model leaves open is not in it, and any value does: it counts as false.
+        # A Boolean that the model leaves open counts as false.
         return frozenset(str(name) for name in model.decls() if _z3.is_true(model[name]))
 
     def values(self, wanted: Mapping[str, str]) -> dict[str, str]:

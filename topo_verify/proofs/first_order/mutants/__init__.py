@@ -1,8 +1,7 @@
 """Rules with one mistake: each fails in some world, of which the smallest is found.
 
 A scene refutes a mutant: an exact world, a reachable map S, an edge e with a hypothesis h, and the
-moves behind e. In the simulator, the faulty rule, evaluated on S and the sensed percepts, must
-reject what is true or confirm what is false; otherwise it raises.
+moves behind e. In the simulator the faulty rule must reject what is true or confirm what is false.
 
 What this does not show: that the reference policies make these moves. Claims hold for every
 history.
@@ -29,7 +28,6 @@ class RuleMutant:
     """A rule with one mistake, and a scene in which it fails.
 
     Attributes:
-        name: of the theorem.
         of: the obligation that the right rule meets.
         words: the mistake.
         claims: those it breaks.

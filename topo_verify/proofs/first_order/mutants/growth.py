@@ -36,7 +36,7 @@ def _plays_first_dart(replay: SceneReplay, _rule: Term) -> bool:
 def _plays_entered_late(replay: SceneReplay, _rule: Term) -> bool:
     replay.behind("e")
     world, e = replay.scene.world, replay.scene.place[replay.scene.constants["e"]]
-    # S joins e with the first dart of the new vertex, and that is the dart after `behind`.
+    # S joins e with the dart after `behind`.
     behind = world.alpha[e]
     return world.sigma[behind] != behind
 
@@ -71,7 +71,7 @@ GROWTH: tuple[RuleMutant, ...] = (
         of="new-is-new",
         words="one hypothesis is skipped before a new vertex is added",
         claims=MAPPED,
-        # Never true: the hypothesis is skipped wherever it would be posed.
+        # Never true: the hypothesis is skipped.
         rule=conj(t.POSED, neg(t.POSED)),
         scene={**TRUE, **AWAY},
         plays=_plays_not_posed,
@@ -109,7 +109,7 @@ def _plays_fold(replay: SceneReplay, doors: tuple[str | int, ...], one: int, oth
     arrivals = [at]
     for door in doors:
         percept = replay.robot.percept
-        # A text names a constant of the scene, a number is a door.
+        # A text names a constant; a number is a door.
         taken = door if isinstance(door, int) else replay.door(door, percept.degree)
         for _ in range(taken % percept.degree):
             at = world.sigma[at]

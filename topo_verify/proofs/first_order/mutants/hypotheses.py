@@ -60,7 +60,7 @@ def _history(name: str, of: str, words: str, rule: Term) -> RuleMutant:
 
 _ABSOLUTE = t.mrot(mfirst(x), k)
 
-# As in rules.py, but also where the own door differs from the one that was taken.
+# Also where the own door differs from the one taken.
 _PREFIX = neg(t.alike(t.arrival(x, own), b))
 _SHIFTED = neg(t.alike(x, b))
 _FROM_FIRST = conj(
@@ -332,7 +332,7 @@ def _recording(
     name: str, of: str, words: str, under: Term, kept: Term, met: Term, **how: int
 ) -> RuleMutant:
     """A mutant of records: kept under a dart, with the percept at `kept`, compared at `met`."""
-    # The record is kept under another dart than the one that was crossed.
+    # Kept under another dart than the crossed one.
     stale = under != t.mrot(H1, D1)
 
     def entry(replay: SceneReplay) -> int:

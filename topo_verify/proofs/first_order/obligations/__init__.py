@@ -24,11 +24,9 @@ class Obligation:
 
     Attributes:
         name: of the theorem; an induction is two obligations, `…-base` and `…-step`.
-        words: the statement in words.
         claims: those that rest on it.
         theory: names of axioms, and of lemmas proved earlier.
         given: further premises by name.
-        goal: the conclusion.
         argued: the steps in words that use it, by their names in docs/proofs.md.
         needs: premises without each of which some structure refutes the goal; the most telling one
             gives a mutant.
@@ -56,7 +54,6 @@ class Obligation:
         return self.premises() | {"goal-fails": neg(self.goal)}
 
 
-# The constants that obligations speak of.
 A, B = constant("a1", "W"), constant("b1", "W")
 X, Y = constant("x1", "M"), constant("y1", "M")
 E, H = constant("e", "M"), constant("h", "M")
@@ -65,6 +62,6 @@ OWN = constant("own1", "K")
 WORD = constant("w1", "L")
 R = constant("r1", "R")
 
-# The map after an augmentation: a 2 means afterwards, `old` are the darts that S had before it.
+# A 2 means after an augmentation; `old`: the darts of S before it.
 phi2 = Symbol("phi2", ("M",), "W")
 old = Symbol("old", ("M",), BOOL)

@@ -1,16 +1,13 @@
 """S grows into the world: hypotheses are complete, augmentations right, and folding is sound.
 
 A loop joins e and a confirmed h. A new vertex is added when every hypothesis was rejected; no
-rejection is false, so the place behind e is no vertex of S. Its darts are numbered from the entry
-dart, so `phi2`, the correspondence afterwards, maps door k of the entry dart to door k of the
-place. At the start S is v0, entered at the root.
-
-When no dart is unexplored, the image of phi is closed under sigma and alpha. The world is
-connected, so phi is an isomorphism that maps root to root.
+rejection is false, so the place behind e is no vertex of S. `phi2`, the correspondence afterwards,
+maps door k of the entry dart to door k of the place. When no dart is unexplored, the image of phi
+is closed under sigma and alpha; the world is connected, so phi is an isomorphism.
 
 **Folding.** A place (sort P) is a visit of the robot and a door there. In a world that shows the
-history it is a dart, `pi`: the visit's reference dart turned by the door. `same` is what folding
-has identified, `joined` what it knows to be an edge.
+history it is a dart, `pi`. `same` is what folding has identified, `joined` what it knows to be an
+edge.
 
     symbol               what it is
     pturn(p), prot(p,k)  the next place clockwise, the k-th next
@@ -19,10 +16,10 @@ has identified, `joined` what it knows to be an edge.
     ptoroot(p)           the door from p to that place
     pacross(p)           where all is joined: what p is joined with
 
-Sound: after each step, and under each assumption true in the world, places that are `same` are one
-dart; so a contradiction refutes the assumption. Complete: when no place is open, places that are
-one dart are `same`. (Walk from both to the marker by the same doors; there they are identified, and
-so, backward, are the two.) So the fold is the world, and the history proves it.
+Sound: places that are `same` are one dart, also under an assumption true in the world; so a
+contradiction refutes the assumption. Complete: when no place is open, places that are one dart are
+`same`. (Walk from both to the marker by the same doors; there they are identified, and so,
+backward, are the two.) So the fold is the world.
 
 Source: J. R. Stallings, Invent. Math. 71 (1983).
 """
@@ -146,7 +143,7 @@ GROWTH_OBLIGATIONS: tuple[Obligation, ...] = (
         given={"for-the-door-before": _apart(D)},
         goal=_apart(t.succ(D)),
         argued=("induction over doors",),
-        # Without `map-sigma-onto` no finite structure breaks it: that axiom stands for finiteness.
+        # `map-sigma-onto` stands for finiteness: no finite structure breaks it.
         needs=("for-the-door-before", "sigma-injective", "phi-sigma", "rot-next"),
     ),
     _maps(

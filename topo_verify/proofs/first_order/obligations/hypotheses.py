@@ -1,21 +1,18 @@
 """No rule rejects a true hypothesis, and none confirms a false one.
 
-**Doors.** Invariants of turning, by induction over doors. The way back: door 0 undoes a move but
-for a turn, which is added to the next door.
+**Doors.** Invariants of turning, by induction. Door 0 undoes a move but for a turn, which is added
+to the next door.
 
-**Traces** keep the correspondence with the world. The rules `prefix` and `history`, and the motion,
-compare the percept that S shows with the sensed one. Base: if e ends in h, then vu is h's place.
-Step: across an explored edge, S and the world arrive at corresponding places. So the percepts are
-equal along words of any length.
+**Traces** keep the correspondence with the world. Base: if e ends in h, then vu is h's place. Step:
+across an explored edge, S and the world arrive at corresponding places. So the compared percepts
+are equal along words of any length.
 
-**Confirmation** is never false, by induction backward from v0, where equal percepts, with the
-marker's direction, identify the dart. Turning and crossing are injective, so corresponding darts
-came from corresponding darts, and h's place is where the robot began. Percepts in between only
-reject earlier.
+**Confirmation**: backward from v0, where equal percepts, with the marker's direction, identify the
+dart. Turning and crossing are injective, so h's place is where the robot began.
 
-**Records** are true if sensed where the record's dart and doors say, and stay true. Writing:
-sequences are traced from the entry dart. Reading: tracing leaves S through an unexplored dart and
-descends the trie. Keeping: growth moves no dart of S.
+**Records** are true if sensed where the record's dart and doors say. Writing: sequences are traced
+from the entry dart. Reading: tracing leaves S through an unexplored dart and descends the trie.
+Keeping: growth moves no dart of S.
 """
 
 from __future__ import annotations
@@ -71,7 +68,7 @@ def _induction(
         shared(
             name=f"{name}-base", words=f"{words}: with door 0", goal=statement(t.k0), needs=needs[0]
         ),
-        # Nothing is known of the constant D, so the step holds for every door.
+        # D is arbitrary, so the step holds for every door.
         shared(
             name=f"{name}-step",
             words=f"{words}: with door k+1, if with door k",
@@ -301,12 +298,12 @@ CONFIRMATION_OBLIGATIONS: tuple[Obligation, ...] = (
 TRUE = (*t.CORRESPONDENCE, *t.TRUE_RECORDS)
 ON_RECORD = {"corresponds": eq(t.spot(R), B), "goes-deeper": t.deeper(R, D)}
 
-# rwalk(r, w) is the place of the trie where w leads from r; rstays(r, w): does the trie go so far?
+# rwalk(r, w): where w leads in the trie; rstays(r, w): does the trie go so far?
 rwalk = Symbol("rwalk", ("R", "L"), "R")
 rstays = Symbol("rstays", ("R", "L"), BOOL)
 RECORD_WORDS: dict[str, Term] = {
     "record-walk-nil": forall(t.r, eq(rwalk(t.r, t.nil), t.r)),
-    # For the constant WORD alone: the step speaks of no other word.
+    # For the constant WORD alone.
     "record-walk-cons": forall(
         (t.r, k), eq(rwalk(t.r, t.cons(k, WORD)), rwalk(t.behind(t.r, k), WORD))
     ),
