@@ -87,6 +87,7 @@ COMMON = {
     "how": "how it was lost",
     "id": "the id of the world",
     "judgements": "the same as `claims`, with how much each status rests on",
+    "kind": "inductive, mechanised, bounded, negative or mutant",
     "least": "the least cost of a proof",
     "least_cost": "the least cost of a proof",
     "mapper": "the mapper",
@@ -94,6 +95,7 @@ COMMON = {
     "message": "what is wrong, in one sentence",
     "name": "its name",
     "not_declared": "the claims of which the mapper declares nothing",
+    "of": "the theorem that a mutant changes",
     "ok": "nothing is wrong, and nothing is left undecided",
     "order": "the policy that chooses the next hypothesis; null: the mapper has none",
     "other": "the cost of the other mapper",
@@ -105,6 +107,7 @@ COMMON = {
     "seed": "the seed of the draw",
     "seen": "what was so",
     "status": "the status of the claim",
+    "stopped": "why the mapper delivered no map; null: it delivered one",
     "suite": "the suite of worlds",
     "target": "the mapper, as the command line names it",
     "total": "how much there is to judge",
@@ -112,6 +115,7 @@ COMMON = {
     "vertices": "the number of vertices",
     "why": "the reason, where something is not decided",
     "witness": "a world with the same history in which the mapper is wrong",
+    "words": "the theorem in words",
     "world": "the world, as the command line names it",
     "worlds": "the number of worlds",
 }
@@ -221,7 +225,11 @@ def _hidden(command: click.Command) -> Iterator[str]:
 
 
 def _command(path: str, command: click.Command, shared: Sequence[object]) -> Iterator[str]:
-    usage = " ".join(command.collect_usage_pieces(click.Context(command, info_name=path)))
+    usage = " ".join(
+        command.collect_usage_pieces(
+            click.Context(command, info_name=path, help_option_names=["-h", "--help"])
+        )
+    )
     yield f"## {path}\n"
     yield f"    topo-verify {path} {usage}\n"
     yield _text(inspect.cleandoc(command.help or "")) + "\n"

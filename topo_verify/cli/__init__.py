@@ -1,15 +1,10 @@
-"""The command line: one file a command; arguments, progress, printing and exit codes, nothing else.
+"""The command line: one file a command; arguments, progress, printing and exit codes.
 
-verify.py, explore.py, world.py (twins.py), search.py, prove.py, faults.py,
-conform.py, record.py, compare.py, replay.py, play.py, certify.py, tour.py,
-arena.py (arena_files.py, arena_game.py), header.py, reproduce.py  the commands
 runs.py       worlds as the user names them; judged runs, findings and walks as shown
 options.py    options that commands share
-output.py     from results to stdout and files: pretty, json, markdown; --report, --junit, --badge
+output.py     results on stdout and in files
 kept_runs.py  the store of runs of some commands
 failures.py   exit codes, and the sentences that go with them
-
-The module of a command is imported when the command is called.
 """
 
 from __future__ import annotations
@@ -30,7 +25,6 @@ from topo_verify.programs.isolation import own_arguments
 __all__ = ["main"]
 
 _COMPLETE = "_TOPO_VERIFY_COMPLETE"
-"""A shell that completes a line sets this environment variable (see click's manual)."""
 
 
 SHORT_HELPS = {
@@ -55,7 +49,7 @@ SHORT_HELPS = {
 
 
 class Commands(Mapping[str, click.Command]):
-    """The commands by name. The module of one is imported when the command is asked for."""
+    """The commands by name; a module is imported when its command is called."""
 
     def __getitem__(self, name: str) -> click.Command:
         short_help = SHORT_HELPS[name]
@@ -71,14 +65,14 @@ class Commands(Mapping[str, click.Command]):
 
 
 class CommandLine(click.Group):
-    """The group of all commands; it maps how one ends to an exit code.
+    """The group of all commands.
 
-    It replaces click's own `main`, which exits 1 on an interrupt or a closed pipe. Here only a
-    claim that fails exits 1.
+    Unlike click's own `main`, it exits 1 only if a claim fails, not on an interrupt or a closed
+    pipe.
     """
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002  click's signature
-        """The names of the commands, in the order in which they were added."""
+        """The names of the commands."""
         return list(self.commands)
 
     def format_commands(
@@ -86,14 +80,14 @@ class CommandLine(click.Group):
         ctx: click.Context,  # noqa: ARG002  click's signature
         formatter: click.HelpFormatter,
     ) -> None:
-        """Write the commands into --help, and import none of them."""
+        """Write the commands into --help without importing them."""
         with formatter.section("Commands"):
             formatter.write_dl(list(SHORT_HELPS.items()))
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """The command that is called; a TARGET in its place is told `verify`."""
+        """The command; if a TARGET stands in its place, the error names `verify`."""
         if args[0] not in self.commands and (":" in args[0] or args[0].endswith(".py")):
             ctx.fail(f"no such command {args[0]!r}, did you mean verify {args[0]}")
         return super().resolve_command(ctx, args)
@@ -101,11 +95,11 @@ class CommandLine(click.Group):
     def main(  # type: ignore[override]  # pyright: ignore[reportIncompatibleMethodOverride]  it always exits
         self, args: Sequence[str] | None = None, prog_name: str | None = None, **extra: Any
     ) -> NoReturn:
-        """Run the command line, by default the program's own, and exit."""
+        """Run the command line and exit."""
         name = prog_name or "topo-verify"
         if args is None:
-            own_arguments()  # hidden before a mapper in another process can read them
-            # As Ctrl-C: what is done is kept and printed, and the exit code is 3.
+            own_arguments()  # hide them from mappers in other processes
+            # As Ctrl-C: finished work is kept and printed; exit code 3.
             signal.signal(signal.SIGTERM, signal.default_int_handler)
         if instruction := os.environ.get(_COMPLETE):
             sys.exit(shell_complete(self, extra, name, _COMPLETE, instruction))
@@ -113,7 +107,7 @@ class CommandLine(click.Group):
 
     def _code(self, arguments: list[str], name: str, extra: dict[str, Any]) -> int:
         try:
-            # A copy, because click empties the list, and `explain` and reports need the arguments.
+            # A copy: click empties the list, which reports still need.
             with self.make_context(name, arguments.copy(), obj=arguments, **extra) as context:
                 code = self.invoke(context)
         except click.exceptions.Exit as done:
@@ -121,16 +115,15 @@ class CommandLine(click.Group):
         except (click.Abort, KeyboardInterrupt):
             say("topo-verify: interrupted before the first result")
             code = ExitCode.INCOMPLETE
-        except BrokenPipeError:  # --help was cut off; `Output` does the same for results
+        except BrokenPipeError:  # --help was cut off
             silence(sys.stdout)
             code = ExitCode.NOTHING_FOUND
-        except Exception as error:  # noqa: BLE001  `explain` reports every exception
+        except Exception as error:  # noqa: BLE001  all are reported
             code = explain(error, arguments)
         return _flushed(int(code))
 
 
 def _flushed(code: int) -> int:
-    """The exit code, once all that was printed is written; 2 if it cannot be (--help > full)."""
     out: TextIO | None = sys.stdout  # it is None after >&-
     try:
         if out is not None:

@@ -1,4 +1,4 @@
-"""`topo-verify arena`: mappers in named suites of worlds, ranked by cost; only sound ones rank."""
+"""`topo-verify arena`: mappers in named suites of worlds, ranked by cost; only sound ones."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ from topo_verify.studies.arena.suites import DEFAULT, SUITES, chosen_suites
     " of the catalogue are from it.",
 )
 @options.limits
-def arena(  # noqa: PLR0913  an argument an option
+def arena(
     output: Output,
     *,
     texts: tuple[str, ...],
@@ -111,7 +111,7 @@ def arena(  # noqa: PLR0913  an argument an option
 
     Every run is judged by every claim. A mapper that breaks one has no place, only its
     counterexample. Intervals are at 95 %; `behind` compares with the first of the table in the same
-    worlds. But for time and memory, the same call gives the same figures, interrupted or not.
+    worlds. The same call gives the same figures, interrupted or not, except for time and memory.
     """
     if game is not None:
         return game_of_catalogue(output, game, [*texts, *named])
@@ -130,7 +130,7 @@ def arena(  # noqa: PLR0913  an argument an option
         try:
             _play(output, league, folder, processors() if workers is None else workers)
         except KeyboardInterrupt:
-            yield from map(_result, league.entries())  # what is done is printed
+            yield from map(_result, league.entries())
             raise
         table = league.entries()
         _run_again(output, league, table)
@@ -164,7 +164,6 @@ def arena(  # noqa: PLR0913  an argument an option
 def _asked(
     texts: Sequence[str], named: Sequence[str], commands: Sequence[str], libraries: Sequence[str]
 ) -> list[str]:
-    """The TARGETs of the command line, programs and libraries last."""
     if texts and named:
         raise InputError(
             f"expected TARGETs in one way, got {texts[0]!r} and --target {named[0]}; leave one out"
@@ -177,7 +176,6 @@ def _asked(
 
 
 def _loaded(asked: Sequence[str], *, in_process: bool) -> tuple[Target, ...]:
-    """The mappers, each once. Workers load them again; here it is seen that they can be."""
     loaded = [target for text in asked for target in targets_of(text, in_process=in_process)]
     names = [target.text for target in loaded]
     twice = next((name for name in names if names.count(name) > 1), None)
@@ -188,7 +186,6 @@ def _loaded(asked: Sequence[str], *, in_process: bool) -> tuple[Target, ...]:
 
 
 def _require_players(league: League) -> None:
-    """Refuse a mapper that can play none of the suites."""
     for mapper in league.mappers:
         if not any(league.plays(mapper, suite) for suite in league.suites):
             raise InputError(
@@ -203,11 +200,7 @@ def _result(entry: LeagueEntry) -> Result[LeagueEntry]:
     return Result(entry, failed=broken, incomplete=not broken and entry.worlds < entry.total)
 
 
-# ---------------------------------------------------------------- the work
-
-
 def _play(output: Output, league: League, folder: Path | None, workers: int) -> None:
-    """Make the runs, and keep them in the folder if there is one."""
     for mapper in league.mappers:
         for suite in league.suites:
             if not league.plays(mapper, suite):
@@ -220,7 +213,6 @@ def _play(output: Output, league: League, folder: Path | None, workers: int) -> 
 
 
 def _run_again(output: Output, league: League, table: Sequence[LeagueEntry]) -> None:
-    """Run each mapper that broke a claim once more, to show where."""
     broken = {e.mapper: e.counterexample for e in table if e.counterexample is not None}
     for mapper in league.mappers:
         if (first := broken.get(mapper.text)) is not None:
@@ -228,7 +220,6 @@ def _run_again(output: Output, league: League, table: Sequence[LeagueEntry]) -> 
 
 
 def _add_timing(output: Output, league: League, table: Sequence[LeagueEntry]) -> None:
-    """What differs from run to run, by suite and mapper."""
     time, memory = defaultdict[str, Any](dict), defaultdict[str, Any](dict)
     for entry in table:
         if entry.place is not None:
@@ -243,7 +234,6 @@ def _add_timing(output: Output, league: League, table: Sequence[LeagueEntry]) ->
 def _show(
     league: League, table: Sequence[LeagueEntry], *, memory: Memory | None, pictures: bool = False
 ) -> Iterator[Block]:
-    """The standings, then each suite in detail, what was judged in part, who has no place."""
     for number, suite in enumerate(league.suites):
         if number:
             yield Text("")
@@ -274,12 +264,6 @@ def _account(
     *,
     exact: bool,
 ) -> acc.Account:
-    """The account of `arena`: a suite of worlds and a mapper a suite, a case a claim.
-
-    Args:
-        dearest: the ranked mappers in their most expensive worlds.
-        exact: the worlds are all those of finite classes.
-    """
     mappers = list(dict.fromkeys(entry.mapper for entry in table))
     broken = {entry.mapper for entry in table if entry.counterexample is not None}
     runs, planned = sum(e.worlds for e in table), sum(e.total for e in table)

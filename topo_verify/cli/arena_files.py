@@ -1,16 +1,14 @@
-"""What `arena` shows to people, and what `arena --out DIR` writes beside store and page.
+"""What `arena` shows to people, and the files of `arena --out DIR` beside store and page.
 
-What differs from run to run (time, memory) stands in columns of its own, which the files leave out.
-
-    table.md, table.csv      the tables, without time and memory
+    table.md, table.csv      the tables
     runs.csv                 every run of the ranked mappers
-    results.json             the entries, without what differs from run to run
-    timing.json              that: milliseconds a move, memory
+    results.json             the entries
+    timing.json              milliseconds a move, memory
     ratio-SUITE.svg          cost / LB against the number of edges
     players/MAPPER.html      a ranked mapper in its most expensive world
     counterexamples/         of a mapper without a place: the world, drawn, and its run
 
-All but `timing.json` and the page are the same, byte for byte, whenever the same runs are made.
+All but `timing.json` and the page are the same, byte for byte, for the same runs.
 """
 
 from __future__ import annotations
@@ -49,29 +47,26 @@ from topo_verify.world.formats import files
 from topo_verify.world.resolve import resolve_world
 
 REPORT = "report.html"
-"""The page of the run."""
 
 VARIES = ("ms_per_move",)
-"""The fields of an entry that differ from run to run."""
 
 
 # ---------------------------------------------------------------- for people
 
 Memory = Callable[[LeagueEntry], float | None]
-"""The mebibytes that a mapper took in its most expensive world of a suite, if they are known."""
+"""The mebibytes of a mapper in its most expensive world of a suite, if known."""
 
 
 VARYING = (
     "ms/move and MiB depend on the machine: processor time a move of mapper and robot, and the most"
     " memory in the mapper's most expensive world."
 )
-"""What is said below the standings."""
 
 
 def standings(
     suite: Suite, table: Sequence[LeagueEntry], seed: int, memory: Memory | None
 ) -> Block:
-    """The ranked mappers of a suite; mappers that share a place have `=` behind it.
+    """The ranked mappers of a suite; a shared place is followed by `=`.
 
     Args:
         memory: for the columns of time and memory; None: without them.
@@ -100,7 +95,7 @@ def standings(
 
 
 def suite_blocks(suite: Suite, table: Sequence[LeagueEntry]) -> Iterator[Block]:
-    """Why mappers lost in a suite, its families, and what kept mappers from a place."""
+    """Why mappers lost in a suite, its families, and why others have no place."""
     ranked = ranked_in(suite, table)
     yield from _loss_blocks(suite, ranked)
     if ranked and len(suite.families) > 1:
@@ -119,7 +114,6 @@ def suite_blocks(suite: Suite, table: Sequence[LeagueEntry]) -> Iterator[Block]:
 
 
 def _loss_blocks(suite: Suite, ranked: Sequence[LeagueEntry]) -> Iterator[Block]:
-    """Where each mapper loses most against the first, and commands that show both runs."""
     rows = [
         (entry.mapper, lost.world, str(lost.edges), str(lost.cost), str(lost.other))
         for entry in ranked
@@ -137,7 +131,6 @@ def _loss_blocks(suite: Suite, ranked: Sequence[LeagueEntry]) -> Iterator[Block]
 
 
 def _families(suite: Suite, ranked: Sequence[LeagueEntry]) -> TextTable:
-    """cost / LB of each mapper, a row a family."""
     rows = [
         (of_family[0].family, f"{of_family[0].edges:.0f}", *(_figure(f.ratio) for f in of_family))
         for of_family in zip(*(entry.families for entry in ranked), strict=True)
@@ -147,14 +140,13 @@ def _families(suite: Suite, ranked: Sequence[LeagueEntry]) -> TextTable:
 
 
 def claims_in_words(entry: LeagueEntry) -> str:
-    """How many claims hold, and how many of them were judged in part or not at all."""
+    """How many claims hold, and how many were judged in part or not at all."""
     if {*entry.claims.values()} == {"ok"}:
         return f"{len(entry.claims)} hold"
     return in_words(entry.claims, "hold")
 
 
 def _figure(figure: MeanInterval | LeagueBehind | None, sign: str = "") -> str:
-    """A mean and how far its interval reaches to each side; JSON has more digits."""
     if figure is None:
         return "-"
     mean = f"{figure.mean:{sign}.2f}"
@@ -170,7 +162,6 @@ def _free(entry: LeagueEntry) -> str:
 
 
 def _varying(entry: LeagueEntry, memory: float | None) -> tuple[str, str]:
-    """What differs from run to run: milliseconds a move, mebibytes."""
     time = "-" if entry.ms_per_move is None else f"{entry.ms_per_move:.3f}"
     return time, "-" if memory is None else f"{memory:.0f}"
 
@@ -191,7 +182,7 @@ def plot_of(league: League, suite: Suite, table: Sequence[LeagueEntry]) -> str:
 
 
 def broken_blocks(entries: Sequence[LeagueEntry]) -> Iterator[Block]:
-    """The mappers that broke a claim: no place, only the counterexample."""
+    """The mappers that broke a claim, each with its counterexample."""
     broken = {e.mapper: e.counterexample for e in entries if e.counterexample is not None}
     if broken:
         rows = [
@@ -273,7 +264,7 @@ def _write_player(folder: Path, exhibit: Exhibit) -> None:
 
 
 def _stem(exhibit: Exhibit) -> str:
-    # A program's TARGET begins with dashes, which a shell takes for an option.
+    # A program's TARGET begins with dashes.
     return file_name(exhibit.runs[0].name if exhibit.runs else exhibit.title).lstrip("-")
 
 
@@ -307,7 +298,6 @@ def _table(
     dearest: Sequence[Exhibit],
     counterexamples: Sequence[Exhibit],
 ) -> str:
-    """All tables as Markdown, with the plots and the worlds."""
     parts = ["# The arena\n"]
     parts.append(markdown(standings(suite, table, league.seed, None) for suite in league.suites))
     for suite in league.suites:
@@ -337,11 +327,10 @@ TABLE = (
     *("ratio", "low", "high", "behind", "behind_low", "behind_high"),
     *("rejected_free", "rejected_moving", "claims", "counterexample"),
 )
-"""The columns of `table_csv`."""
 
 
 def table_csv(entries: Sequence[LeagueEntry]) -> str:
-    """A row a mapper and suite, then a row a family of it, where there are several."""
+    """A row for each mapper and suite, then a row for each of several families."""
     return _csv(TABLE, [row for entry in entries for row in _rows(entry)])
 
 
@@ -370,11 +359,10 @@ RUNS = (
     *("mapper", "suite", "world", "edges", "least", "cost", "ratio"),
     *("rejected_free", "rejected_moving"),
 )
-"""The columns of `runs_csv`."""
 
 
 def runs_csv(league: League, table: Sequence[LeagueEntry]) -> str:
-    """A row a run of each ranked mapper, by suite and mapper."""
+    """A row for each run of a ranked mapper, by suite and mapper."""
     return _csv(
         RUNS,
         [

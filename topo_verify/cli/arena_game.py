@@ -22,13 +22,12 @@ GameEntry = GameValue | MapperCosts
 
 
 ALLOWED = {"--game", "texts", "--target", "--format", "--quiet"}
-"""The parameters of `arena` that mean something to `--game`."""
+"""The parameters of `arena` that `--game` uses."""
 
 
 def game_of_catalogue(output: Output, edges: int, names: Sequence[str]) -> int:
-    """Do what `arena --game M [TARGET]...` asks for; no name or `all`: the whole catalogue.
+    """Do `arena --game M [TARGET]...`; without names, or with `all`, for the whole catalogue.
 
-    Returns: the exit code: 1 if a claim fails, 3 if a search was cut short.
     Raises:
         InputError: there is no such game or mapper, or another option was given.
     """
@@ -135,10 +134,7 @@ def _more(mean: float | None, than: CostsOfRobot | None, *, least: bool = False)
 
 
 def _saved(costs: CostsOfRobot, nothing: CostsOfRobot) -> str:
-    """How far a mean is below that of the robot that is told nothing, in percent.
-
-    Where the lower mean is itself only a bound, the difference is not even bounded: `-`.
-    """
+    """How far a mean is below that of the robot that knows nothing, in percent; `-` if unknown."""
     if costs is nothing or not costs.mean_is_value:
         return "-"
     sign = "" if nothing.mean_is_value else "≥ "

@@ -57,13 +57,14 @@ class CertifiedDecisions(msgspec.Struct, frozen=True):
 
 
 class KernelCheck(msgspec.Struct, frozen=True):
-    """The certificate for Coq of one log, and what its checker said.
+    """The certificate for Coq of one log, and the answer of its checker.
 
     Attributes:
         statement: map, undetermined or impossible.
         file: the certificate.
         accepted: null if nothing checked the certificate.
-        by, why: the checker; the reason why nothing was checked.
+        by: the checker.
+        why: the reason why nothing was checked.
         command: checks it again, in the folder of the certificate.
         delivered: whether Coq accepted that the delivered map is the world.
         decisions: those of the log that follow, certified.
@@ -80,7 +81,7 @@ class KernelCheck(msgspec.Struct, frozen=True):
 
     @property
     def incomplete(self) -> bool:
-        """True if the certificate or a decision that follows was left unchecked."""
+        """Whether the certificate, or a decision that follows, was left unchecked."""
         return self.accepted is None or bool(self.decisions.entailed and not self.decisions.by)
 
 
@@ -92,14 +93,13 @@ class ReceivedDecisions(msgspec.Struct, frozen=True):
 
 
 class CertificateEntry(msgspec.Struct, frozen=True):
-    """One received certificate: the entry of `results`.
+    """One received certificate.
 
     Attributes:
         accepted: null if nothing checked the certificate.
         by: what accepted or refused it; "" if nothing did.
         statement: map, undetermined or impossible, of an accepted certificate; else null.
-        why: the reason why it is refused, or not checked, or says nothing about a part of the log;
-            "" if it is accepted and is about the whole log.
+        why: the reason why it is refused, not checked, or silent about a part of the log; else "".
         delivered: whether it states that the delivered map is the world.
         decisions: those of the log if one is given, else those in the certificate.
         certificate: its file.
@@ -115,14 +115,14 @@ class CertificateEntry(msgspec.Struct, frozen=True):
 
 
 class CertifyEntry(msgspec.Struct, frozen=True):
-    """One log: an entry of `results`.
+    """One log.
 
     Attributes:
-        verdict: PROVED. UNKNOWN: the log is incomplete, true of several worlds. REFUTED: no world
-            shows it, or a map or decision in it does not follow.
-        vertices, edges: of the proved map; of the smaller witness if there is none.
-        open_doors: those of an incomplete log, nearest to its end first; at most 100.
-        advice: how to go on so that the map is proved in the end; null: nothing is left to walk.
+        verdict: PROVED. UNKNOWN: several worlds show the log. REFUTED: no world shows it, or a map
+            or decision in it does not follow.
+        vertices, edges: of the proved map, else of the smaller witness.
+        open_doors: at most 100, nearest to the end of the log first.
+        advice: how to go on to prove the map; null: nothing is left to walk.
         witnesses: two worlds that show this log and differ: the files if written, else the ids.
         kernel: the certificate for Coq; null without --kernel.
         trace: the file of the log.
@@ -165,7 +165,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     metavar="SECONDS",
     meaning="Time limit of each program that checks a certificate.",
 )
-def certify(  # noqa: PLR0913  an argument an option
+def certify(
     output: Output,
     *,
     traces: tuple[str, ...],
@@ -178,19 +178,15 @@ def certify(  # noqa: PLR0913  an argument an option
 ) -> int:
     """Judge logs of percepts and doors, with no world at all.
 
-    TRACE is a file, or - for standard input: in JSON Lines a `start` with the first percept, then a
-    `move` with door and percept for each edge that was crossed; or a CSV table with the columns
-    door, degree, marker, whose first row has no door. PROVED: one world alone shows this log, and
-    it is the map. UNKNOWN (exit code 3): the log is incomplete, several worlds show it; the doors
-    that it left open are named, each with a way there, and where to go next to prove the map.
-    REFUTED (1): no world shows it, or a map or decision that it delivers does not follow. With
-    --kernel the same is stated in Coq for that very log, in a file certificate_LOG.cert, and proved
-    by computation. So are the delivered map, and each declared decision that follows from the log
-    before it. Where something cannot be checked the exit code is 3.
+    TRACE is a file, or - for standard input: JSON Lines with a `start` and a `move` for each edge
+    crossed, or a CSV table with the columns door, degree, marker (no door in its first row).
+    PROVED: exactly one world shows this log, and it is the map. UNKNOWN (exit code 3): several
+    worlds show it; the open doors are named, and where to go next. REFUTED (1): no world shows it,
+    or a map or decision in it does not follow.
 
-    With --check a certificate that you received is checked by Coq: accepted (0), refused (1), not
-    readable as a certificate (2), or not checked, for want of Coq, time or memory (3). Exit code 3
-    says as well that the log has decisions or a map that no certificate can state.
+    --kernel states and proves the same in Coq, in a file certificate_LOG.cert; 3 if a part is not
+    checked. --check has Coq check a certificate that you received: accepted (0), refused (1), not
+    readable (2), not checked, or silent about a part of the log (3).
     """
     _require_one_task(traces, received, about, others=bool(map_file or folder or proving))
     doing = partial(output.progress, done=0, total=1)
@@ -225,7 +221,6 @@ def certify(  # noqa: PLR0913  an argument an option
 def _require_one_task(
     traces: tuple[str, ...], received: str | None, about: str | None, *, others: bool
 ) -> None:
-    """Raise UsageError unless logs are judged or a certificate is checked, and not both."""
     if received is None:
         if not traces:
             raise click.UsageError("Missing argument 'TRACE...'.")
@@ -259,18 +254,17 @@ def _result(
         findings=findings,
         kernel=proof,
     )
-    # A log that is proved but not certified is no failure of the mapper: exit 3, not 1.
+    # Proved but not certified is not the mapper's failure: exit 3, not 1.
     unchecked = proof is not None and proof.incomplete
     incomplete = unchecked or certificate.verdict == "UNKNOWN"
     return Result(entry, failed=bool(findings), incomplete=incomplete)
 
 
 def _witnesses(trace: str, certificate: Certificate, folder: str | None) -> tuple[str, ...]:
-    """The two worlds that show an incomplete log: the files, or the ids, or how large they are."""
     if certificate.map is not None or certificate.fold is None:
         return ()
     sizes = (certificate.edges, certificate.edges + certificate.open_darts)
-    # A world is made where it is asked for, or small: it may have a million exits.
+    # A large world is made only on request: it may have a million exits.
     if folder is None and max(sizes) > MAX_ID_EDGES:
         return tuple(f"a world of {size} edges (--witness DIR writes it)" for size in sizes)
     if folder is None:
@@ -305,7 +299,6 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
 
 
 def _show_open(entry: CertifyEntry, advice: Advice) -> Iterator[Block]:
-    """What is missing in an incomplete log, and how to go on."""
     yield Text("")
     nearest = ", the nearest five" if entry.open_darts > 5 else ""
     yield Text(
@@ -346,13 +339,8 @@ def _decisions(entry: CertifyEntry) -> str:
 def _prove(
     traces: Sequence[str], number: int, log: Trace, certificate: Certificate, check: NumbersChecker
 ) -> KernelCheck:
-    """Write the certificate of a log, and return what its checker says of it.
-
-    Raises:
-        InternalError: Coq refuses it, or it states another result than the fold.
-    """
-    # The certificate is stated by a fold of its own. Were the two folds to differ, Coq would
-    # still accept a true statement, but not the one that the user was told.
+    # The certificate comes from a second fold. If the folds differed, Coq would accept a true
+    # statement, but not the one that the user reads.
     stated = certificates.certificate_of(log)
     shown = "undetermined" if certificate.fold is not None else "impossible"
     if stated.statement != ("map" if certificate.map is not None else shown):
@@ -361,8 +349,8 @@ def _prove(
     text = certificate_format.text_of(stated)
     files.write(file, text)
     checked = check(certificate_format.parse(text.encode(), name=file))
-    # `accepted` is None where nothing was checked; only False means that Coq refused. Where the
-    # conclusion is true, some evidence is accepted (coq/Accepted.v): the mistake is Python's.
+    # None: not checked. For a true conclusion some evidence is accepted (coq/Accepted.v), so a
+    # refusal is Python's mistake.
     if checked.accepted is False:
         raise InternalError(
             f"{checked.by} refuses {file}, so our conclusion or our evidence is wrong:"
@@ -384,7 +372,6 @@ def _prove(
 def _certified_decisions(
     checked: CertificateCheck, entailed: int, *, too_long: bool
 ) -> CertifiedDecisions:
-    """How many of the decisions that follow are certified, and why the others are not."""
     if not entailed:
         return CertifiedDecisions(0, 0, "", "")
     if not checked.accepted:
@@ -401,8 +388,6 @@ def _certified_decisions(
 
 
 def _stem(traces: Sequence[str], number: int) -> str:
-    """The name of a log's certificate without its suffix, different for each of the logs."""
-    # Two logs may have one stem: hence the number.
     name = "standard_input" if traces[number] == "-" else Path(traces[number]).stem
     stem = re.sub(r"\W", "_", name, flags=re.ASCII)
     return f"certificate_{stem}" + (f"_{number + 1}" if len(traces) > 1 else "")
@@ -416,7 +401,6 @@ _STATED = {
 
 
 def _show_proof(proof: KernelCheck) -> Iterator[Block]:
-    """The lines that tell of a certificate: what it states, who accepted it, how to check it."""
     outcome = f"accepted by {proof.by}" if proof.accepted else f"NOT CHECKED: {proof.why}"
     delivered = " The delivered map is that world." if proof.delivered else ""
     proved, decisions = proof.decisions, ""
@@ -437,11 +421,6 @@ def _show_proof(proof: KernelCheck) -> Iterator[Block]:
 
 
 def _checked(file: str, log: Trace | None, check: NumbersChecker) -> Result[CertificateEntry]:
-    """The result of checking a certificate that is said to be about a log, if one is given.
-
-    Raises:
-        InputError: the file is no certificate, or no certificate can be about that log.
-    """
     numbers = certificate_format.parse(files.read(file), name=file)
     if log is not None and not certificates.is_about(numbers, log):
         checked = certificates.CertificateCheck(
@@ -449,7 +428,7 @@ def _checked(file: str, log: Trace | None, check: NumbersChecker) -> Result[Cert
         )
     else:
         checked = check(numbers)
-    # What no certificate can state counts as not proved, so that nothing hides from its numbers.
+    # What no certificate can state counts as not proved.
     silent = ""
     if log is not None and checked.accepted:
         silent = certificate_format.left_out(log)
@@ -466,7 +445,6 @@ def _checked(file: str, log: Trace | None, check: NumbersChecker) -> Result[Cert
 
 
 def _show_received(entries: Sequence[CertificateEntry]) -> Iterator[Block]:
-    """The lines that tell whether a received certificate is accepted, and what it states."""
     for entry in entries:
         if entry.statement is None:
             word = "NOT CHECKED" if entry.accepted is None else f"REFUSED by {entry.by}"

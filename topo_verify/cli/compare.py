@@ -43,7 +43,6 @@ TITLES: dict[ChangeKind, str] = {
     "undecided": "not decided",
     "equal": "equal",
 }
-"""The title of each kind of change."""
 
 SHORT: dict[ChangeKind, str] = {
     "wrong": "fails",
@@ -53,10 +52,8 @@ SHORT: dict[ChangeKind, str] = {
     "newly_right": "newly right",
     "undecided": "not decided",
 }
-"""The title of each kind above a column."""
 
 SHOWN = 5
-"""The number of worlds shown of each kind; JSON has more."""
 
 
 def _percent(_context: click.Context, _option: click.Parameter, value: str) -> str:
@@ -95,7 +92,7 @@ def compare(
     """Run a mapper in the worlds of a BASELINE, under its limits, and show what has changed.
 
     Exit 1: in some world a claim fails, or the cost exceeds the tolerance. An algorithm of the
-    catalogue runs with the policies of the baseline, unless others are asked for.
+    catalogue runs with the policies of the baseline unless others are given.
     """
 
     def compared() -> Iterator[Result[Comparison]]:
@@ -114,7 +111,6 @@ def compare(
 
 
 def _run_again(output: Output, then: file.Baseline, target: Target, changes: Comparison) -> None:
-    """Keep the runs of the mapper where a claim fails, and where it costs more than allowed."""
     texts = {entry.called: entry.world for entry in then.entries}
     for change in changes.examples:
         if change.kind == "wrong" or change.beyond:
@@ -178,7 +174,6 @@ def _examples(kind: ChangeKind, entry: Comparison) -> Iterator[Block]:
     if not changes:
         return
     yield Text("")
-    # The order that studies/baseline/compare.py chose.
     first = "largest" if kind in ("dearer", "cheaper") else "smallest worlds"
     yield Text(f"{TITLES[kind]}: {entry.kinds[kind]:,}, {first} first")
     yield Bullets(tuple(map(_line, changes)))
@@ -186,7 +181,6 @@ def _examples(kind: ChangeKind, entry: Comparison) -> Iterator[Block]:
 
 
 def _line(change: Change) -> str:
-    """One changed world: its name, then both costs or the finding."""
     name = change.world if len(change.world) < 40 else f"{change.world[:36]}…"
     if change.message:
         return f"{name}: {change.message}"
@@ -216,7 +210,6 @@ def _conclusion(entry: Comparison) -> str:
 
 
 def _account(entries: Sequence[Comparison]) -> acc.Account:
-    """The account of a comparison: a suite a baseline, a case for each question."""
     checked = sum(entry.worlds - entry.undecided for entry in entries)
     total = sum(entry.worlds for entry in entries)
     regressed = sum(entry.wrong + entry.beyond for entry in entries)

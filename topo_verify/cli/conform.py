@@ -1,4 +1,4 @@
-"""`topo-verify conform`: the oracle for an implementation, Python or any program."""
+"""`topo-verify conform`: the oracle for an implementation, in Python or any program."""
 
 from __future__ import annotations
 
@@ -41,11 +41,9 @@ from topo_verify.studies.corpus import corpus_from
 from topo_verify.world.rooted_map import World
 
 SHOWN = 3
-"""The number of findings of a level, and of worlds with costs, that are shown; JSON has more."""
 
 
 def _seeds(_context: click.Context, _option: click.Parameter, value: str | None) -> tuple[int, int]:
-    """The seeds of the generated worlds and of the order."""
     if value is None:
         return 0, secrets.randbelow(2**32)
     match = re.fullmatch(r"([0-9]{1,18})(?::([0-9]{1,18}))?", value)
@@ -88,7 +86,7 @@ def _seeds(_context: click.Context, _option: click.Parameter, value: str | None)
     "  [default: 0, and an order drawn anew]",
 )
 @options.limits
-def conform(  # noqa: PLR0913  an argument an option
+def conform(
     output: Output,
     *,
     mappers: Mappers,
@@ -104,12 +102,11 @@ def conform(  # noqa: PLR0913  an argument an option
     seeds: tuple[int, int],
     limits: Limits,
 ) -> int:
-    """Try an implementation in many worlds and judge it on four levels, each by itself.
+    """Try an implementation in many worlds and judge it on four separate levels.
 
     result: its map and its cost. claims: its declared decisions, and whether its history proves the
     map. decisions: every event, compared with --like ALGORITHM. cost: compared with that algorithm
-    (or basic). TARGET is a catalogue name, module:attribute or file.py:attribute; --cmd names a
-    program that speaks protocol 1.
+    (or basic). --cmd names a program that speaks protocol 1.
     """
     seed, order_seed = seeds
 
@@ -121,7 +118,7 @@ def conform(  # noqa: PLR0913  an argument an option
         backend = batched if batch else pooled(min(number, corpus.total))
         if transcript is not None:
             options.make_folder(transcript, "--transcript")
-        # The order is no part of the results; so they are the same whatever it is.
+        # The results do not depend on the order.
         output.timing["seed"] = f"{seed}:{order_seed}"
         output.note(f"seed {seed}:{order_seed}")
         flags = dict(batch=batch, validate=validate, strict=strict, in_process=mappers.in_process)  # noqa: C408
@@ -134,7 +131,7 @@ def conform(  # noqa: PLR0913  an argument an option
                 validate=validate,
                 in_process=mappers.in_process,
                 seed=order_seed,
-                drawn=not batch,  # such a program is given the worlds in their order
+                drawn=not batch,  # it gets the worlds in their order
             )
             again = _replay_command(one, like, (pick, order), flags, limits)
             study = Conform(campaign, corpus, asked, again)
@@ -153,26 +150,20 @@ def conform(  # noqa: PLR0913  an argument an option
 
 
 def _texts(text: str) -> list[str]:
-    """Each TARGET of a text. A mapper of the user's is loaded by the process that runs it."""
     asked = each_text(text)
     for name in asked:
         if not (name.startswith(OPTIONS) or ":" in name):
-            one_target(name)  # refuses a name that is not in the catalogue
+            one_target(name)  # refuses an unknown name
     return list(asked)
 
 
 def _tried(
     output: Output, study: Conform, backend: Backend, shared: dict[str, Playback]
 ) -> Iterator[Result[LevelResult]]:
-    """The results of one implementation; after Ctrl-C, those so far.
-
-    Args:
-        shared: gets the reference's run where the implementation parts from it.
-    """
     try:
         study.work(backend, output.progress)
     except KeyboardInterrupt:
-        # Yield before raising: `Output` prints what it has and then exits 3.
+        # Before raising: `Output` prints it, then exits 3.
         yield from map(_result, study.level_results())
         raise
     levels = tuple(study.level_results())
@@ -200,7 +191,6 @@ def _replay_command(
     flags: Mapping[str, bool],
     limits: Limits,
 ) -> tuple[str, ...]:
-    """The command that repeats the run, in words; the world is appended to it."""
     words = ["topo-verify", "conform", *target_arguments(target)]
     pick, order = policies
     for name, value in (("--like", like), ("--pick", pick), ("--order", order)):
@@ -250,7 +240,6 @@ def _numbers(level: LevelResult) -> tuple[str, ...]:
 
 
 def _findings(level: LevelResult, shared: Mapping[str, Playback]) -> Iterator[Block]:
-    """The first world of each kind of finding."""
     for kind, number in level.kinds.items():
         finding = next(other for other in level.findings if other.kind == kind)
         yield Text("")
@@ -263,7 +252,7 @@ def _findings(level: LevelResult, shared: Mapping[str, Playback]) -> Iterator[Bl
 def _difference(
     found: WorldFinding, level: LevelResult, shared: Mapping[str, Playback]
 ) -> Iterator[Block]:
-    """One finding; if two runs part, what they share, and what each does then."""
+    """One finding; if two runs differ, their common walk, and what each does then."""
     parted, run = found.difference, shared.get(found.replay)
     if parted is None or run is None:
         where = "" if found.event is None else f"event {found.event}: "
@@ -277,10 +266,7 @@ def _difference(
 
 
 def _shared(study: Conform, level: LevelResult) -> dict[str, Playback]:
-    """The reference's run where a mapper first parts from it, by the command that shows it again.
-
-    It is run once more: it does the same again, which a mapper need not.
-    """
+    """The reference's run where a mapper first differs from it, by its replay command."""
     for found in level.findings:
         if found.difference is not None:
             world = next(at.world for at in study.corpus if at.name == found.world)
@@ -290,7 +276,6 @@ def _shared(study: Conform, level: LevelResult) -> dict[str, Playback]:
 
 
 def _costs(level: LevelResult) -> Iterator[Block]:
-    """The total cost, and the worlds in which it differs most from the reference."""
     if level.level != "cost" or level.cost.ratio is None:
         return
     cost = level.cost
@@ -312,7 +297,6 @@ def _costs(level: LevelResult) -> Iterator[Block]:
 
 
 def _account(levels: Sequence[LevelResult]) -> acc.Account:
-    """The account of `conform`: a suite a mapper, a case a level and a claim of it."""
     names = list(dict.fromkeys(level.target for level in levels))
     verdict = acc.joint_verdict([level.verdict for level in levels])
     whole = [level for level in levels if level.verdict == verdict]
@@ -351,11 +335,7 @@ def _cases(levels: Sequence[LevelResult]) -> Iterator[acc.JudgedCase]:
 def _exhibits(
     study: Conform, levels: Sequence[LevelResult], *, batch: bool
 ) -> Iterator[acc.Exhibit]:
-    """The first world of each kind of finding, each world once.
-
-    Args:
-        batch: the program reads worlds and writes runs; it is not asked again.
-    """
+    """The first world of each kind of finding, each once; a batch program is not run again."""
     first: dict[str, list[WorldFinding]] = {}
     for level in levels:
         for kind in level.kinds:
@@ -382,7 +362,6 @@ def _exhibits(
 def _runs_in(
     campaign: Campaign, world: World, findings: Sequence[WorldFinding]
 ) -> Iterator[PlayedRun]:
-    """The run of the implementation, and that of the reference if the two part."""
     for target in campaign.load():
         report = judge(explore(world, target, limits=campaign.limits), strict=campaign.strict)
         exhibit = exhibit_of(report)
@@ -393,11 +372,7 @@ def _runs_in(
 
 
 def _failing_run(study: Conform, levels: Sequence[LevelResult]) -> Report | None:
-    """The run in the first world that convicts an implementation by itself, made once more.
-
-    A run that only parts from the reference's is shown where they part. None if there is no other,
-    or if the same claim does not fail again.
-    """
+    """The run in the first world where a claim fails, made again; None if it holds this time."""
     convicting = (one for level in levels for one in level.findings if one.difference is None)
     finding = next(convicting, None)
     if finding is None:

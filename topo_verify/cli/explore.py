@@ -1,9 +1,7 @@
 """`topo-verify explore`: run algorithms in given worlds; cost and verdict of each run.
 
---choices LIST makes one run whose every choice is told, as in a counterexample of `search`.
---marker all runs the mapper with the marker at every place, in every direction. Two darts from
-which the world looks the same make one rooted map, so one run serves both: its entry is repeated,
-and `same_as` says so.
+With --marker all two darts from which the world looks the same make one rooted map: one run serves
+both, and `same_as` marks the repeated entry.
 """
 
 from __future__ import annotations
@@ -77,21 +75,17 @@ class MeasuredGap(msgspec.Struct, frozen=True):
 
 
 class ExploreEntry(msgspec.Struct, frozen=True):
-    """One run: an entry of `results`.
+    """One run.
 
     Attributes:
-        least_cost: the least cost of a proof (docs/semantics.md, section 11).
         isomorphic: the map is the world.
         entailed: the history alone proves the map.
         ok: no claim failed, and the run ended in time.
-        claims: the status of each claim.
-        judgements: the same, with how much of the run each status rests on.
-        stopped: why the mapper delivered no map, or None.
-        gap: with --gap, if the mapper declares every decision; otherwise None.
-        marker: the dart that the marker points at, as the world's file numbers darts.
-        place: the vertex where the marker lies, likewise.
-        same_as: with `--marker all`, the least dart from which the world looks the same, if that
-            is another one: the two are one rooted map, so this run is that one's.
+        gap: with --gap, if the mapper declares every decision; otherwise null.
+        marker: the dart that the marker points at, numbered as in the world's file.
+        place: the vertex of the marker.
+        same_as: with `--marker all`, a smaller dart from which the world looks the same; this run
+            is that one's.
         rejected_free, rejected_moving: hypotheses rejected without motion, and by motion.
         confirmed: hypotheses confirmed.
     """
@@ -126,7 +120,6 @@ All = Literal["all"]
 def _dart_or_all(
     _context: click.Context, _option: click.Parameter, value: str | None
 ) -> int | All | None:
-    """The number in the text, or `all`."""
     if value is None or value == "all":
         return "all" if value else None
     try:
@@ -146,8 +139,6 @@ marker_option = click.option(
 
 @dataclass(frozen=True)
 class _ExploreOptions:
-    """The options of one call; `everywhere`: with the marker at each dart."""
-
     limits: Limits
     trace: str | None
     player: str | None
@@ -189,7 +180,7 @@ class _ExploreOptions:
     "--gap", is_flag=True, help="Count the hypotheses that were walked although already refuted."
 )
 @options.limits
-def explore(  # noqa: PLR0913  an argument an option
+def explore(
     output: Output,
     *,
     worlds: tuple[str, ...],
@@ -254,7 +245,6 @@ def _require_one_run(
 
 
 def _require_one_marker(others: Mapping[str, object]) -> None:
-    """Raise InputError if one of the options that are for one run is given."""
     for name, value in others.items():
         if value:
             raise InputError(
@@ -268,7 +258,6 @@ def _results(
     targets: Sequence[Target],
     asked: _ExploreOptions,
 ) -> Iterator[Result[ExploreEntry]]:
-    """An entry for each world, mapper and, with --marker all, dart, in this order."""
     for at in starts:
         if asked.everywhere and not at.world.alpha:
             raise InputError(f"--marker all: {at.name} has no edge that a marker could point at")
@@ -307,9 +296,8 @@ def _explored(
     asked: _ExploreOptions,
     played: list[PlayedRun],
 ) -> Result[ExploreEntry]:
-    """The result of one run, which joins those that are played."""
     run = run_mapper(at.world, target, limits=asked.limits)
-    # Before the judging, so that the trace is kept even if a checker fails.
+    # Before judging: the trace is kept even if a checker fails.
     if asked.trace is not None:
         files.write(asked.trace, write_trace(run.kept_trace).decode())
     if asked.choices is not None:
@@ -325,13 +313,11 @@ def _explored(
 
 
 def _placed(at: NamedWorld) -> Iterator[NamedWorld]:
-    """The world with its marker at each dart."""
     for dart in range(len(at.world.alpha)):
         yield NamedWorld(replace(at.world.with_marker(dart), name=at.name), at.text, dart)
 
 
 def _as_at(place: NamedWorld, entry: ExploreEntry) -> ExploreEntry:
-    """The entry of a run in a world that looks the same from another dart."""
     root = place.world.root
     assert root is not None, "a place is a dart"
     return msgspec.structs.replace(
@@ -355,7 +341,6 @@ def _write_heat_map(
 
 
 def _show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
-    """One table a world; for a single algorithm in many worlds, one table in all."""
     if len(entries) > 1 and len({entry.algorithm for entry in entries}) == 1:
         rows = [(entry.world, str(entry.edges), *_row(entry)) for entry in entries]
         yield TextTable(("world", ">edges", *_COLUMNS), rows, title=entries[0].algorithm)
@@ -368,7 +353,6 @@ def _show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
         if entry.findings:
             yield Text("")
         yield from _wrong(entry, f"{entry.algorithm} in {entry.world}")
-    # Once, not for each world, where the sentence is the same.
     sentences = dict.fromkeys(
         sentence
         for entry in entries
@@ -382,14 +366,12 @@ def _show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
 
 
 def _wrong(entry: ExploreEntry, run: str) -> Iterator[Block]:
-    """The findings of a run, or why it is not decided."""
     yield from finding_blocks(entry.findings, run)
     if entry.stopped is not None and not entry.findings:
         yield Text(f"{run} is not decided: {entry.stopped}")
 
 
 def _gap_table(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
-    """The table of --gap: hypotheses that were walked although the history refuted them."""
     gaps = [(entry, entry.gap) for entry in entries if entry.gap is not None]
     if gaps:
         yield Text("")
@@ -418,11 +400,7 @@ def _row(entry: ExploreEntry) -> tuple[str, ...]:
 
 
 def _by_world(entries: Sequence[ExploreEntry]) -> Iterator[list[ExploreEntry]]:
-    """The runs grouped by world.
-
-    Runs come world by world, with the algorithms in the same order each time. Two worlds may have
-    one name, so a group ends where the first algorithm comes again, not where the name changes.
-    """
+    """The runs by world; a group begins with the first algorithm, since names may repeat."""
     group: list[ExploreEntry] = []
     for entry in entries:
         if group and entry.algorithm == group[0].algorithm:
@@ -434,7 +412,6 @@ def _by_world(entries: Sequence[ExploreEntry]) -> Iterator[list[ExploreEntry]]:
 
 
 def _world_table(group: Sequence[ExploreEntry]) -> TextTable:
-    """The cost of each algorithm in one world, relative to `basic` if that was run."""
     first = group[0]
     title = f"{_size(first)}, genus {first.genus}, least cost {first.least_cost}"
     basic = next((e.cost for e in group if e.algorithm == "basic" and len(group) > 1), 0)
@@ -458,13 +435,7 @@ def _size(entry: ExploreEntry) -> str:
 def _result(
     run: Exploration, at: NamedWorld, report: Report, *, incomplete: bool, gap: bool = False
 ) -> Result[ExploreEntry]:
-    """The entry of a judged run, and what it means for the exit code.
-
-    Args:
-        incomplete: the run was out of time, or declined by its mapper.
-        gap: measure the gap of the rule.
-    """
-    # The gap is a share of all false hypotheses: a mapper that declares only some has none.
+    # The gap is a share of all false hypotheses, so all must be declared.
     measured = None
     if gap and report.ok and not {"not-declared", "partial"} & {*report.claims.values()}:
         counts = measure(run.trace)
@@ -490,7 +461,6 @@ def _result(
 
 
 def _account(entries: Sequence[ExploreEntry]) -> acc.Account:
-    """The account of `explore`: a suite a run; the run, and a case a claim."""
     verdicts = [_verdict(entry) for entry in entries]
     failing, decided = verdicts.count("REFUTED"), verdicts.count("SAMPLED")
     words = acc.counted(decided, len(entries), "runs")
@@ -530,7 +500,6 @@ def _run_cases(entry: ExploreEntry) -> Iterator[acc.JudgedCase]:
 
 
 def _show_markers(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
-    """A table a world: the best and the worst place for each algorithm."""
     groups: dict[tuple[str, str], list[ExploreEntry]] = {}
     for entry in entries:
         groups.setdefault((entry.world, entry.algorithm), []).append(entry)

@@ -1,4 +1,4 @@
-"""Exit codes, and the one sentence on stderr when a command cannot do its work.
+"""Exit codes, and the sentence on stderr when a command cannot do its work.
 
     0    nothing found
     1    an unexpected counterexample, a claim that fails; nothing else ever exits 1
@@ -28,7 +28,7 @@ import click
 from topo_verify.errors import LINE, InputError, shown
 
 TRACEBACK = "TOPO_VERIFY_TRACEBACK"
-"""If this environment variable is 1, a bug is reported with its whole traceback."""
+"""If this environment variable is 1, a bug is reported with its traceback."""
 
 
 class ExitCode(IntEnum):
@@ -43,7 +43,7 @@ class ExitCode(IntEnum):
 
 def epilog(*examples: str) -> str:
     """The end of a --help: examples, then the exit codes."""
-    # The control character tells click to keep the lines of a paragraph.
+    # \b tells click to keep the line breaks.
     lines = "\n".join(f"  topo-verify {example}" for example in examples)
     return f"""\b
 Examples:
@@ -55,35 +55,35 @@ Exit codes: 0 nothing found; 1 a claim fails; 2 bad usage or input;
 
 
 def version() -> str:
-    """The version of the package: to import importlib.metadata takes as long as all of --help."""
+    """The version of the package; importlib.metadata takes as long to import as all of --help."""
     return str(sys.modules["topo_verify"].__version__)
 
 
 def say(sentence: str) -> None:
-    """Print a sentence as one line on stderr, its control characters escaped."""
+    """Print a sentence as one line on stderr, control characters escaped."""
     line = shown(sentence, limit=LINE)
     try:
-        # A file's name may hold bytes that are not UTF-8, which cannot be printed as they are.
+        # A file's name may hold bytes that are not UTF-8.
         click.echo(line.encode(errors="backslashreplace").decode(), err=True)
         sys.stderr.flush()
-    except (OSError, ValueError):  # a full disk, a closed stream: the exit code must not suffer
+    except (OSError, ValueError):  # a full disk, a closed stream
         silence(sys.stderr)
 
 
 def silence(stream: IO[str] | None) -> None:
-    """Point a stream at the null device, so that Python's flush at exit does not fail."""
+    """Point a stream at the null device, so that Python's flush at exit cannot fail."""
     if stream is not None:
-        with suppress(OSError, ValueError):  # it has no descriptor, or is closed
+        with suppress(OSError, ValueError):
             os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def explain(error: Exception, arguments: Sequence[str]) -> ExitCode:
-    """Print on stderr what ended a command and who can mend it; return the exit code."""
+    """Print on stderr why a command ended and who can mend it; return the exit code."""
     if isinstance(error, InputError):
         say(f"topo-verify: {error}")
         return ExitCode.BAD_INPUT
     if isinstance(error, click.exceptions.NoArgsIsHelpError):
-        click.echo(error.message, err=True)  # the help, of several lines
+        click.echo(error.message, err=True)
         return ExitCode.BAD_INPUT
     if isinstance(error, click.ClickException):
         say(_usage(error))
@@ -101,7 +101,6 @@ def explain(error: Exception, arguments: Sequence[str]) -> ExitCode:
 
 
 def _refusal_by_the_system(error: Exception) -> str | None:
-    """What the system refuses to any program in this place; None if that is not the reason."""
     if isinstance(error, FileNotFoundError) and not _has_working_folder():
         return "the working folder was removed: change to another folder"
     full = getattr(error, "errno", None) in (errno.ENOSPC, errno.EROFS, errno.EDQUOT)
@@ -118,10 +117,9 @@ def _has_working_folder() -> bool:
 
 
 def _usage(error: click.ClickException) -> str:
-    """Click's error as one sentence, with the command that shows the usage."""
     context = error.ctx if isinstance(error, click.UsageError) else None
     path = context.command_path if context else "topo-verify"
-    # Click ends with a full stop or asks a question; here more of the sentence follows.
+    # Click ends with a full stop or a question; here the sentence continues.
     objection = " ".join(error.format_message().split()).removesuffix(".")
     objection = objection.replace("'. Did you", "', did you").removesuffix("?")
     return f"{path}: {objection[:1].lower()}{objection[1:]}; {path} --help shows the usage"
@@ -132,7 +130,7 @@ def _our_bug(error: Exception, arguments: Sequence[str]) -> ExitCode:
         click.echo("".join(traceback.format_exception(error)), err=True, nl=False)
     last = traceback.extract_tb(error.__traceback__)[-1:]
     file = "".join(frame.filename.replace(os.sep, "/") for frame in last)
-    # Paths are cut at the package, so that a report does not tell where the user keeps things.
+    # Paths are cut at the package: a report must not reveal the user's folders.
     ours = "topo_verify" + file.rpartition("topo_verify")[2]
     place = "".join(f" ({ours if 'topo_verify' in file else file}:{f.lineno})" for f in last)
     command = shlex.join(["topo-verify", *arguments])

@@ -57,8 +57,8 @@ def faults(
 
     Every check must catch every fault: the search goes up to the first size with a failing world,
     the property tests have Hypothesis's default number of examples. No check may catch a harmless
-    difference. A theorem with the same mistake must be refuted by the solver. NAME is a fault; by
-    default all are tried.
+    difference. A theorem with the same mistake must be refuted. NAME is a fault; by default all are
+    tried.
     """
 
     def tried() -> Iterator[Result[study.Caught]]:
@@ -66,7 +66,7 @@ def faults(
         chosen = study.named_faults(names)
         if engine == "compiled":
             study.warm(chosen)
-        # The first fault may take a minute, and progress is otherwise shown after each.
+        # The first fault may take a minute.
         output.progress(chosen[0].name, 0, len(chosen))
         entries = study.try_faults(
             chosen,
@@ -85,7 +85,6 @@ def faults(
     seen: set[str] = set()
 
     def live(entry: study.Caught) -> Iterator[Block]:
-        """The row of one fault; above the first of a part stands the part's name."""
         part = _part(entry)
         if part not in seen:
             seen.add(part)
@@ -106,7 +105,6 @@ def faults(
 
 
 def _run_again(output: Output, entry: study.Caught, world: str) -> None:
-    """Keep the run of a fault in the smallest world in which it fails."""
     assert entry.search is not None
     if claim := next(iter(entry.search.claims), None):
         output.found.run_again(
@@ -132,7 +130,6 @@ def _checks(text: str) -> list[study.Check]:
 
 
 def _account(entries: Sequence[study.Caught], checks: str) -> acc.Account:
-    """The account of `faults`: a suite a part of the mapper, a case a fault."""
     suites: dict[str, list[acc.JudgedCase]] = {}
     for entry in entries:
         suites.setdefault(_part(entry), []).append(_case(entry, checks))
@@ -177,7 +174,6 @@ def _head(names: Sequence[str], *, thorough: bool) -> str:
 
 
 def _show(entries: Sequence[study.Caught]) -> Iterator[Block]:
-    """All faults in one table, and the summary."""
     rows = [
         (entry.name, entry.part, *_row(entry)[1:-1], _theorem(entry), _ok(entry))
         for entry in entries
@@ -225,7 +221,6 @@ def _theorem(entry: study.Caught) -> str:
 
 
 def _end(entries: Sequence[study.Caught]) -> Iterator[Block]:
-    """The summary: what was missed and how to see it, then the counts."""
     yield Text("")
     wrong = [entry for entry in entries if not entry.ok]
     for entry in wrong:

@@ -15,11 +15,11 @@ from topo_verify.world.formats import files
 
 
 class HeaderEntry(msgspec.Struct, frozen=True):
-    """The interface of native mappers: the one entry of `results`.
+    """The interface of native mappers.
 
     Attributes:
         interface: its version, `TV_VERSION`.
-        file: where the header was written; null: it is `text`.
+        file: the header's file; null without -o.
         text: the header; null with -o.
     """
 
@@ -33,8 +33,7 @@ class HeaderEntry(msgspec.Struct, frozen=True):
 def header(output: Output, *, file: str | None) -> int:
     """Print topo_verify.h, the C interface of native mappers.
 
-    A native mapper is a function of a shared library, in C or any language that can be called from
-    it. Commands that take a TARGET run one with --library ./mapper.so.
+    A native mapper is a function in a shared library, in C or any language callable from C.
     """
 
     def made() -> Iterator[Result[HeaderEntry]]:

@@ -1,4 +1,4 @@
-"""The runs that commands keep in a store, and what they say of them."""
+"""The stores of runs that commands keep, and what they print about them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ STORE, OLD_STORE = "runs.db", "runs.jsonl"
 
 @contextmanager
 def open_store(output: Output, folder: Path | None) -> Generator[Store | None]:
-    """The store in a folder; None: there is no folder, and nothing is kept.
+    """The store in a folder; None without a folder.
 
     Raises:
         InputError: the file cannot be used.
@@ -37,7 +37,7 @@ def open_store(output: Output, folder: Path | None) -> Generator[Store | None]:
 
 
 def opened(path: str | None) -> AbstractContextManager[Store | None]:
-    """The store in a file; None: none is asked for."""
+    """The store in a file; None without a file."""
     if path is None:
         return nullcontext()
     watch()  # before a mapper is loaded
@@ -47,11 +47,7 @@ def opened(path: str | None) -> AbstractContextManager[Store | None]:
 def stored_rows(
     output: Output, campaigns: Sequence[MapperCampaign], workers: int, store: Store | None
 ) -> Iterator[Row]:
-    """The rows of all campaigns; those that the store lacks are made, and kept.
-
-    Args:
-        workers: the number of processes; 0: this one alone.
-    """
+    """The rows of all campaigns; missing ones are made, and kept in the store."""
     total = sum(campaign.total for campaign in campaigns)
     if store is not None:
         output.timing["from_store"] = stored = sum(campaign.stored for campaign in campaigns)

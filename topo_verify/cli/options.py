@@ -30,13 +30,10 @@ from topo_verify.robot.limits import MOST_SECONDS, Limits
 
 
 class OnceCommand(click.Command):
-    """A command that refuses an option of one value that is given twice.
-
-    Click lets the last value win, and so `conform --cmd bad --cmd good` would judge only `good`.
-    """
+    """A command that refuses a single-valued option given twice; click takes the last value."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Parse the arguments, as click does, after the check."""
+        """Check the arguments, then parse them."""
         if not ctx.resilient_parsing:  # a shell that completes a line
             self._require_once(ctx, args)
         return super().parse_args(ctx, args)
@@ -52,7 +49,7 @@ class OnceCommand(click.Command):
             collecting.add_to_parser(parser, ctx)
         given, _, _ = parser.parse_args(list(args))  # click empties the list
         if any(option.is_eager and option.name in given for option in options):
-            return  # --help is answered, whatever stands beside it
+            return  # --help is always answered
         for option in options:
             values = given.get(option.name, ())
             if len(values) > 1 and not option.multiple:
@@ -65,7 +62,7 @@ class OnceCommand(click.Command):
                 ctx.fail(f"expected {name} at most once, got {got}: {leave}")
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
-        """What a shell offers; a hidden alias is no part of it."""
+        """Completions without hidden aliases."""
         hidden = {name for option in self.get_params(ctx) for name in aliases(option)}
         return [
             item for item in super().shell_complete(ctx, incomplete) if item.value not in hidden
@@ -73,10 +70,10 @@ class OnceCommand(click.Command):
 
 
 class AliasedOption(click.Option):
-    """An option of which --help shows the first spelling; the other ones work as well."""
+    """An option with hidden aliases: all spellings but the first."""
 
     def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
-        """The line of --help."""
+        """The line in --help."""
         first = copy(self)
         first.opts = self.opts[:1]
         return super(AliasedOption, first).get_help_record(ctx)
@@ -93,8 +90,8 @@ def command(
     """Make a command that gets an `Output`, and whose --help ends with examples.
 
     Args:
-        reports: it gives an account of its results, which --report, --junit and --badge write.
-        group: of commands, if it is in one.
+        reports: it has --report, --junit and --badge.
+        group: the group that the command belongs to.
     """
     make = click.command if group is None else group.command
 
@@ -109,7 +106,7 @@ def command(
             **kwargs: Any,
         ) -> int:
             output = Output(style, quiet=quiet)
-            with redirect_stdout(sys.stderr):  # what a mapper prints is no result
+            with redirect_stdout(sys.stderr):  # what a mapper prints
                 output.ask(report=report, junit=junit, badge=badge)
                 return run(output, **kwargs)
 
@@ -141,11 +138,10 @@ REPORT_OPTIONS: list[click.Parameter] = [
 
 
 def _seconds(_context: click.Context, _option: click.Parameter, value: str) -> float:
-    """The seconds in a text, above 0 and at most `MOST_SECONDS`."""
     try:
         seconds = float(value)
     except ValueError:
-        seconds = math.nan  # NaN fails the comparison below, as the text "nan" does
+        seconds = math.nan  # fails the comparison below, as "nan" does
     if not 0 < seconds <= MOST_SECONDS:
         raise click.BadParameter(f"expected seconds in (0, {MOST_SECONDS}], got {value!r}")
     return seconds
@@ -161,8 +157,8 @@ def number(
     shows_default: bool = True,
     required: bool = False,
 ) -> Callable[[Callable[..., int]], Callable[..., int]]:
-    """Add an option that is an integer."""
-    # To click a default of None is a default, with which no option is missing.
+    """Add an integer option."""
+    # Click takes an explicit default of None for a value.
     given: dict[str, Any] = {} if default is None else {"default": default}
     return click.option(
         *names,
@@ -176,12 +172,12 @@ def number(
 
 
 def seed(meaning: str, default: int = 0) -> Callable[[Callable[..., int]], Callable[..., int]]:
-    """Add --seed, whose help says what it is the seed of."""
+    """Add --seed with this help text."""
     return number("--seed", meaning=meaning, default=default)
 
 
 def limits(command: Callable[..., int]) -> Callable[..., int]:
-    """Add the limits of a run in one world; the command gets them as `limits`."""
+    """Add the limits of a run; the command gets them as `limits`."""
     usual = Limits()
 
     @number(
@@ -214,7 +210,7 @@ def limits(command: Callable[..., int]) -> Callable[..., int]:
 
 
 def policies(command: Callable[..., int]) -> Callable[..., int]:
-    """Add the policies of algorithms of the catalogue; the command gets `pick` and `order`."""
+    """Add the policies of catalogue algorithms; the command gets `pick` and `order`."""
     pick = click.option(
         "--pick",
         metavar="POLICY",
@@ -235,11 +231,10 @@ marker = click.option(
 
 
 MAX_EDGES = 1000
-"""The most edges of a world that is counted or drawn here: larger counts take minutes."""
+"""Most edges of a world that is counted or drawn at random: more take minutes."""
 
 
 def _joined(_context: click.Context, _option: click.Parameter, values: Sequence[str]) -> str:
-    """The classes as one text: a comma means "and"."""
     return ",".join(values)
 
 
@@ -257,7 +252,7 @@ world_class = click.option(
 
 
 def make_folder(name: str, option: str) -> Path:
-    """The folder that an option names, created if it is missing.
+    """The folder that an option names; created if missing.
 
     Raises:
         InputError: it cannot be created.
@@ -295,11 +290,11 @@ in_process = click.option(
 
 @dataclass(frozen=True)
 class Mappers:
-    """The mappers that a command line names, and how they are run.
+    """The mappers that a command line names, and how they run.
 
     Attributes:
-        texts: a TARGET each; none: none is named.
-        in_process: a mapper that is not of the catalogue shares this process.
+        texts: each TARGET; may be empty.
+        in_process: run a user's mapper in this process.
         pick, order: policies for algorithms of the catalogue.
     """
 
@@ -309,7 +304,7 @@ class Mappers:
     order: str | None = None
 
     def load(self) -> tuple[Target, ...]:
-        """All of these mappers; see `topo_verify.campaign.targets.targets`."""
+        """All of these mappers."""
         return tuple(
             target
             for text in self.texts
@@ -319,10 +314,12 @@ class Mappers:
         )
 
     def load_one(self, usual: Policies | None = None) -> Target:
-        """The one mapper that is named, with the usual policies unless others are given.
+        """The one mapper that is named.
 
+        Args:
+            usual: its policies unless others are given.
         Raises:
-            InputError: several mappers are named, or `load` raises it.
+            InputError: several mappers are named, or one cannot be loaded.
         """
         how: dict[str, Any] = {"pick": self.pick, "order": self.order}
         target = one_target(self.texts[0], in_process=self.in_process, **how)
@@ -332,7 +329,7 @@ class Mappers:
 
     @contextmanager
     def opened(self, usual: Policies | None = None) -> Generator[Target]:
-        """The mapper that `load_one` returns; a program runs until the block ends."""
+        """The mapper of `load_one`; a program runs until the block ends."""
         target = self.load_one(usual)
         try:
             yield target
@@ -382,8 +379,6 @@ def mappers(
 ) -> Callable[[Callable[..., int]], Callable[..., int]]:
     """Add the options that name a mapper; the command gets `mappers`.
 
-    TARGET is an argument, with --target as a hidden alias; or the option --target alone.
-
     Args:
         default: the TARGET if none is given.
         required: without a default, a TARGET must be given.
@@ -426,7 +421,7 @@ def mappers(
             command = cmd if library is None else LIBRARY + library
             if required or texts or command is not None:
                 texts[:1] = [target_text(texts[0] if texts else None, command, default)]
-            names = ("pick", "order") if with_policies else ()  # others may mean another mapper's
+            names = ("pick", "order") if with_policies else ()  # else they are another mapper's
             how = {name: kwargs.pop(name) for name in names}
             return run(*args, mappers=Mappers(tuple(texts), in_process, **how), **kwargs)
 
@@ -440,7 +435,7 @@ def mappers(
 
 
 def workers(default: int | None = None) -> Callable[[Callable[..., int]], Callable[..., int]]:
-    """Add --workers; without a default, None stands for one worker per processor."""
+    """Add --workers; None means one worker per processor."""
     usual = "one per processor" if default is None else default
     meaning = f"Number of worker processes; 0: only this one.  [default: {usual}]"
     return number("--workers", meaning=meaning, default=default, shows_default=False)

@@ -1,14 +1,9 @@
 """Run a command, print its results on stdout, and derive its exit code from them.
 
-A command is a generator of `Result`s. `Output.run` drives it, keeps what it has yielded when Ctrl-C
-or a broken pipe ends it early, and prints one of three forms: `pretty` for people, `json` (one
-object, docs/semantics.md, section 16) for scripts, `markdown` for reports.
-
-While the command works, stdout belongs to the results: what a mapper prints goes to stderr.
-
---report, --junit and --badge write the account of a run to files when it has ended. Each file is
-asked before the work begins whether it can be written, and is written whole or not at all. What was
-done before an interrupt is written, too, and says that it is not all.
+A command is a generator of `Result`s. `Output.run` drives it, keeps what was yielded before Ctrl-C
+or a broken pipe, and prints one of three forms: `pretty` for people, `json` (docs/semantics.md,
+section 16), `markdown`. What a mapper prints goes to stderr. --report, --junit and --badge are
+checked before the work begins, and written at the end, each file whole or not at all.
 """
 
 from __future__ import annotations
@@ -53,17 +48,15 @@ E = TypeVar("E", bound=msgspec.Struct)
 T = TypeVar("T")
 
 VERSION = 1
-"""The version of the envelope."""
 
 
 @dataclass(frozen=True)
 class Result(Generic[E]):
-    """One entry of `results`, and what it means for the exit code.
+    """One entry of `results` and its effect on the exit code.
 
     Attributes:
-        entry: what is printed; its fields are promised in docs/reference/.
         failed: a claim fails in it.
-        incomplete: something that was asked for was not done.
+        incomplete: part of what was asked for was not done.
     """
 
     entry: E
@@ -72,14 +65,12 @@ class Result(Generic[E]):
 
     @classmethod
     def by_verdict(cls, entry: E, verdict: str) -> Result[E]:
-        """The result of an entry whose verdict decides: REFUTED fails, UNKNOWN is incomplete."""
+        """The result for a verdict: REFUTED fails, UNKNOWN is incomplete."""
         return cls(entry, failed=verdict == "REFUTED", incomplete=verdict == "UNKNOWN")
 
 
 @dataclass
 class _Done(Generic[E]):
-    """The results of a command so far; it lives as long as the command runs."""
-
     results: list[Result[E]] = field(default_factory=list[Result[E]])
     seconds: list[float] = field(default_factory=list[float])
     finished: bool = False
@@ -90,7 +81,6 @@ class _Done(Generic[E]):
 
     @property
     def code(self) -> ExitCode:
-        """The exit code; a failed claim outranks all else."""
         if any(result.failed for result in self.results):
             return ExitCode.CLAIM_FAILED
         complete = self.finished and not any(result.incomplete for result in self.results)
@@ -107,10 +97,7 @@ class Live(Generic[E]):
 
 
 def entry_of(kind: type[E], *sources: object, **more: object) -> E:
-    """An entry of `results` that reports on these objects.
-
-    Each field of the entry is the one of `more`, else the attribute of this name of the first
-    source that has it; a field that neither has takes its default.
+    """An entry with each field from `more`, else from the first source with that attribute.
 
     Raises:
         msgspec.ValidationError: a field is missing or of another type.
@@ -125,7 +112,7 @@ def entry_of(kind: type[E], *sources: object, **more: object) -> E:
 
 
 class Rows(Generic[T]):
-    """Things that become the rows of a table, one each."""
+    """Things that become the rows of a table."""
 
     def __init__(self, things: Iterable[T]) -> None:
         self._things = tuple(things)
@@ -133,10 +120,7 @@ class Rows(Generic[T]):
     def table(
         self, *columns: tuple[str, Callable[[T], object]], title: str = "", headed: bool = True
     ) -> TextTable:
-        """The table with these columns, each with its title and what it says of a thing.
-
-        None is shown as `-`, and a value that is no `Cell` as `str` has it.
-        """
+        """The table of these columns: a title, and a function from a thing to its cell."""
         rows = [tuple(_cell(value(thing)) for _, value in columns) for thing in self._things]
         return TextTable(tuple(name for name, _ in columns), rows, title, headed=headed)
 
@@ -146,19 +130,19 @@ def _cell(value: object) -> str | Cell:
 
 
 def written(text: str | None, **row: str | None) -> Block:
-    """What was written to standard output, as it is; else a table that names the file."""
+    """The text for stdout, verbatim; without one, a table that names the file written."""
     return TextTable(tuple(row), [tuple(map(str, row.values()))]) if text is None else Raw(text)
 
 
 class _ReaderGone(Exception):
-    """The reader of stdout has closed it, as `| head` does: stop printing."""
+    pass
 
 
 class Output:
-    """How one command prints, by its --format and --quiet.
+    """How one command prints.
 
     Attributes:
-        timing: what differs from run to run, for `timing` in the JSON; a command may add to it.
+        timing: figures that differ from run to run, for `timing` in the JSON.
     """
 
     def __init__(self, style: str, *, quiet: bool) -> None:
@@ -169,10 +153,10 @@ class Output:
         self._files: list[tuple[str, str]] = []
 
     def ask(self, **files: str | None) -> None:
-        """Have these files written at the end: an option of `FORMS` each, and its file.
+        """Have files written at the end, each keyed by its option of `FORMS`.
 
         Raises:
-            InputError: it can be seen now that one of them cannot be written.
+            InputError: one of them cannot be written.
         """
         named = [(f"--{option}", name) for option, name in files.items() if name is not None]
         _require_files(named)
@@ -180,12 +164,12 @@ class Output:
 
     @property
     def exhibits(self) -> bool:
-        """Whether a page is asked for, which shows the counterexamples."""
+        """Whether a page is requested, which shows counterexamples."""
         return any(option == "--report" for option, _ in self._files)
 
     @cached_property
     def found(self) -> FoundRuns:
-        """The counterexamples that the command meets."""
+        """The counterexamples that the command finds."""
         return FoundRuns(people=self.style != "json", page=self.exhibits)
 
     def note(self, sentence: str) -> None:
@@ -206,26 +190,21 @@ class Output:
         extent: Callable[[], str] | None = None,
         **more: Any,
     ) -> int:
-        """Do the command's work, print its results and return the exit code.
+        """Run the command, print its results and return the exit code.
 
         Args:
-            results: does the work and yields one entry after the other.
-            show: turns all entries into blocks, for people.
-            live: prints the entries one by one in `pretty` form, in place of `show`.
-            account: sums up the entries, if the command can be asked for a report.
-            walk: show the walk of the first counterexample behind the entries.
-            extent: how much was done, in words, if Ctrl-C ended it; default: how many results.
+            live: prints entries one by one in `pretty` form, in place of `show`.
+            account: sums up the entries for --report, --junit and --badge.
+            walk: show the walk of the first counterexample.
+            extent: how much was done before Ctrl-C; default: the number of results.
             more: further fields of the JSON envelope.
         """
         done: _Done[E] = _Done()
-        # JSON and Markdown are one document each; only people see entries as they come.
+        # JSON and Markdown are one document each.
         live = live if self.style == "pretty" else None
 
         def accounted(account: Callable[[Sequence[E]], acc.Account]) -> acc.Account:
-            """The account with the verdict of the exit code, for each form of it.
-
-            An account says what its entries are if all of them pass; it knows of no interrupt.
-            """
+            """The account with the verdict of the exit code, which knows of an interrupt."""
             summary = account(done.entries)
             words = summary.extent.words + ("" if done.finished else ", interrupted")
             return replace(
@@ -239,7 +218,7 @@ class Output:
 
         def last() -> Iterator[Block]:
             if account is not None and self.style == "markdown":
-                summary = accounted(account)  # first, since a summary is read from its first line
+                summary = accounted(account)
                 yield Text(f"{summary.extent.verdict}: {summary.about}, {summary.extent.words}")
             yield from (live.end if live else show)(done.entries)
             yield from self.found.blocks() if walk else ()
@@ -257,7 +236,7 @@ class Output:
                 words = plural(len(done.results), "result") if extent is None else extent()
                 say(f"topo-verify: interrupted after {words}")
         except _ReaderGone:
-            pass  # what was asked for in files is written all the same
+            pass  # files are still written
         if account is not None and self._files:
             ending = acc.Ending(
                 command=command,
@@ -276,7 +255,6 @@ class Output:
         return done.code
 
     def _collect(self, done: _Done[E], results: Iterator[Result[E]], live: Live[E] | None) -> None:
-        """Collect what the command yields until it ends or Ctrl-C ends it."""
         begin = perf_counter()
         try:
             for result in results:
@@ -288,7 +266,7 @@ class Output:
                 begin = perf_counter()
             done.finished = True
         except KeyboardInterrupt:
-            pass  # what is done is printed
+            pass
         finally:
             self.progress.clear()
 
@@ -315,7 +293,6 @@ class Output:
                     "results": msgspec.to_builtins(done.entries),
                     "timing": {"seconds": seconds, "results": done.seconds, **self.timing},
                 }
-                # One object, written at the end: a script never reads half a result.
                 out.write(json.dumps(envelope) + "\n")
             else:
                 out.write(markdown(blocks))
@@ -327,17 +304,11 @@ class Output:
 
 @contextmanager
 def _reader(out: IO[str]) -> Generator[IO[str]]:
-    """Within the block write to `out`; at its end all of it has been flushed.
-
-    Raises:
-        _ReaderGone: the reader has closed the stream.
-        InputError: writing fails, as on a full disk.
-    """
     if (reconfigure := getattr(out, "reconfigure", None)) is not None:
-        reconfigure(errors="backslashreplace")  # an encoding that lacks one of our letters
+        reconfigure(errors="backslashreplace")  # an encoding without one of our letters
     try:
         yield out
-        out.flush()  # here, where its failure can still be reported, and not at Python's exit
+        out.flush()  # at Python's exit a failure could not be reported
     except BrokenPipeError:
         silence(out)
         raise _ReaderGone from None
@@ -353,7 +324,6 @@ _VERDICTS: dict[ExitCode, Verdict] = {
 
 
 def _nowhere() -> IO[str]:
-    """The null device, for a standard output that was closed before the start."""
     return Path(os.devnull).open("w", encoding="utf-8")
 
 
@@ -362,10 +332,9 @@ DELAY = 1.0
 
 
 class ProgressBar:
-    """A bar that appears when work takes long, and that leaves no trace on the terminal.
+    """A bar that appears when work takes long and leaves no trace on the terminal.
 
-    Life cycle: call it, as a progress callback, while work goes on; `clear` it before anything is
-    printed, since results share the terminal with it. The next call begins anew.
+    Call it as a progress callback; `clear` it before anything is printed.
     """
 
     def __init__(self, *, quiet: bool) -> None:
@@ -376,12 +345,12 @@ class ProgressBar:
         self._bar: Bar | None = None
 
     def __call__(self, what: str, done: int, total: int) -> None:
-        """Show what is being done, how much of it is done, and how much there is."""
+        """Show the current task, the steps done and their total."""
         if not self._wanted:
             return
         self._state = (what, done, total)
         if self._timer is None:
-            # A clock of its own: one long run would not call again for a while.
+            # A timer, because one long run may not call again for a while.
             self._timer = Timer(DELAY, self._appear)
             self._timer.daemon = True
             self._timer.start()
@@ -392,7 +361,7 @@ class ProgressBar:
         """Remove the bar from the terminal."""
         if self._timer is not None:
             self._timer.cancel()
-            self._timer.join()  # it may be just about to show the bar
+            self._timer.join()  # it may be about to show the bar
             self._timer = None
         if self._bar is not None:
             self._bar.stop()
@@ -423,7 +392,7 @@ def _bar() -> Bar:
         TimeElapsedColumn(),
         console=Console(stderr=True),
         transient=True,
-        redirect_stdout=False,  # results are printed when the bar is off
+        redirect_stdout=False,
         redirect_stderr=False,
     )
 
@@ -431,10 +400,10 @@ def _bar() -> Bar:
 # ---------------------------------------------------------------- --report, --junit, --badge
 
 TAKE_PART = ("z3-solver", "hypothesis", "msgspec", "networkx", "numpy", "scipy")
-"""The libraries whose versions a page names, since a result may depend on them."""
+"""Libraries on whose version a result may depend."""
 
 _PRINTING = {"--report": 1, "--junit": 1, "--badge": 1, "--format": 1, "--quiet": 0}
-"""Options that say how results are shown, and how many words follow each."""
+"""Options that only change how results are shown, and the number of words after each."""
 
 
 FORMS: dict[str, Callable[[acc.Account, acc.Ending], str]] = {
@@ -442,11 +411,9 @@ FORMS: dict[str, Callable[[acc.Account, acc.Ending], str]] = {
     "--junit": junit,
     "--badge": lambda account, _: badge(account),
 }
-"""What each of these options writes."""
 
 
 def _require_files(named: Sequence[tuple[str, str]]) -> None:
-    """Raise InputError if it can be seen now that one of the files cannot be written."""
     for option, name in named:
         if (objection := _objection(name)) is not None:
             raise InputError(f"{option} {shown(name)}: {objection}; name a file to be written")
@@ -458,7 +425,6 @@ def _require_files(named: Sequence[tuple[str, str]]) -> None:
 
 
 def _objection(name: str) -> str | None:
-    """Why a file of this name cannot be written, as far as that is known now."""
     if name == "-":
         return "standard output is for the results"
     try:
@@ -467,17 +433,17 @@ def _objection(name: str) -> str | None:
             return "this is a folder"
         if not place.parent.is_dir():
             return f"there is no folder {shown(place.parent)}"
-        # An existing regular file is replaced by a new one, so the folder decides.
+        # A regular file is replaced, so the folder's permission decides.
         target = place if place.exists() and not place.is_file() else place.parent
         if not os.access(target, os.W_OK):
             return "no permission to write there"
-    except (OSError, ValueError) as error:  # ValueError: a null character
+    except (OSError, ValueError) as error:  # a null character
         return str(error)
     return None
 
 
 def command_line(arguments: Sequence[str]) -> str:
-    """The command line of these arguments, without those that say how results are shown."""
+    """The command line of these arguments, without the options of `_PRINTING`."""
     words, rest = ["topo-verify"], iter(arguments)
     for word in rest:
         option, equals, _ = word.partition("=")
@@ -489,6 +455,6 @@ def command_line(arguments: Sequence[str]) -> str:
 
 
 def versions() -> dict[str, str]:
-    """The versions of the package, of Python and of the libraries that take part."""
+    """The versions of the package, of Python and of `TAKE_PART`."""
     own = {"topo-verify": version(), platform.python_implementation(): platform.python_version()}
     return own | {name: metadata.version(name) for name in TAKE_PART}

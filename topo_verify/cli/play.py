@@ -1,4 +1,4 @@
-"""`topo-verify play`: runs to look at in the browser; and `--player`, `--svg` of others."""
+"""`topo-verify play`: runs to look at in the browser; `--player` and `--svg` of other commands."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from topo_verify.world.rooted_map import World
 
 
 class PlayEntry(msgspec.Struct, frozen=True):
-    """A page that was written: the one entry of `results`.
+    """A page that was written.
 
     Attributes:
-        algorithms: whose runs it shows, in this order.
-        findings: how many findings are marked in it, of all runs.
+        algorithms: whose runs it shows.
+        findings: how many findings are marked in it.
     """
 
     world: str
@@ -106,9 +106,8 @@ def play(
 ) -> int:
     """Write one page that shows runs in a browser: the world, the robot, its map, each decision.
 
-    The page needs no network and no other file. It opens at the first finding, if there is one,
-    else at the first question. What is wrong in a run is shown and does not change the exit code
-    (explore and replay do that).
+    The page needs no network and no other file. It opens at the first finding, else at the first
+    question. A wrong run does not change the exit code (see explore and replay).
     """
 
     def played() -> Iterator[Result[PlayEntry]]:

@@ -24,11 +24,11 @@ KINDS: tuple[TheoremKind, ...] = get_args(TheoremKind)
 
 
 class ReplayCount(msgspec.Struct, frozen=True):
-    """How many of the models found the simulator has replayed.
+    """How many of the models found the simulator has confirmed.
 
     Attributes:
-        replayed: those that came true there.
-        total: those that were found.
+        replayed: those confirmed.
+        total: those found.
     """
 
     replayed: int
@@ -50,12 +50,11 @@ class SecondOpinion(msgspec.Struct, frozen=True):
 
 
 class ProveEntry(msgspec.Struct, frozen=True):
-    """One theorem: an entry of `results`.
+    """One theorem.
 
     Attributes:
         claim: the claims that rest on it, with commas.
         ok: the verdict is as expected, the premises are satisfiable, every model was replayed.
-        kind: inductive, mechanised, bounded, negative or mutant.
         premises_satisfiable: whether all premises can hold; null: not asked.
         solver: what decided it, with its version.
         edges: the bound of a bounded theorem.
@@ -63,8 +62,6 @@ class ProveEntry(msgspec.Struct, frozen=True):
         counterexample: a world, or the structure that refutes a mutant of an axiom.
         history: the doors that show it.
         core: the premises that the proof used.
-        of: the theorem that a mutant changes.
-        words: the theorem in words.
         note: why a verdict does not stand, if it does not.
     """
 
@@ -91,17 +88,14 @@ class ProveEntry(msgspec.Struct, frozen=True):
 
 
 class ProveListEntry(msgspec.Struct, frozen=True):
-    """One theorem as it is stated: an entry of `results` with --list.
+    """One theorem with its statement.
 
     Attributes:
-        kind: inductive, mechanised, bounded, negative or mutant.
         claim: the claims that rest on it, with commas.
         expected: the verdict that is expected.
         edges: the bound of a bounded theorem.
         deep: whether it takes minutes, and --deep.
-        of: the theorem that a mutant changes.
-        words: the theorem in words.
-        symbols: the statement as it is given to the solver.
+        symbols: the statement as the solver gets it.
         solver_part: what the solver proves.
         argued: the steps that are argued in words, by their names in docs/proofs.md.
         assumed: what is not proved here.
@@ -154,7 +148,7 @@ class ProveListEntry(msgspec.Struct, frozen=True):
 @click.option("--certify", is_flag=True, help="Make and check certificates of bounded theorems.")
 @click.option("--smt2", "folder", metavar="DIR", help="Write each question to DIR as SMT-LIB 2.")
 @options.seed("Seed of the solver.")
-def prove(  # noqa: PLR0913  an argument an option
+def prove(
     output: Output,
     *,
     names: tuple[str, ...],
@@ -170,8 +164,8 @@ def prove(  # noqa: PLR0913  an argument an option
 ) -> int:
     """Prove the theorems that the claims rest on, and refute what must not be provable.
 
-    NAME is a theorem; by default all quick ones are proved. Inductive theorems speak of worlds of
-    any size, bounded ones of every world of a few edges; negatives and mutants must be REFUTED. A
+    NAME is a theorem; by default all quick ones are proved. Inductive theorems hold in worlds of
+    any size, bounded ones in every world of a few edges; negatives and mutants must be REFUTED. A
     vacuous theorem is UNKNOWN, which does not pass (exit 3).
     """
     from topo_verify.proofs.catalogue import choose
@@ -179,7 +173,7 @@ def prove(  # noqa: PLR0913  an argument an option
     theorems = choose(names, kinds=kinds, edges=edges, deep=deep)
     if listing:
         return output.run("prove-list", lambda: map(_listed, theorems), _show_list)
-    # Now and not at the first question that needs them, which may be minutes away.
+    # Now, not minutes later.
     _require(second=solver == "cvc5", certify=certify)
     budget = Budget(timeout=timeout, seed=seed, certify=certify, progress=output.progress)
 
@@ -192,7 +186,7 @@ def prove(  # noqa: PLR0913  an argument an option
                 _export(theorem, Path(folder))
             begin = perf_counter()
             result = _result(theorem, budget, second=solver == "cvc5")
-            # Kept apart from the entry: outside `timing`, results must be equal in every run.
+            # Not in the entry: results must be equal in every run.
             seconds[theorem.name] = perf_counter() - begin
             yield result
 
@@ -213,12 +207,6 @@ def prove(  # noqa: PLR0913  an argument an option
 
 
 def _account(output: Output, entries: Sequence[ProveEntry], options: str) -> acc.Account:
-    """The account of `prove`: a suite a kind, a case a theorem.
-
-    Args:
-        options: what the command that proves one theorem again needs besides its name.
-    """
-    # What is not as expected comes first.
     for entry in sorted(entries, key=lambda theorem: (theorem.ok, theorem.kind != "negative")):
         output.found.show(_exhibit(entry))
     positive = [entry.verdict for entry in entries if entry.expected != "REFUTED"]
@@ -237,7 +225,7 @@ def _account(output: Output, entries: Sequence[ProveEntry], options: str) -> acc
 
 
 def _case(entry: ProveEntry, options: str) -> acc.JudgedCase:
-    # As the exit code has it: only a definite verdict that is not the expected one fails.
+    # As for the exit code: only a definite, unexpected verdict fails.
     undecided = entry.verdict in ("UNKNOWN", entry.expected)
     return acc.JudgedCase(
         name=entry.name,
@@ -250,19 +238,17 @@ def _case(entry: ProveEntry, options: str) -> acc.JudgedCase:
 
 
 def _again(solver: str, timeout: int, seed: int) -> str:
-    """The options of a command that proves one theorem again, as this one did."""
     given = {"--solver": (solver, "z3"), "--timeout": (timeout, 60), "--seed": (seed, 0)}
     return "".join(f" {name} {value}" for name, (value, usual) in given.items() if value != usual)
 
 
 def _exhibit(entry: ProveEntry) -> acc.Exhibit | None:
-    """The world that refutes a statement, and the walk in it that shows it; None if none does."""
     if entry.verdict != "REFUTED" or entry.counterexample is None or entry.history is None:
         return None
     try:
         world = World.from_id(entry.counterexample)
     except InputError:
-        return None  # a structure that is no world
+        return None  # a structure, not a world
     return acc.Exhibit(
         title=f"{entry.name} in {entry.counterexample}",
         world=world,
@@ -273,7 +259,6 @@ def _exhibit(entry: ProveEntry) -> acc.Exhibit | None:
 
 
 def _require(*, second: bool, certify: bool) -> None:
-    """Refuse to begin if a solver or a checker is missing."""
     from topo_verify.proofs.bounded import drup
     from topo_verify.proofs.solvers import cvc5_solver
 
@@ -312,11 +297,7 @@ def _result(theorem: Theorem, budget: Budget, *, second: bool) -> Result[ProveEn
 
 
 def _opinion(theorem: Theorem, budget: Budget) -> SecondOpinion | None:
-    """How often cvc5 agrees with Z3 on a theorem's questions; None if it has none.
-
-    Raises:
-        InternalError: the two solvers contradict each other.
-    """
+    """How often cvc5 agrees with Z3; None without questions; InternalError if it disagrees."""
     from topo_verify.proofs.solvers.cvc5_solver import ask
 
     opinions = [ask(query, timeout=budget.timeout) for query in theorem.queries()]
@@ -336,7 +317,6 @@ FEW = 5
 
 
 def _head(theorems: Sequence[Theorem], budget: Budget) -> str:
-    """The first line: the solver, its seed, and how many theorems of each kind."""
     from topo_verify.proofs.solvers import z3_solver
 
     kinds = Counter[str](theorem.kind for theorem in theorems)
@@ -346,7 +326,6 @@ def _head(theorems: Sequence[Theorem], budget: Budget) -> str:
 
 
 def _verdict(entry: ProveEntry) -> Cell:
-    """The verdict, with the tone of a pass where a REFUTED was expected."""
     return Cell(entry.verdict, "held" if entry.ok else _TONE.get(entry.verdict, "failed"))
 
 
@@ -364,13 +343,12 @@ def _row(entry: ProveEntry) -> tuple[str | Cell, ...]:
 
 
 def _evidence(entry: ProveEntry) -> str:
-    """The evidence for the verdict, in a few words."""
     words: list[str] = []
     if entry.total is not None:
         words.append(f"{entry.checked} of {plural(entry.total, 'world')}")
     if entry.kind in ("inductive", "bounded"):
-        # The other kinds are refuted by a model of the premises, or Coq proves that they can hold.
-        # Premises are asked for once the rest is proved, and so an UNKNOWN may have no answer.
+        # The premises of other kinds hold in the refuting model, or by a proof in Coq.
+        # They are asked about last, so an UNKNOWN may have no answer.
         known = entry.verdict != "UNKNOWN" or entry.premises_satisfiable is not None
         words += [_VACUITY[entry.premises_satisfiable]] if known else []
     if entry.core and entry.kind == "inductive":
@@ -387,7 +365,6 @@ def _evidence(entry: ProveEntry) -> str:
         second = entry.opinion
         words.append(f"{second.solver} agrees on {second.agrees} of {second.total}")
         words += [f"unknown on {second.unknown}"] if second.unknown else []
-    # A refuting history says more than the note, unless something went wrong.
     if entry.note and (not entry.ok or entry.history is None):
         words.append(entry.note)
     return "; ".join(words)
@@ -401,7 +378,6 @@ _VACUITY = {
 
 
 def _show(entries: Sequence[ProveEntry]) -> Iterator[Block]:
-    """All theorems in one table, and the counts."""
     yield TextTable(
         ("theorem", "kind", "verdict", "", "what stands behind it"), [*map(_row, entries)]
     )
@@ -409,7 +385,6 @@ def _show(entries: Sequence[ProveEntry]) -> Iterator[Block]:
 
 
 def _live(entry: ProveEntry, seconds: float) -> Iterator[Block]:
-    """The row of one theorem."""
     evidence = _evidence(entry) if entry.ok else f"NOT OK ({entry.kind}): {_evidence(entry)}"
     row = (entry.name, _verdict(entry), f"{seconds:.2f} s", evidence)
     columns = ("theorem", "verdict", ">time", "what stands behind it")
@@ -417,7 +392,6 @@ def _live(entry: ProveEntry, seconds: float) -> Iterator[Block]:
 
 
 def _end(entries: Sequence[ProveEntry]) -> Iterator[Block]:
-    """How many theorems of each kind came out as expected, and which did not."""
     yield Text("")
     rows: list[tuple[str, ...]] = []
     for kind in KINDS:
@@ -445,7 +419,6 @@ def _end(entries: Sequence[ProveEntry]) -> Iterator[Block]:
 
 
 def _show_list(entries: Sequence[ProveListEntry]) -> Iterator[Block]:
-    """The theorems in a table, or in full if they are few."""
     if len(entries) <= FEW:
         for entry in entries:
             yield from _details(entry)

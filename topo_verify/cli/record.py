@@ -22,7 +22,6 @@ from topo_verify.studies.corpus import DEFAULT, CorpusWorlds, corpus_from
 from topo_verify.world.formats import files
 
 SHOWN = 3
-"""The number of failing worlds whose findings are shown."""
 
 
 @options.command(
@@ -42,7 +41,7 @@ SHOWN = 3
 @options.store
 @options.engine
 @options.limits
-def record(  # noqa: PLR0913  an argument an option
+def record(
     output: Output,
     *,
     mappers: Mappers,
@@ -54,10 +53,7 @@ def record(  # noqa: PLR0913  an argument an option
     store: str | None,
     limits: Limits,
 ) -> int:
-    """Run a mapper in every world of a corpus and write its costs, decisions and maps to a file.
-
-    TARGET is one name of the catalogue, module:attribute or file.py:attribute.
-    """
+    """Run a mapper in every world of a corpus and write its costs, decisions and maps to a file."""
 
     def recorded() -> Iterator[Result[study.RecordEntry]]:
         texts = worlds or DEFAULT
@@ -71,14 +67,14 @@ def record(  # noqa: PLR0913  an argument an option
                 yield row
 
         with opened(store) as file, mappers.opened() as target:
-            on_engine(engine, (target,), limits)  # whether it can be run is said before all else
+            on_engine(engine, (target,), limits)  # fails early
             named, total = CorpusWorlds(corpus), corpus.total
             runs = study.baseline_runs(
                 target, named, total, limits=limits, engine=engine, store=file
             )
             rows = noted(stored_rows(output, [runs], workers, file))
             baseline = study.record(target, corpus, rows, worlds=texts, seed=seed, limits=limits)
-        # A baseline of some of the worlds would make every later comparison look complete.
+        # A partial baseline would make later comparisons look complete.
         whole = len(baseline.entries) == total
         if whole:
             files.write(out, encode(baseline))

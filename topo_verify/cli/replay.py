@@ -36,15 +36,15 @@ from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
 OF_A_MAPPER = ("--target", "--cmd", "--library", "--pick", "--order")
-"""Options that mean nothing to a trace, which has its mapper behind it."""
+"""Options that have no meaning for a trace."""
 
 
 KERNEL_TIMEOUT = 600
-"""Seconds for each program of Coq and OCaml."""
+"""Time limit of each program of Coq and OCaml, in seconds."""
 
 
 class KernelJudgement(msgspec.Struct, frozen=True):
-    """What the judge that is proved in Coq says of the run.
+    """The judgement of the judge that is proved in Coq.
 
     Attributes:
         by: what judged; "" if Coq or OCaml is not installed.
@@ -58,14 +58,11 @@ class KernelJudgement(msgspec.Struct, frozen=True):
 
 
 class ReplayEntry(msgspec.Struct, frozen=True):
-    """The judgement of one run: an entry of `results`.
+    """The judgement of one run.
 
     Attributes:
-        trace: the file of the trace; None if the target was run.
-        claims: the status of each claim.
-        judgements: the same, with how much of the run each status rests on.
-        stopped: why the mapper delivered no map, or None.
-        kernel: what the judge that is proved in Coq says; null without --kernel.
+        trace: the file of the trace; null if the target was run.
+        kernel: null without --kernel.
     """
 
     world: str
@@ -103,7 +100,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
 @click.option("--kernel", "proved", is_flag=True, help="Have the judge proved in Coq judge, too.")
 @options.strict
 @options.limits
-def replay(  # noqa: PLR0913  an argument an option
+def replay(
     output: Output,
     *,
     what: str,
@@ -119,11 +116,11 @@ def replay(  # noqa: PLR0913  an argument an option
 ) -> int:
     """Judge a trace again, or run a mapper again in one world, and show the walk.
 
-    FILE holds a trace, as explore --trace writes it; it is judged in the world that it names, or in
-    that of --world. In a WORLD the mapper of --target is run. Shown are the last moves before the
-    first finding, event by event: where the robot really was, what the mapper decided and why, and
-    beside its map what is so in the world. With --kernel the judge that is proved in Coq judges the
-    run as well; where Coq or OCaml is missing it does not, and the exit code is 3.
+    A trace from explore --trace is judged in the world that it names, or in that of --world. In a
+    WORLD the mapper of --target is run. The last moves before the first finding are shown: where
+    the robot really was, what the mapper decided and why, and its map beside the world. With
+    --kernel the judge that is proved in Coq judges the run as well; the exit code is 3 where Coq or
+    OCaml is missing.
     """
     reports: list[Report] = []
 
@@ -131,7 +128,7 @@ def replay(  # noqa: PLR0913  an argument an option
         require_one_world(player, 1)
         data = _bytes(what)
         if data is not None and _is_trace(data):
-            # A trace has its mapper and limits behind it: an option would be ignored in silence.
+            # These options would be ignored silently.
             words = [name for name in options.given() if name in OF_A_MAPPER]
             if words := [*words, *limits.options]:
                 raise InputError(
@@ -172,18 +169,16 @@ def replay(  # noqa: PLR0913  an argument an option
 
 
 def _bytes(what: str) -> bytes | None:
-    """The bytes of the file or of standard input; None if the argument names neither."""
     if what == "-":
         return files.read_stream(files.standard_input(), name="standard input")
     try:
         there = Path(what).is_file()
-    except (OSError, ValueError):  # a name that no file can have
+    except (OSError, ValueError):  # no possible file name
         there = False
     return files.read(what) if there else None
 
 
 def _is_trace(data: bytes) -> bool:
-    """True if the first line is an event, which has a `type`; a world file has none."""
     head = data.lstrip().split(b"\n", 1)[0]
     try:
         first = msgspec.json.decode(head)
@@ -201,7 +196,6 @@ def _judged(
     *,
     strict: bool,
 ) -> tuple[Report, str | None]:
-    """The judgement of a trace in its world, and why it ended without a map, if it says so."""
     name = "standard input" if what == "-" else what
     trace = read_trace(data, name=name)
     start = trace[0]
@@ -233,10 +227,7 @@ def _judged(
 
 
 def _own_world(name: str, start: Start, marker: int | None) -> NamedWorld:
-    """The world that a trace names by its id.
-
-    Only ids are accepted: a trace may come from anyone, and must not choose which file is read.
-    """
+    """The world that a trace names by its id: a trace must not choose which file is read."""
     if start.world is None:
         raise InputError(f"{name} does not name its world; name it with --world")
     try:
@@ -249,7 +240,6 @@ def _own_world(name: str, start: Start, marker: int | None) -> NamedWorld:
 def _ran(
     output: Output, at: NamedWorld, mapper: Target, limits: Limits, *, strict: bool
 ) -> tuple[Report, str | None, bool]:
-    """The judgement of a run, why it ended without a map, and whether it is undecided."""
     output.progress(f"{mapper.text} in {at.name}", 0, 1)
     run = run_mapper(at.world, mapper, limits=limits)
     report, incomplete = judged(run, at, limits, strict=strict)
@@ -257,11 +247,7 @@ def _ran(
 
 
 def _judged_in_coq(output: Output, report: Report) -> KernelJudgement:
-    """What the extracted judge says of the run.
-
-    Raises:
-        InternalError: it says something else than the checkers.
-    """
+    """The extracted judge's judgement; InternalError if it differs from the checkers'."""
     from topo_verify.proofs.mechanised import judge
 
     if report.run is None:
@@ -302,7 +288,6 @@ def _show(
 
 
 def _in_coq(kernel: KernelJudgement) -> str:
-    """What the judge that is proved in Coq says, in one sentence."""
     if kernel.why:
         return f"Not judged by the judge that is proved in Coq: {kernel.why}"
     return f"Judged again by {kernel.by}: the same of {len(kernel.judgements)} of 10 claims."

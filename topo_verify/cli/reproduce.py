@@ -68,7 +68,7 @@ _Found = list[tuple[fig.Figure, list[pts.FigurePoint]]]
 @options.seed("Of the graphs.")
 @options.engine
 @options.number("--workers", least=1, meaning="Processes.  [default: all processors]")
-def reproduce(  # noqa: PLR0913  an argument an option
+def reproduce(
     output: Output,
     *,
     figure: str,
@@ -82,10 +82,9 @@ def reproduce(  # noqa: PLR0913  an argument an option
 ) -> int:
     """Draw the paper's Figures 3 and 6 a-f again: mean costs with standard errors.
 
-    What the paper's text states stands in the same picture, and so do the least cost of a proof and
-    the complete rule, folding. Every run is judged by every claim. Same options, same CSV to the
-    byte, however many processes there are and however often it was interrupted. With
-    --engine compiled lattices grow to 100x100.
+    Each picture also shows the numbers in the paper's text, the least cost of a proof, and the
+    complete rule, folding. Every run is judged by every claim. The same options give the same CSV
+    bytes, with any number of processes. With --engine compiled lattices grow to 100x100.
     """
     usual = fig.QUICK_GRAPHS if quick else fig.GRAPHS
     pairs, large = fig.PAIRS if policies else (fig.REFERENCE,), engine == "compiled" and not quick
@@ -132,9 +131,8 @@ def _runs(
     folder: Path,
     workers: int,
 ) -> dict[pts.PlannedRun, Row]:
-    """Every run of the figures; each is kept in the folder as soon as it is judged."""
     if engine == "compiled":
-        # Here, before the workers start: they find the kernels in the cache.
+        # Before the workers start, so that they find compiled kernels in the cache.
         explore(World.from_id("m1/0"), engine=engine)
     with open_store(output, folder) as store:
         assert store is not None, "there is a folder"
@@ -145,7 +143,6 @@ def _runs(
 
 
 def _write(output: Output, folder: Path, found: _Found, command: str) -> None:
-    """Write CSV, pictures and the page that shows them."""
     drawn = True
     for figure, points in found:
         files.write(folder / f"{stem(figure)}.csv", pts.points_csv(points))
@@ -160,7 +157,6 @@ def _write(output: Output, folder: Path, found: _Found, command: str) -> None:
 
 
 def _draw(folder: Path, figure: fig.Figure, points: Sequence[pts.FigurePoint]) -> bool:
-    """Write the pictures of a figure; False if matplotlib is not installed."""
     from topo_verify.report.figures.pictures import picture
 
     try:
@@ -175,7 +171,6 @@ def _draw(folder: Path, figure: fig.Figure, points: Sequence[pts.FigurePoint]) -
 
 
 def _show(entries: Sequence[pts.FigurePoint], out: str, seed: int) -> Iterator[Block]:
-    """A table and a paragraph a figure, the growth of every line, and what was judged."""
     for name in dict.fromkeys(point.figure for point in entries):
         figure = fig.FIGURES[name]
         points = [point for point in entries if point.figure == name]
@@ -194,7 +189,6 @@ def _show(entries: Sequence[pts.FigurePoint], out: str, seed: int) -> Iterator[B
 
 
 def _table(figure: fig.Figure, points: Sequence[pts.FigurePoint]) -> TextTable:
-    """The means of a figure: a row a size, a column a line."""
     names = (*figure.lines, *fig.YARDSTICKS)
     cells = {(point.size, point.algorithm): point for point in points}
     rows = [
@@ -214,7 +208,6 @@ def _cell(point: pts.FigurePoint | None) -> str:
 
 
 def _growth_table(entries: Sequence[pts.FigurePoint]) -> TextTable:
-    """The exponent of every line of the reference policies."""
     rows = dict.fromkeys(
         (
             fig.FIGURES[point.figure].setting.name,

@@ -1,7 +1,7 @@
-"""What commands share: worlds as the user names them, judged runs, findings and walks as shown.
+"""Worlds as the user names them; judged runs, findings and walks as shown.
 
-A search knows of its counterexample only the world and the claim. So the mapper runs there once
-more, and its walk is shown if the same claim fails again.
+A search stores only the world and the claim of a counterexample. The mapper runs there again, and
+its walk is shown if the same claim fails again.
 """
 
 from __future__ import annotations
@@ -41,13 +41,7 @@ from topo_verify.world.rooted_map import World
 
 @dataclass(frozen=True)
 class NamedWorld:
-    """A world with the command-line arguments that name it.
-
-    Attributes:
-        world: with its marker as the options say.
-        text: the WORLD argument.
-        marker: the --marker option, if it was given.
-    """
+    """A world, with its marker as the options say, and the arguments that name it."""
 
     world: World
     text: str
@@ -66,11 +60,7 @@ class NamedWorld:
 
     @cached_property
     def argument(self) -> str:
-        """A WORLD argument that names this world in a later call.
-
-        Standard input cannot be read again, so a world from there is named by its id, or saved to a
-        file now.
-        """
+        """A WORLD argument for a later call: one from standard input has its id, or is saved."""
         if self.text == "-":
             return self.world.id if self._has_id else _saved(self.world)
         return f"./{self.text}" if self.text.startswith("-") else self.text
@@ -85,7 +75,7 @@ def named_world(text: str, marker: int | None = None, stdin: bytes | None = None
     """The world that the user names.
 
     Args:
-        stdin: what came from standard input, if it was read already.
+        stdin: the content of standard input, if already read.
     Raises:
         InputError: no such world, no such dart.
     """
@@ -97,12 +87,12 @@ def named_world(text: str, marker: int | None = None, stdin: bytes | None = None
         except InputError as error:
             raise InputError(f"--marker {marker} in {text}: {error}") from error
         if named_by_id and not text.startswith("family:"):
-            world = replace(world, name="")  # with its marker elsewhere it has another id
+            world = replace(world, name="")  # its id has changed
     return NamedWorld(world, text, marker)
 
 
 def named_worlds(texts: Sequence[str], marker: int | None = None) -> list[NamedWorld]:
-    """The worlds that the user names. All are read before any is used, so errors come first."""
+    """The worlds that the user names, all read before any is used."""
     if texts.count("-") > 1:
         raise InputError(
             "expected '-' at most once, since standard input holds one world; name files instead"
@@ -111,9 +101,8 @@ def named_worlds(texts: Sequence[str], marker: int | None = None) -> list[NamedW
 
 
 def _saved(world: World) -> str:
-    """The name of a file in the current folder that holds this world; it is written if missing."""
     text = world.to_json() + "\n"
-    # Named by its content: the same world leads to the same file, and so to the same output.
+    # Named by its content, so equal worlds give equal output.
     stem = f"world-{sha256(text.encode()).hexdigest()[:12]}"
     for number in count(1):
         path = Path(f"{stem}.json" if number == 1 else f"{stem}-{number}.json")
@@ -123,9 +112,8 @@ def _saved(world: World) -> str:
 
 
 def _is_saved(path: Path, text: str) -> bool:
-    """True if the file holds exactly this text; a missing file is written first."""
     try:
-        # "x" creates the file or fails, so a file of the user's is never overwritten.
+        # "x" never overwrites a file of the user's.
         with path.open("x", encoding="utf-8") as file:
             file.write(text)
     except FileExistsError:
@@ -146,7 +134,7 @@ def judged(
 ) -> tuple[Report, bool]:
     """The report on a run, and whether it is undecided: out of time, or declined by the mapper."""
     report = judge(run, where=at.text, strict=strict)
-    # Its findings would only say that it has no map, which is no fault of the mapper.
+    # Its findings would only say that it has no map.
     if undecided(run, report):
         return report.with_findings(()), True
     if not report.findings:
@@ -164,7 +152,7 @@ def judged(
 
 
 def claims_cell(claims: Mapping[str, Status], *, incomplete: bool = False) -> str:
-    """A cell that says how many claims fail; or else how many hold, and what the others are."""
+    """How many claims fail, else how many hold, with the status of the others."""
     failed = sum(status == "failed" for status in claims.values())
     if incomplete and "undecided" not in claims.values():
         return "not decided"
@@ -174,7 +162,7 @@ def claims_cell(claims: Mapping[str, Status], *, incomplete: bool = False) -> st
 
 
 def unjudged(mapper: str, world: str, judgements: Iterable[Judgement]) -> Iterator[Text]:
-    """Sentences that name the claims that were not fully judged, and say why."""
+    """Sentences that name the claims not fully judged, with the reason."""
     claims: dict[str, list[Judgement]] = {reason: [] for reason in _REASONS.values()}
     for judgement in judgements:
         reasons = _REASONS | _WITHOUT_A_MAP if judgement.claim == "map-entailed" else _REASONS
@@ -203,17 +191,12 @@ _WITHOUT_A_MAP: dict[Status, str] = {
     "not-declared": "Not judged, because {mapper} delivers no map",
     "partial": "Judged in part, because {mapper} delivers no map in some of {world}",
 }
-"""The reasons of `map-entailed`, which asks for a map and for no decision."""
 
 
 def finding_blocks(
     findings: Iterable[Finding], about: str = "", *, shown: int = 5
 ) -> Iterator[Block]:
-    """Blocks for findings, grouped by the command that shows them again.
-
-    Args:
-        shown: the number of findings of one run that are shown; JSON has all.
-    """
+    """Blocks for findings, at most `shown` of a run, grouped by replay command."""
     runs: dict[str, list[Finding]] = {}
     for finding in findings:
         runs.setdefault(finding.replay, []).append(finding)
@@ -235,7 +218,6 @@ def finding_line(finding: Finding) -> str:
 # ---------------------------------------------------------------- walks
 
 OTHERS = 5
-"""Most findings that are listed beside the walk; JSON has all."""
 
 
 def walk_view(report: Report, extent: walk.Extent = walk.BRIEF) -> Iterator[Block]:
@@ -263,15 +245,15 @@ def other_findings(report: Report, extent: walk.Extent) -> Iterator[Block]:
 
 
 MOST_EXHIBITS = 12
-"""Most counterexamples in a page; the others are counted."""
+"""Most counterexamples in a page; others are counted."""
 
 
 class FoundRuns:
-    """The counterexamples that a command meets: the walk of the first, and exhibits for a page.
+    """The counterexamples of a command: the walk of the first, and exhibits for a page.
 
     Args:
-        people: whether people read what is printed; they see a walk.
-        page: whether a page is asked for; it shows all, up to `MOST_EXHIBITS`.
+        people: people read the output, so a walk is shown.
+        page: a page is requested.
     """
 
     def __init__(self, *, people: bool, page: bool) -> None:
@@ -284,18 +266,18 @@ class FoundRuns:
         self._late = False
 
     def keep(self, report: Report) -> None:
-        """Keep the report of a run, if something is wrong in it."""
+        """Keep the report of a run if it has findings."""
         if self._most and report.findings:
             self._report = self._report or report
             self.show(exhibit_of(report))
 
     def walk(self, report: Report | None) -> None:
-        """Show the walk of a run to people, if it is the first; a page has its exhibit already."""
+        """Show people the walk of this run, unless another is kept already."""
         if self._people:
             self._report = self._report or report
 
     def show(self, exhibit: acc.Exhibit | None) -> None:
-        """Keep an exhibit for the page, if there is one."""
+        """Keep an exhibit for the page."""
         if exhibit is not None:
             place = (exhibit.title, exhibit.name)
             self._seen.add(place)
@@ -312,15 +294,13 @@ class FoundRuns:
         *,
         reports: Callable[[Target, World], Iterator[Report]] | None = None,
     ) -> None:
-        """Run the mappers in the world of a counterexample; keep a run in which the claim fails.
+        """Run the mappers in a counterexample's world; keep a run in which the claim fails again.
 
-        A mapper that draws lots may do well this time; then the world is shown without a run.
+        If it does not fail again (a randomised mapper), the world is shown without a run.
 
         Args:
-            world: an id, a family's call, or `nyc`. Any other is passed over: a file may have
-                changed since.
-            message: what was wrong there.
-            reports: makes the runs where there are several ways to choose; else each runs once.
+            world: an id, a family's call, or `nyc`; others are ignored, since a file may change.
+            reports: makes the reports where a mapper has several runs; default: one run each.
         """
         if not self._most or (self._report is not None and not self._alone):
             return
@@ -332,7 +312,7 @@ class FoundRuns:
 
         def once(target: Target, _there: World) -> Iterator[Report]:
             run = explore(there, target, limits=limits)
-            self._late = run.limit in ("move-timeout", "world-timeout")  # once is enough
+            self._late = run.limit in ("move-timeout", "world-timeout")
             report, _ = judged(run, NamedWorld(there, world), limits)
             yield report
 
@@ -354,11 +334,11 @@ class FoundRuns:
 
     @property
     def left_out(self) -> int:
-        """How many more there were."""
+        """The number of counterexamples beyond `MOST_EXHIBITS`."""
         return len(self._seen) - len(self._exhibits)
 
     def blocks(self) -> Iterator[Block]:
-        """The walk with its title, and the command that shows it again; none if there is none."""
+        """The walk with its title and its replay command."""
         if self._report is None or not self._people:
             return
         yield Text("")
@@ -372,16 +352,12 @@ class FoundRuns:
 
 
 def target_title(target: str, world: str) -> str:
-    """The title of an exhibit: who, in which world."""
+    """The title of an exhibit: mapper and world."""
     return f"{target} in {world}"
 
 
 def exhibit_of(report: Report, *others: PlayedRun) -> acc.Exhibit | None:
-    """A run with its findings, to be looked at; None if the run is not known.
-
-    Args:
-        others: runs to be shown beside it.
-    """
+    """A run with its findings and other runs beside it; None if the report has no run."""
     if report.run is None:
         return None
     run = PlayedRun(report.target, tuple(report.run.trace), report.judgements, report.run.stopped)

@@ -70,7 +70,7 @@ from topo_verify.world.enumeration.classes import WorldClass
 @click.option("--compare", metavar="A,B", help="Show where A costs more than B.")
 @options.seed("Seed of the worlds that are run again.")
 @options.limits
-def search(  # noqa: PLR0913  an argument an option
+def search(
     output: Output,
     *,
     mappers: Mappers,
@@ -92,7 +92,7 @@ def search(  # noqa: PLR0913  an argument an option
 
     The search stops at the smallest counterexample (REFUTED) or after the last world (EXHAUSTED).
     TARGET is a name of the catalogue, several with commas, all, module:attribute or
-    file.py:attribute. A native mapper (--library) is called and judged by the compiled engine.
+    file.py:attribute.
     """
 
     def searches() -> Iterator[Result[study.SearchEntry]]:
@@ -112,7 +112,7 @@ def search(  # noqa: PLR0913  an argument an option
                 raise InputError(f"--depends {path}: there is no such file; name one that exists")
         with _cluster(dask, workers) as cluster:
             if ledger is not None:
-                watch()  # before a mapper is loaded, and after Dask has read its settings
+                watch()  # before a mapper is loaded, after Dask has read its settings
             needed = None if ledger is None else depends
             for searched in _searches(mappers, compare, ledger):
                 campaign = campaign_of(searched)
@@ -128,7 +128,6 @@ def search(  # noqa: PLR0913  an argument an option
 
 
 def _cluster(dask: str | None, workers: int | None) -> AbstractContextManager[Cluster | None]:
-    """The Dask cluster, if one is asked for."""
     if dask is None:
         return nullcontext()
     if workers is not None:
@@ -142,11 +141,10 @@ def _backend(
     cluster: Cluster | None,
     depends: tuple[str, ...] | None,
 ) -> Backend:
-    """What the shards of a search are run on: the cluster, worker processes, or this process."""
     if cluster is not None:
         return clustered(cluster, depends)
     number = processors() if workers is None else workers
-    if number or any(map(is_native, mappers)):  # which may need a worker in any case
+    if number or any(map(is_native, mappers)):  # needs a worker
         return pooled(number, depends)
     return here(mappers, depends=depends)
 
@@ -154,7 +152,6 @@ def _backend(
 def _searches(
     mappers: Mappers, compare: str | None, ledger: str | None
 ) -> list[tuple[Target, ...]]:
-    """The mappers of each search: one, or the two that are compared."""
     if bool(mappers.texts) == (compare is not None):
         raise InputError("expected either a TARGET or two mappers with --compare A,B")
     if compare is not None:
@@ -175,7 +172,6 @@ def _searches(
 def _searched(
     output: Output, one_search: study.Search, *, compare: bool
 ) -> Iterator[Result[study.SearchEntry]]:
-    """The result of one search; after Ctrl-C, of the worlds done so far."""
     campaign = one_search.campaign
 
     def result() -> Result[study.SearchEntry]:
@@ -187,7 +183,7 @@ def _searched(
         one_search.work(output.progress)
         one_search.run_again(output.progress)
     except KeyboardInterrupt:
-        # Yield before raising: `Output` prints what it has and then exits 3.
+        # Before raising: `Output` prints it, then exits 3.
         yield result()
         raise
     if campaign.engine == "compiled":
@@ -214,7 +210,6 @@ def _opened(
     campaign: Campaign,
     mappers: tuple[Target, ...],
 ) -> Generator[StoredCampaign | None]:
-    """The store, if one is asked for."""
     if ledger is None:
         yield None
         return
@@ -231,7 +226,6 @@ def _opened(
 
 
 def _account(entries: Sequence[study.SearchEntry]) -> acc.Account:
-    """The account of `search`: a suite a search; its verdict, and a case a claim."""
     verdict = acc.joint_verdict([entry.verdict for entry in entries])
     failing = sum(size.failing for entry in entries for size in entry.by_edges)
     checked, total = sum(e.checked for e in entries), sum(e.total for e in entries)
@@ -243,7 +237,6 @@ def _account(entries: Sequence[study.SearchEntry]) -> acc.Account:
 
 
 def _class(entry: study.SearchEntry, before: str) -> str:
-    """The worlds of a search; before the name of a class other than `any` stands `before`."""
     kind = "" if entry.kind == "any" else f"{before}{entry.kind}"
     return f"worlds of 1 to {plural(entry.edges, 'edge')}{kind}"
 
@@ -272,11 +265,9 @@ def _failing(one: study.FailingClaim) -> acc.JudgedCase:
 # ---------------------------------------------------------------- for people
 
 SHOWN = 3
-"""The number of worlds shown in one cell; JSON has more."""
 
 
 def _shown(entry: study.SearchEntry, *, worst: bool) -> Iterator[Block]:
-    """One search, for people: a table, the verdict, the counterexample."""
     policies = "" if entry.policies == "reference" else f", policies {entry.policies}"
     title = f"{_who(entry)}: {_class(entry, ', class ')}{policies}"
     rows = [
@@ -316,7 +307,6 @@ def _shown(entry: study.SearchEntry, *, worst: bool) -> Iterator[Block]:
 
 
 def _every(entry: study.SearchEntry, *, worst: bool) -> Iterator[Block]:
-    """The states and choices of --policies every; with --worst the range of the costs, too."""
     sizes = [(e.edges, e.every) for e in entry.by_edges if e.every is not None and e.every.worlds]
     if not sizes:
         return
@@ -340,7 +330,6 @@ def _every(entry: study.SearchEntry, *, worst: bool) -> Iterator[Block]:
 
 
 def _saved(entry: study.EveryCost) -> tuple[str, ...]:
-    """The share that the cheapest runs save together, and where one saves most."""
     together = f"{1 - entry.cheapest / entry.reference:.1%}"
     one = entry.most_saved
     if one is None or one.reference == one.cheapest:
@@ -368,7 +357,6 @@ def _compared(edges: int, pair: study.CostComparison) -> tuple[str, ...]:
 
 
 def _some(names: Sequence[str], number: int) -> str:
-    """The first names; an ellipsis if there are more."""
     shown = ", ".join(names[:SHOWN])
     return f"{shown} …" if number > SHOWN else shown or "-"
 
@@ -398,7 +386,6 @@ def _conclusion(entry: study.SearchEntry) -> str:
 
 
 def _counterexamples(entry: study.SearchEntry) -> Iterator[Block]:
-    """The smallest counterexample, and the smallest for each claim."""
     first = entry.counterexample
     if first is None:
         return

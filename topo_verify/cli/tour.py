@@ -28,11 +28,11 @@ class LogAgainstMap(msgspec.Struct, frozen=True):
 
     Attributes:
         log: the file.
-        verdict: REFUTED: the map does not show the log. PROVED: only the map shows it. UNKNOWN:
-            the map shows it, and other worlds do.
+        verdict: REFUTED: the map does not show the log. PROVED: only the map shows it. UNKNOWN: the
+            map shows it, and other worlds do.
         event: the event that refutes the map, counted from 0 with `start`; else null.
         message: why it does; "" otherwise.
-        moves: how many edges the log has crossed, each time counted.
+        moves: the edge traversals of the log.
         unproved: the edges that the log does not prove, by their two darts in the map.
     """
 
@@ -45,12 +45,11 @@ class LogAgainstMap(msgspec.Struct, frozen=True):
 
 
 class TourEntry(msgspec.Struct, frozen=True):
-    """A walk that proves a map: the one entry of `results`.
+    """A walk that proves a map.
 
     Attributes:
-        cost: how many doors it takes; without --against the least cost of the world.
-        doors: those to take, from the start or from where the log of --against ends; none if that
-            log proves or refutes the map.
+        cost: the number of doors; without --against the least cost of the world.
+        doors: those to take, from the start or from where the log of --against ends.
         seen: what should be seen behind each of these doors.
         against: what the log of --against says; null without one.
     """
@@ -87,13 +86,12 @@ def tour(
 ) -> int:
     """Print the cheapest walk that proves the map of a known world: doors, and what should be seen.
 
-    A robot that starts at the marker and sees all this has proved the map: no other world shows it.
-    It need not come back, and no walk proves the map with fewer moves.
+    A robot that starts at the marker and sees all this has proved the map. It need not come back.
 
-    With --against, WORLD is a map and LOG is what a robot has seen so far, as for certify. If the
-    map is refuted, the event is named (exit code 1). If it is proved, that is said (0). Otherwise
-    the edges that are not proved yet are named, with a way to go on from where the log ends (3).
-    That way is the cheapest of several plans; in some cases there is a cheaper one.
+    With --against, WORLD is a map and LOG is what a robot has seen so far, as for certify. REFUTED
+    (exit code 1): the event that refutes the map is named. PROVED (0). UNKNOWN (3): the edges not
+    proved yet are named, with a way to go on from where the log ends, the cheapest of several
+    plans.
     """
 
     def toured() -> Iterator[Result[TourEntry]]:
@@ -133,10 +131,7 @@ def tour(
 
 
 def _against(world: World, log: str) -> tuple[Trace, Sequence[Event], LogAgainstMap]:
-    """The log with the way on behind it, that way, and what the log says of the map.
-
-    Of a log that refutes the map nothing is left out; else what a mapper declared is.
-    """
+    """The log with the way on after it, that way, and what the log says of the map."""
     name = "standard input" if log == "-" else log
     log_events = read_log(log)
     try:
@@ -173,7 +168,6 @@ def _show(entries: Sequence[TourEntry]) -> Iterator[Block]:
 
 
 def _sentence(entry: TourEntry) -> str:
-    """What the walk proves, or what the log says of the map, in one sentence."""
     against, moves = entry.against, plural(entry.cost, "move")
     if against is None:
         return f"{entry.world}: this walk of {moves} proves the map; no walk proves it with fewer."

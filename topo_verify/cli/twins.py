@@ -1,4 +1,4 @@
-"""What `world show` prints of rotations, and of twins: worlds that look the same."""
+"""What `world show` prints of rotations and of twins: worlds that look the same to a robot."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ class TwinEntry(msgspec.Struct, frozen=True):
     Attributes:
         model: what a robot senses of the marker: where it lies (undirected), or nothing (none).
         id: of the twin; null: there is none, or it has over 200 edges.
-        why: the reason why there is none; "no exchange ..." is none that excludes a twin.
-        rotation, edge_darts: of the twin, as for the world; empty without one.
+        why: the reason why no twin was found; "no exchange ..." does not exclude one.
+        rotation, edge_darts: of the twin; empty without one.
         file: the picture of both; null without -o.
     """
 
@@ -53,7 +53,6 @@ def twin_entry(world: World, model: MarkerModel, file: str | None) -> TwinEntry:
 
 
 def _side_by_side(*pictures: str) -> str:
-    """One SVG with these, from left to right."""
     parts: list[str] = []
     x = height = 0.0
     for picture in pictures:
@@ -66,7 +65,7 @@ def _side_by_side(*pictures: str) -> str:
 
 
 def twin_blocks(name: str, twin: TwinEntry) -> Iterator[Block]:
-    """The twin of the world of this name, or why there is none."""
+    """The twin of a world, or why there is none."""
     sensed = "without a marker" if twin.model == "none" else "without the marker's direction"
     yield Text("")
     if twin.why:
@@ -87,7 +86,7 @@ def rotation_table(
     edges: Iterable[tuple[Dart, Dart]],
     names: Sequence[str] = (),
 ) -> TextTable:
-    """Each vertex with its darts clockwise, and in the same order where their edges lead."""
+    """Each vertex with its darts clockwise, and the other ends of these edges."""
     other = {dart: end for a, b in edges for dart, end in ((a, b), (b, a))}
     vertex = {dart: v for v, darts in enumerate(rotation) for dart in darts}
     rows = [

@@ -40,8 +40,8 @@ def verify(
     """Check the algorithms of the catalogue, or a mapper of your own, part by part.
 
     TARGET is `all` (the default), names of the catalogue with commas, package.module:attribute or
-    path/file.py:attribute. A mapper takes a robot and returns a map. For a mapper of your own the
-    parts counts and proofs are left out: they do not depend on it.
+    path/file.py:attribute. A mapper takes a robot and returns a map. For your own mapper the parts
+    counts and proofs are left out: they do not depend on it.
     """
     loaded = mappers.load()
 
@@ -97,7 +97,7 @@ def cases_of(part: Part) -> Iterator[acc.JudgedCase]:
 
 
 def _extent(parts: Sequence[Part]) -> acc.JudgedExtent:
-    """The worlds of the finite class, and the sampled ones; theorems have a table of their own."""
+    """The worlds of the finite class and the sampled ones; theorems have their own table."""
     verdict = acc.joint_verdict([part.verdict for part in parts])
     tried = [part for part in parts if part.part not in WORLDLESS]
     failing = sum(part.failing for part in tried)
@@ -123,7 +123,6 @@ def _who(mappers: Sequence[Target]) -> str:
 
 
 def _first_of_each(part: Part) -> Iterator[Finding]:
-    """The first finding of each run of a part, smallest worlds first."""
     first: dict[tuple[str, str], Finding] = {}
     for finding in part.findings:
         first.setdefault((finding.world, finding.replay), finding)
@@ -140,7 +139,6 @@ def _head(mappers: Sequence[Target], seed: int, others: Sequence[str]) -> Iterat
 
 
 def _show(head: Iterable[Block], entries: Sequence[Part]) -> Iterator[Block]:
-    """All parts in one table, then what `_first` and `_end` say of them."""
     yield from head
     columns = ("part", "verdict", ">checked", ">total", "summary")
     rows = [(e.part, e.verdict, str(e.checked), str(e.total), e.summary) for e in entries]
@@ -151,15 +149,13 @@ def _show(head: Iterable[Block], entries: Sequence[Part]) -> Iterator[Block]:
 
 
 def _live(entry: Part) -> Iterator[Block]:
-    """The row of one part, and its smallest counterexample."""
     row = (entry.part, entry.verdict, entry.summary)
     yield TextTable(("part", "verdict", "summary"), [row], widths=(16, 9, 0), headed=False)
     yield from _first(entry)
 
 
 def _first(entry: Part) -> Iterator[Block]:
-    """The smallest counterexample of a part; JSON has more."""
-    # Findings come smallest world first; those with one replay command are of one run.
+    # Findings are sorted by world; one replay command means one run.
     smallest = [f for f in entry.findings if f.replay == entry.findings[0].replay]
     if smallest:
         yield from finding_blocks(
@@ -168,7 +164,6 @@ def _first(entry: Part) -> Iterator[Block]:
 
 
 def _end(entries: Sequence[Part]) -> Iterator[Block]:
-    """The costs, and the conclusion."""
     for entry in entries:
         if entry.costs:
             yield Text("")

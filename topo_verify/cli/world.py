@@ -35,8 +35,7 @@ FORMATS: dict[str, tuple[Callable[[World], str | bytes], str]] = {
     "graphml": (graphml.encode, ".graphml"),
     "nx-json": (node_link.encode, ".nx.json"),
 }
-"""Each format of `convert --to`: its encoder, to text or (binary) to bytes, and the end of the name
-by which a file of it is read again."""
+"""The encoder of each format of `convert --to`, and the ending by which it is read again."""
 
 
 @click.group(epilog=epilog("world show nyc", "world count --edges 6 --class planar"))
@@ -48,16 +47,15 @@ def world() -> None:
 
 
 class ShowEntry(msgspec.Struct, frozen=True):
-    """One world: an entry of `results`.
+    """One world.
 
     Attributes:
-        id: None beyond 200 edges.
-        rotation, edge_darts: what a world file holds as `vertices` and `edges`; these two names are
-            taken by their numbers here.
+        id: null beyond 200 edges.
+        rotation: `vertices` of the world file.
+        edge_darts: `edges` of the world file.
         degrees: of the vertices.
         simple, loopless, planar: whether the world is in this class.
-        source, licence: of the world's file; empty: it names none.
-        vertex_names: of the world's file; empty: it names none.
+        source, licence, vertex_names: of the world's file; may be empty.
         twin: with --twin.
     """
 
@@ -107,7 +105,7 @@ def show(
     model: MarkerModel | None,
     file: str | None,
 ) -> int:
-    """Show a world: its size, genus, degrees and id, and its rotation as the world file has it."""
+    """Show a world: its size, genus, degrees and id, and its rotation as in the world file."""
     if file is not None and (model is None or len(worlds) > 1 or not file.endswith(".svg")):
         raise InputError(
             f"-o {file}: expected --twin MODEL, one WORLD, and a name that ends in .svg"
@@ -154,7 +152,7 @@ def _show(entries: Sequence[ShowEntry]) -> Iterator[Block]:
         for listed in ("rotation", "edge_darts", "vertex_names", "twin"):
             del facts[listed]
         rows = [
-            (name, Cell(_word(fact), whole=True))  # here one comes for the whole id
+            (name, Cell(_word(fact), whole=True))
             for name, fact in facts.items()
             if fact not in ("", None)
         ]
@@ -167,7 +165,7 @@ def _show(entries: Sequence[ShowEntry]) -> Iterator[Block]:
 
 
 def _word(fact: object) -> str:
-    # By type, not by value: 1 == True, and a genus of 1 is not "yes".
+    # By type: 1 == True, but a genus of 1 is not "yes".
     return {True: "yes", False: "no"}[fact] if isinstance(fact, bool) else str(fact)
 
 
@@ -175,11 +173,11 @@ def _word(fact: object) -> str:
 
 
 class ConvertEntry(msgspec.Struct, frozen=True):
-    """A world in another format, either in `file` or as `text`.
+    """A world in another format.
 
     Attributes:
         to: the format.
-        text: the world in it; null: it stands in the file.
+        text: the world in it; null: it is in the file.
     """
 
     world: str
@@ -215,7 +213,6 @@ def convert(output: Output, *, world: str, to: str | None, file: str, marker: in
         at = named_world(world, marker)
         encode, ending = FORMATS[kind]
         content = encode(at.world)
-        # Text on stdout goes through `Output` like any result; bytes cannot.
         if file != "-":
             files.write(file, content + "\n" if isinstance(content, str) else content)
             if kind != named:
@@ -240,21 +237,19 @@ def _show_converted(entries: Sequence[ConvertEntry]) -> Iterator[Block]:
 
 
 class CountEntry(msgspec.Struct, frozen=True):
-    """The number of worlds of one size: an entry of `results`.
+    """The number of worlds of one size.
 
     Attributes:
         unrooted: the same without the marker; null where it would take too long.
     """
 
     edges: int
-    # `class` cannot be a name in Python.
     kind: str = msgspec.field(name="class")
     total: int
     unrooted: int | None
 
 
 def _range(_context: click.Context, _option: click.Parameter, value: str) -> range:
-    """The numbers of edges in `N` or `A..B`."""
     match = re.fullmatch(r"([0-9]{1,9})(?:\.\.([0-9]{1,9}))?", value)
     if not match:
         raise click.BadParameter(
@@ -274,7 +269,7 @@ def _range(_context: click.Context, _option: click.Parameter, value: str) -> ran
 )
 @options.world_class
 def count(output: Output, *, edges: range, kind: str) -> int:
-    """Count the worlds with N edges: rooted maps, and beside them unrooted ones (no marker)."""
+    """Count the worlds with N edges: rooted maps, and unrooted ones (no marker)."""
 
     def counted() -> Iterator[Result[CountEntry]]:
         worlds = WorldClass.parse(kind)
@@ -296,11 +291,10 @@ def _show_counted(entries: Sequence[CountEntry]) -> Iterator[Block]:
 
 
 MOST_LISTED = 250_000
-"""The most ids in one list: all are kept until the end, since JSON is one object."""
 
 
 class ListEntry(msgspec.Struct, frozen=True):
-    """One world of a class: an entry of `results`."""
+    """One world of a class."""
 
     id: str
     edges: int
@@ -316,7 +310,7 @@ class ListEntry(msgspec.Struct, frozen=True):
     "-n", "number", least=1, most=MOST_LISTED, meaning="The first N worlds only.  [default: all]"
 )
 def list_worlds(output: Output, *, edges: int, kind: str, number: int | None) -> int:
-    """List the ids of all worlds with N edges in their order: as they are found, one a line."""
+    """List the ids of all worlds with N edges in their order, one a line."""
     worlds = WorldClass.parse(kind)
     first = _first(worlds, edges, number)
 
@@ -330,11 +324,6 @@ def list_worlds(output: Output, *, edges: int, kind: str, number: int | None) ->
 
 
 def _first(worlds: WorldClass, edges: int, number: int | None) -> Iterator[tuple[int, Table]]:
-    """The worlds to list: the first `number`, or all.
-
-    Raises:
-        InputError: these are more than `MOST_LISTED`, or too many to be counted.
-    """
     if number is None:
         mend = "or name the first of them with -n N"
         try:
@@ -357,13 +346,13 @@ def _ids(entries: Iterable[ListEntry]) -> Iterator[Block]:
 
 
 class SampleEntry(msgspec.Struct, frozen=True):
-    """One drawn world: an entry of `results`.
+    """One drawn world.
 
     Attributes:
-        id: None beyond 200 edges.
-        kind: the class that it was drawn from; None if it was a strategy.
-        strategy: the strategy that it was drawn from; None if it was a class.
-        file: the file that was written; None without -o.
+        id: null beyond 200 edges.
+        kind: the class that it was drawn from; null if it was a strategy.
+        strategy: the strategy that it was drawn from; null if it was a class.
+        file: the file that was written; null without -o.
     """
 
     id: str | None
@@ -406,10 +395,9 @@ def sample(
     number: int,
     folder: str | None,
 ) -> int:
-    """Draw worlds and print their ids.
+    """Draw worlds at random and print their ids.
 
-    With --edges each world of the class is equally likely. With --strategy worlds are drawn as in a
-    property test.
+    With --edges each world of the class is equally likely.
     """
     worlds = WorldClass.parse(kind)
     if strategy is None:
@@ -481,12 +469,12 @@ def _show_sampled(entries: Sequence[SampleEntry]) -> Iterator[Block]:
 
 
 class DrawEntry(msgspec.Struct, frozen=True):
-    """One picture: an entry of `results`.
+    """One picture.
 
     Attributes:
-        file: the file that was written; None without -o.
-        layout: how the world is drawn: positions, planar, bridges, cell or ball.
-        shown: how many of the vertices are shown: all of them but in a ball.
+        file: the file that was written; null without -o.
+        layout: positions, planar, bridges, cell or ball.
+        shown: the number of vertices shown: all of them except in a ball.
         bridges: how many times an edge passes over another one.
         text: the SVG, if no file was written.
     """
@@ -557,11 +545,6 @@ def draw(
 
 
 def _dart_at(world: World, vertex: int | None) -> Dart | None:
-    """A dart of a vertex of the world; None for no vertex, or one without a dart.
-
-    Raises:
-        InputError: there is no such vertex.
-    """
     if vertex is None:
         return None
     if vertex >= len(world.vertices):
