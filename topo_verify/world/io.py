@@ -7,13 +7,10 @@
 | `.net.xml` | a road network of SUMO |
 | `.nx.json` | NetworkX's node-link JSON |
 | anything else | world JSON |
-
-Text without a file name, and whatever `World.save` writes, is world JSON. The other formats are
-written by the commands that ask for them. Pictures are drawn by `drawing/`.
 """
 
-# Each format is imported in the function that uses it. Parsers of XML and JSON take longer to load
-# than the rest of this package, and most programs that import `World` never open a file.
+# Formats are imported in the functions that use them: parsers of XML and JSON load slowly, and most
+# programs open no file.
 
 from __future__ import annotations
 
@@ -33,7 +30,7 @@ _ENDINGS = {
     ".net.xml": "sumo",
     ".nx.json": "nx-json",
 }
-"""The format of a file whose name ends so; of any other it is `json`."""
+"""Format by ending; other names are `json`."""
 
 
 def format_of_name(path: str | PathLike[str]) -> str:
@@ -46,7 +43,7 @@ def load(cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -
     """The world in the file.
 
     Args:
-        graph: which of the graphs in a file of planar_code, counted from 0; default: the only one.
+        graph: index of the graph in a file of planar_code; default: the only one.
     Raises:
         InputError: the file cannot be read, or holds no world.
     """
@@ -76,7 +73,7 @@ def decode(cls: type[W], text: str | bytes) -> W:
 
 
 def encode(world: World) -> str:
-    """World JSON on one line: the same bytes for the same world."""
+    """World JSON on one line, the same bytes for the same world."""
     from topo_verify.world.formats import world_json
 
     return world_json.encode(world)
@@ -86,7 +83,7 @@ def save(world: World, path: str | PathLike[str]) -> None:
     """Write world JSON to the file: all of it or, if anything fails, nothing.
 
     Raises:
-        InputError: the file cannot be written, or would be read in another format by its name.
+        InputError: the file cannot be written, or its name says another format.
     """
     from topo_verify.world.formats import world_json
 
@@ -99,23 +96,22 @@ def save(world: World, path: str | PathLike[str]) -> None:
 
 
 def notebook(world: World) -> str:
-    """The picture of the world as HTML, light or dark as the notebook is."""
+    """The picture as HTML, in the notebook's light or dark theme."""
     from topo_verify.world.drawing import IN_NOTEBOOKS, image
 
     return IN_NOTEBOOKS + image(draw(world), world.name or "a world")
 
 
 def draw(world: World, path: str | PathLike[str] | None = None) -> str:
-    """The picture of the world as SVG; written to the file, too, in the format that it asks for.
+    """The picture of the world as SVG; also written to the file in the format of its name.
 
     Raises:
-        InputError: the file cannot be written, its name has another ending, or what renders it is
-            not installed.
+        InputError: the file cannot be written, its ending is unknown, or the renderer is missing.
     """
     from topo_verify.world.drawing import document, format_of, lay_out, to_svg
     from topo_verify.world.formats import files
 
-    # A name that will not do is refused before the work begins.
+    # refuses a bad name before the work
     kind = None if path is None else format_of(os.fspath(path))
     layout = lay_out(world)
     if kind is not None and path is not None:

@@ -1,8 +1,7 @@
 """The least cost of a proof, a lower bound for every mapper that is right, and a walk of that cost.
 
 A mapper has proved its map only if its closed trips from v0 generate the fundamental group (else
-the fold of its history has an open dart). That holds even for a mapper that was given the map.
-Write d for the distance from v0.
+the fold of its history has an open dart). Write d for the distance from v0.
 
 - The classes of the trips span the cycle space. A closed trip of length at most t uses only edges
   uv with d(u) + 1 + d(v) <= t, so the loops that a breadth-first tree closes with the edges outside
@@ -10,18 +9,15 @@ Write d for the distance from v0.
 - Edges of **pendant trees** (on no tree path from v0 to an end of such an edge) change no class.
   Each is walked there and back: 2·P for P of them.
 - The last trip need not come back: ended at v in a pendant tree attached at a, it saves the depth
-  of v below a, and costs d(a) to get there: s, if that is worth it.
+  of v below a, and costs d(a) to get there: s, if positive.
 
-LB = Σ (d(u) + 1 + d(v)) + 2·P - s. The loops attain it (`proof_tour` makes the walk), so it is the
-optimum with the map in hand; cost / LB is the price of not knowing the map. It does not hold for
-mappers that may assume planarity, n or m.
+LB = Σ (d(u) + 1 + d(v)) + 2·P - s. The walk of `proof_tour` attains it, so it is the optimum with
+the map in hand; cost / LB is the price of not knowing the map. It does not hold for mappers that
+may assume planarity, n or m.
 
-**The walk.** With the map in hand one walks the loops, down the tree, over an edge outside of it,
-and home. Pendant trees are walked when the walk first passes the vertex where they are attached.
-The walk ends in the one that saves most. It is made in the numbering of the canonical code; doors
-count from the dart of arrival, so they are the same in every numbering.
+**The walk** makes each loop and walks pendant trees when it first passes their vertex; it ends in
+the one that saves most. Doors count from the dart of arrival: the same in every numbering.
 
-    tree        the breadth-first tree of the code: each vertex was entered by its first dart
     core        the vertices that the walk passes anyway
     branch      a vertex outside the core whose tree edge must be walked, or one on the way there
 
@@ -40,12 +36,11 @@ if TYPE_CHECKING:
     from topo_verify.world.enumeration.rank_order import Table
 
 
-@dataclass(frozen=True)  # no slots: cached_property needs `__dict__`
+@dataclass(frozen=True)  # cached_property needs `__dict__`
 class BreadthFirstTree:
     """The breadth-first tree of a world from v0, in the numbering of the canonical code.
 
-    The code numbers vertices breadth-first and the darts of each from the one that it was entered
-    by. So the first dart of a vertex leads to its parent, and parents stand before their children.
+    The first dart of a vertex leads to its parent; parents stand before their children.
 
     Args:
         table: degrees and alpha, a canonical code.
@@ -61,7 +56,7 @@ class BreadthFirstTree:
 
     @cached_property
     def first(self) -> tuple[int, ...]:
-        """The first dart of each vertex; it leads to the parent, but for v0."""
+        """The first dart of each vertex."""
         return tuple(accumulate(self.table[0], initial=0))[:-1]
 
     @cached_property
@@ -86,30 +81,30 @@ class BreadthFirstTree:
         return tuple(d for d, other in enumerate(alpha) if d < other and other not in entries)
 
     def climb(self, vertex: int, goals: Container[int] = (0,)) -> Iterator[int]:
-        """The vertices from this one up to the first of the goals, which is left out."""
+        """The vertices from this one up to the first of the goals, excluded."""
         while vertex not in goals:
             yield vertex
             vertex = self.parent[vertex]
 
     def home(self, vertex: int) -> list[int]:
-        """The darts to leave by on the tree path from this vertex to v0."""
+        """The darts of the tree path from this vertex to v0."""
         return [self.first[v] for v in self.climb(vertex)]
 
     def down(self, vertex: int) -> list[int]:
-        """The darts to leave by on the tree path from v0 to this vertex."""
+        """The darts of the tree path from v0 to this vertex."""
         return [self.table[1][dart] for dart in reversed(self.home(vertex))]
 
     def loop(self, chord: int) -> list[int]:
-        """The darts to leave by: from v0 down the tree, over this edge, and home."""
+        """The darts from v0 down the tree, over this edge, and home."""
         end = self.vertex[self.table[1][chord]]
         return [*self.down(self.vertex[chord]), chord, *self.home(end)]
 
     def weight(self, chord: int) -> int:
-        """The length of that loop, in edge traversals."""
+        """The length of that loop."""
         return self.depth[self.vertex[chord]] + 1 + self.depth[self.vertex[self.table[1][chord]]]
 
     def doors(self, darts: Iterable[int], reference: int = 0) -> tuple[int, ...]:
-        """The doors of a walk that leaves by these darts, begun with this reference dart."""
+        """The doors of a walk of these darts, begun at this reference dart."""
         degrees, alpha = self.table
         doors: list[int] = []
         for dart in darts:
@@ -118,11 +113,11 @@ class BreadthFirstTree:
         return tuple(doors)
 
 
-@lru_cache(maxsize=4)  # a run and its row ask for it, of every mapper in a world
+@lru_cache(maxsize=4)  # each mapper in a world asks for it twice
 def least_cost(table: Table) -> int:
     """The least cost LB, in edge traversals, of the world with this canonical code. O(m)."""
     tree = BreadthFirstTree(table)
-    core = {0}  # the vertices on tree paths from v0 to the ends of loops
+    core = {0}  # on tree paths from v0 to the ends of loops
     for chord in tree.chords:
         for dart in (chord, table[1][chord]):
             core.update([*tree.climb(tree.vertex[dart], core)])
@@ -132,10 +127,7 @@ def least_cost(table: Table) -> int:
 
 
 def proof_tour(table: Table) -> tuple[int, ...]:
-    """The doors of a walk of least cost that proves the world with this canonical code.
-
-    Complexity: O(cost).
-    """
+    """The doors of a walk of least cost that proves the world with this canonical code. O(cost)."""
     tree = BreadthFirstTree(table)
     trips = [tree.loop(chord) for chord in tree.chords]
     return tree.doors(covering_walk(tree, trips, range(len(tree.first))))
@@ -144,18 +136,18 @@ def proof_tour(table: Table) -> tuple[int, ...]:
 def covering_walk(
     tree: BreadthFirstTree, trips: Sequence[Sequence[int]], needed: Iterable[int]
 ) -> list[int]:
-    """A walk that makes these trips and walks the tree edges above these vertices.
+    """The darts of a walk that makes these trips and walks the tree edges above these vertices.
 
     Args:
-        trips: the darts to leave by; each trip ends at v0, and all but the first begin there.
-        needed: the vertices whose tree edge must be walked; those on the trips are passed anyway.
-    Returns: the darts to leave by, from where the first trip begins (v0 without a trip). Tree
-    edges off the trips are walked there and back; the last way is not walked back.
+        trips: their darts; each ends at v0, and all but the first begin there.
+        needed: the vertices whose tree edge must be walked.
+    Returns: the darts from where the first trip begins (v0 without a trip). Tree edges off the
+    trips are walked there and back, the last branch only there.
     """
     core = {0, *(tree.vertex[dart] for trip in trips for dart in trip)}
     branches = _branches(tree, core, needed)
     last, _ = _last(tree, core, branches)
-    onward = {*tree.climb(last, core)}  # the way to the last vertex, which is walked at the end
+    onward = {*tree.climb(last, core)}  # walked at the end
     children: dict[int, list[int]] = {}
     for v in branches:
         if v not in onward:
@@ -177,10 +169,9 @@ def _branches(tree: BreadthFirstTree, core: set[int], needed: Iterable[int]) -> 
 
 
 def _last(tree: BreadthFirstTree, core: set[int], branches: Iterable[int]) -> tuple[int, int]:
-    """The vertex at which a walk ends best, and the moves saved: a branch, or v0 and 0.
+    """The branch at which a walk ends best (v0 if none saves moves), and the moves saved.
 
-    Ended at a vertex v whose branch is attached at a, the walk saves the way from v back to a, and
-    costs the way from v0 to a.
+    Ended at v, attached at a, the walk saves the way from v to a, and costs that from v0 to a.
     """
     attached: dict[int, int] = {}  # of each branch: the depth of the core vertex above it
     best, saved = 0, 0
@@ -195,7 +186,7 @@ def _last(tree: BreadthFirstTree, core: set[int], branches: Iterable[int]) -> tu
 def _there_and_back(
     tree: BreadthFirstTree, children: dict[int, list[int]], vertex: int
 ) -> list[int]:
-    """The walk around all branches at this vertex; they are then done, and leave `children`."""
+    """The walk around all branches at this vertex, which it removes from `children`."""
     walk: list[int] = []
     todo = [(child, False) for child in reversed(children.pop(vertex, ()))]
     while todo:

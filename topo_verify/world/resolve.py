@@ -3,15 +3,12 @@
 | text | world |
 | --- | --- |
 | `-` | world JSON from standard input |
-| `nyc` | the street network that comes with the package |
+| `nyc` | the street network of the package |
 | `m5/17` | the world of that id |
-| `family:lattice(10,10,holes=0.2,seed=7)` | the world of that family; arguments are numbers |
-| anything else | the world in the file at that path; its ending says its format (io.py) |
+| `family:lattice(10,10,holes=0.2,seed=7)` | the world of that family |
+| anything else | the world in that file |
 
-The first row that fits counts. A file whose name fits an earlier row is named with `./` before it.
-**Calls**, as `lattice(10, 10, holes=0.2)`, are parsed and never run as Python. A call is a name
-with literal arguments, by position or by name: numbers, for families of worlds; for strategies also
-`True`, `False`, `None` and quoted words.
+The first row that fits counts. **Calls** have literal arguments and are never run as Python.
 
 Source: docs/semantics.md, section 16.
 """
@@ -38,7 +35,7 @@ T = TypeVar("T")
 Argument = int | float | str | bool | None
 
 MAX_LENGTH = 200
-"""Characters in a call: more than any needs, too few to nest deeply or to hold a long number."""
+"""Characters in a call, against deep nesting and long numbers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,8 +45,8 @@ class CallSyntax:
     Attributes:
         kind: "family of worlds", say.
         before: what stands before the call on a command line.
-        example: a whole text that is right.
-        words: may arguments be words and truth values, too?
+        example: a complete valid text.
+        words: may arguments be quoted words, True, False and None, too?
     """
 
     kind: str
@@ -61,15 +58,14 @@ class CallSyntax:
 def call(
     text: str, known: Mapping[str, Callable[..., T]], syntax: CallSyntax, *, bare: bool = False
 ) -> T:
-    """What the call returns.
+    """The result of the call.
 
     Args:
-        text: the call itself, without what stands before it.
-        known: what may be called.
+        text: without what stands before the call.
+        known: the functions by name.
         bare: a name alone is a call without arguments.
     Raises:
-        InputError: the name is unknown or the arguments do not fit; also whatever is raised by the
-            function that is called.
+        InputError: unknown name or unfit arguments; also whatever the function raises.
     """
     name = text.partition("(")[0]
     if name not in known:
@@ -85,14 +81,14 @@ def call(
         bound = signature.bind(*positional, **named)
     except TypeError as error:
         parameters = ", ".join(
-            parameter if one.default is one.empty else f"{parameter}={one.default}"
-            for parameter, one in signature.parameters.items()
+            key if parameter.default is parameter.empty else f"{key}={parameter.default}"
+            for key, parameter in signature.parameters.items()
         )
         raise InputError(
             f"'{shown(syntax.before + text, limit=60)}': {shown(str(error))};"
             f" the {syntax.kind.split()[0]} is {name}({parameters})"
         ) from error
-    # Not inside the `try`: a TypeError from here is a defect of the function, not of the text.
+    # outside the `try`: a TypeError from here is a defect of the function
     return known[name](*bound.args, **bound.kwargs)
 
 
@@ -102,17 +98,17 @@ def _arguments(text: str, syntax: CallSyntax) -> tuple[list[Argument], dict[str,
         raise TypeError(f"expected at most {MAX_LENGTH} characters, got {len(text)}")
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # Python's on sloppy literals: one message is enough
+            warnings.simplefilter("ignore")  # the InputError is enough
             parsed = ast.parse(text, mode="eval").body
     except SyntaxError as error:
         raise TypeError(error.msg) from error
-    except (ValueError, RecursionError, MemoryError) as error:  # the others that ast.parse raises
+    except (ValueError, RecursionError, MemoryError) as error:
         raise TypeError("expected a call without nested brackets or control characters") from error
     if not isinstance(parsed, ast.Call) or not isinstance(parsed.func, ast.Name):
         raise TypeError("expected one call, with its arguments in brackets")
     named: dict[str, Argument] = {}
     for word in parsed.keywords:
-        # `**x` has no name. Python refuses a name given twice only when it compiles, after parsing.
+        # `**x` has no name; Python finds repeated names only when it compiles
         if word.arg is None or word.arg in named:
             given = ast.get_source_segment(text, word)
             raise TypeError(f"expected name=value and each name once, got '{given}'")
@@ -125,15 +121,13 @@ def _literal(node: ast.expr, text: str, syntax: CallSyntax) -> Argument:
     try:
         value = ast.literal_eval(node)
     except (ValueError, RecursionError):
-        value = ...  # an Ellipsis is a literal, too, and never allowed
-    # Not isinstance: True would be an int.
+        value = ...  # never allowed
+    # isinstance would take True for an int
     if type(value) not in allowed:
         expected = "a literal" if syntax.words else "a number"
         raise TypeError(f"expected {expected}, got '{ast.get_source_segment(text, node)}'")
     return cast("Argument", value)
 
-
-# ---------------------------------------------------------------- worlds
 
 _ID = re.compile(r"m[0-9]+/[0-9]+")
 _FAMILY = CallSyntax("family of worlds", "family:", "family:lattice(3,4,seed=7)")
@@ -170,5 +164,5 @@ def resolve_world(text: str, *, stdin: IO[bytes] | None = None) -> World:
 def _exists(path: str) -> bool:
     try:
         return bool(path) and Path(path).exists()
-    except (OSError, ValueError):  # a folder without permission; a name that no file can have
+    except (OSError, ValueError):  # no permission; not a file name
         return False

@@ -4,15 +4,14 @@ The embedding is a combinatorial map (rotation system). Every edge is two **dart
 end; `alpha` exchanges the two darts of an edge, `sigma` turns a dart to the next exit of its
 vertex. The cycles of `sigma` are the vertices, those of `sigma∘alpha` (cross, then turn) the faces.
 The marker lies at a vertex and points at one of its darts, the `root`. A map with a root is a
-**rooted map**. It has no automorphism but the identity: that is why numbering its darts
-breadth-first from the root gives a canonical code, and why two worlds are isomorphic exactly if
-their codes are equal.
+**rooted map**. Its only automorphism is the identity. So numbering its darts breadth-first from the
+root gives a canonical code: two worlds are isomorphic iff their codes are equal.
 
-Orientation, stated once and for all: `sigma(d)` is the next exit **clockwise** after `d`, seen from
-above: the order in which the robot enumerates exits. Mirror images are different worlds.
+Orientation: `sigma(d)` is the next exit **clockwise** after `d`, seen from above, as the robot
+enumerates exits. Mirror images are different worlds.
 
-Source: docs/semantics.md, section 1. Rotation systems: S. K. Lando and A. K. Zvonkin, "Graphs
-on Surfaces and Their Applications" (2004), chapter 1.
+Source: docs/semantics.md, section 1; S. K. Lando and A. K. Zvonkin, "Graphs on Surfaces and Their
+Applications" (2004), chapter 1.
 """
 
 from __future__ import annotations
@@ -32,15 +31,13 @@ from topo_verify.world.permutations import cycles
 W = TypeVar("W", bound="World")
 
 Dart = int
-"""One of the numbers 0 … 2m-1; an edge is two of them."""
+"""One of the numbers 0 … 2m-1."""
 
 Code = tuple[tuple[int, ...], tuple[Dart, ...]]
-"""Degrees and `alpha` in the breadth-first numbering from the root: equal iff isomorphic."""
+"""Degrees and `alpha` in the breadth-first numbering from the root."""
 
 
 class _Formats(Protocol):
-    """What reads and writes worlds: `io.py`. `World` calls it and knows no file format."""
-
     def load(self, cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -> W: ...
     def decode(self, cls: type[W], text: str | bytes) -> W: ...
     def encode(self, world: World) -> str: ...
@@ -49,27 +46,24 @@ class _Formats(Protocol):
     def twin(self, world: World, model: Literal["undirected", "none"]) -> World | None: ...
 
 
-@dataclass(frozen=True, eq=False, repr=False)  # no slots: cached_property needs `__dict__`
+@dataclass(frozen=True, eq=False, repr=False)  # cached_property needs `__dict__`
 class World:
-    """An immutable, validated, hashable world. Two worlds are equal iff alpha, sigma, root are.
+    """An immutable, validated, hashable world. Equal iff alpha, sigma and root are.
 
     Args:
-        alpha: the other dart of each dart's edge; an involution without fixed point on 0 … 2m-1.
+        alpha: the other dart of each edge; an involution without fixed point on 0 … 2m-1.
         sigma: the next dart clockwise at the same vertex; a permutation.
-        root: the dart that the marker points at; None only where there is no dart (m = 0: one
-            vertex with nothing to point at).
-        starts: the first dart of each vertex, if their order matters (files keep it); default: the
-            least dart of each, ascending.
-        name, vertex_names, positions, source, licence: carried along, not compared. Positions are
-            (x, y) per vertex with y upwards.
+        root: the dart that the marker points at; None iff m = 0 (one vertex).
+        starts: the first dart of each vertex, in their order; default: the least darts, ascending.
+        name, vertex_names, positions, source, licence: not compared. Positions are (x, y) per
+            vertex with y upwards.
     Raises:
-        InputError: alpha is not an involution without fixed point, sigma is not a permutation, the
-            map is not connected, or the marker is out of range; the sentence names the dart.
+        InputError: the arguments do not make one connected map with a marker; names the dart.
     Complexity: O(m).
     """
 
-    # Set by the package (`world/__init__.py`), which runs before anyone can import this class. An
-    # import of io.py here would close a circle, because every format makes worlds.
+    # Set in `world/__init__.py`: an import of io.py here would close a circle, because every format
+    # makes worlds.
     formats: ClassVar[_Formats]
 
     alpha: tuple[Dart, ...]
@@ -92,8 +86,6 @@ class World:
             )
         validation.require_one_each(len(self.vertices), self.vertex_names, self.positions)
 
-    # ------------------------------------------------------------ constructors, files
-
     @classmethod
     def from_rotations(
         cls,
@@ -102,10 +94,9 @@ class World:
         marker: int | None,
         **about: Any,
     ) -> Self:
-        """The world given as in a world file: rotations, pairs of darts and the marked dart.
+        """The world from rotations, pairs of darts and the marked dart, as a world file has them.
 
-        Darts may be any distinct integers; they are renumbered 0 … 2m-1 in ascending order (so they
-        keep their numbers if they are 0 … 2m-1). The order of the vertices is kept.
+        Darts may be any distinct integers; they are renumbered in ascending order.
 
         Args:
             vertices: the darts of each vertex in clockwise order.
@@ -113,7 +104,7 @@ class World:
             marker: a dart, or None where there is none.
             about: name, vertex_names, positions, source, licence.
         Raises:
-            InputError: naming the dart or vertex and what is wrong with it.
+            InputError: names the dart or vertex and what is wrong with it.
         """
         rotations = [tuple(rotation) for rotation in vertices]
         pairs = [tuple(edge) for edge in edges]
@@ -135,10 +126,10 @@ class World:
 
     @classmethod
     def from_map(cls, map_like: object) -> Self:
-        """The world that a map describes: `vertices`, `edges`, `marker` as attributes or as keys.
+        """The world of a map with `vertices`, `edges`, `marker` as attributes or keys.
 
         Raises:
-            InputError: one of the three is missing or malformed, or they do not make a world.
+            InputError: they are missing, malformed, or make no world.
         """
         return cls.from_rotations(*validation.map_parts(map_like))
 
@@ -163,45 +154,43 @@ class World:
 
     @classmethod
     def load(cls, path: str | PathLike[str], *, graph: int | None = None) -> Self:
-        """The world in a file: .json, .pc, .plc, .graphml, .net.xml, .nx.json (`io.py`).
+        """The world in a file of any format of `io.py`.
 
         Args:
-            graph: which of several graphs in a file of planar_code, counted from 0.
+            graph: index of the graph in a file of planar_code.
         Raises:
-            InputError: the file cannot be read, or holds no world; the sentence says where and why.
+            InputError: the file cannot be read, or holds no world.
         """
         return cls.formats.load(cls, path, graph=graph)
 
     @classmethod
     def from_json(cls, text: str | bytes) -> Self:
-        """The world in this world JSON; the inverse of `to_json`. Raises InputError as `load`."""
+        """The world in this world JSON. Raises InputError as `load`."""
         return cls.formats.decode(cls, text)
 
     def to_json(self) -> str:
-        """World JSON, one line, the same bytes for the same world."""
+        """World JSON on one line, the same bytes for the same world."""
         return self.formats.encode(self)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write world JSON. The file is replaced at once or, if anything fails, not at all."""
+        """Write world JSON: the whole file or, if anything fails, nothing."""
         self.formats.save(self, path)
-
-    # ------------------------------------------------------------ structure
 
     @cached_property
     def vertices(self) -> tuple[tuple[Dart, ...], ...]:
-        """The darts of each vertex in clockwise order. One empty vertex where there is no dart."""
+        """The darts of each vertex, clockwise; if there is none, one empty vertex."""
         if not self.alpha:
             return ((),)
         return cycles(self.sigma, self.starts)
 
     @cached_property
     def edges(self) -> tuple[tuple[Dart, Dart], ...]:
-        """The two darts of each edge, lesser first, in ascending order."""
+        """The two darts of each edge, lesser first, ascending."""
         return tuple((dart, other) for dart, other in enumerate(self.alpha) if dart < other)
 
     @property
     def marker(self) -> Dart | None:
-        """The dart that the marker points at: another name of `root`, used in world files."""
+        """`root`, as world files call it."""
         return self.root
 
     @cached_property
@@ -215,7 +204,7 @@ class World:
 
     @cached_property
     def place_of(self) -> tuple[int, ...]:
-        """The place of each dart in the rotation of its vertex, from 0."""
+        """The place of each dart in its rotation, from 0."""
         row = [0] * len(self.alpha)
         for rotation in self.vertices:
             for place, dart in enumerate(rotation):
@@ -229,12 +218,12 @@ class World:
 
     @cached_property
     def degrees(self) -> tuple[int, ...]:
-        """The degree of each vertex, in the order of `vertices`."""
+        """The degree of each vertex."""
         return tuple(map(len, self.vertices))
 
     @cached_property
     def faces(self) -> tuple[tuple[Dart, ...], ...]:
-        """The cycles of sigma∘alpha. One empty face where there is no dart (the sphere)."""
+        """The cycles of sigma∘alpha; if there is no dart, one empty face."""
         if not self.alpha:
             return ((),)
         return cycles(tuple(self.sigma[other] for other in self.alpha))
@@ -246,46 +235,44 @@ class World:
 
     @property
     def is_planar(self) -> bool:
-        """Is the surface a sphere? The same graph may have embeddings in other surfaces."""
+        """Whether the surface is a sphere."""
         return self.genus == 0
 
     @cached_property
     def is_loopless(self) -> bool:
-        """Has no edge both its darts at one vertex?"""
+        """Whether every edge has two vertices."""
         return all(self.vertex_of[a] != self.vertex_of[b] for a, b in self.edges)
 
     @cached_property
     def is_simple(self) -> bool:
-        """Neither loops nor parallel edges?"""
+        """Whether there are neither loops nor parallel edges."""
         ends = {frozenset((self.vertex_of[a], self.vertex_of[b])) for a, b in self.edges}
         return self.is_loopless and len(ends) == len(self.edges)
 
     @property
     def cost_bound(self) -> int:
-        """The most edge traversals that a run may cost: m·(n + (2m-1)·2(n-1)); m where n = 1."""
+        """The most edge traversals that a run may cost: m·(n + (2m-1)·2(n-1)); m if n = 1."""
         m, n = len(self.edges), len(self.vertices)
         return m if n == 1 else m * (n + (2 * m - 1) * 2 * (n - 1))
 
     def least_cost(self) -> int:
-        """The fewest edge traversals of a mapper that is right in all worlds: `least_cost.py`."""
+        """The fewest edge traversals that prove this map: `least_cost.py`."""
         return least_cost(self.code)
 
     def proof_tour(self) -> tuple[int, ...]:
-        """The doors of a cheapest walk from the marker that proves this map: `least_cost.py`."""
+        """The doors of a cheapest walk from the marker that proves this map."""
         return proof_tour(self.code)
-
-    # ------------------------------------------------------------ identity
 
     @cached_property
     def _discovery(self) -> tuple[tuple[Dart, ...], tuple[int, ...]]:
-        """Darts in breadth-first order from the root, and the degrees of the vertices as met."""
+        """Darts in breadth-first order from the root, and the degrees of the vertices met."""
         if self.root is None:
             return (), (0,)
         order: list[Dart] = []
         degrees: list[int] = []
         known = [False] * len(self.alpha)
         entries = [self.root]
-        for entry in entries:  # grows as it goes: a queue
+        for entry in entries:  # a growing queue
             if known[entry]:
                 continue
             first, dart = len(order), entry
@@ -306,40 +293,40 @@ class World:
 
     @cached_property
     def id(self) -> str:
-        """`m<edges>/<rank>`: names the world up to isomorphism; `from_id` brings it back.
+        """`m<edges>/<rank>`, the name of the world up to isomorphism.
 
         Raises:
-            InputError: more than 200 edges: too large for an id; save the world to a file.
+            InputError: more than 200 edges.
         """
         rank_order.require_id_edges(len(self.edges))
         return f"m{len(self.edges)}/{rank_order.rank(self.code)}"
 
     @classmethod
     def from_text(cls, text: str) -> Self:
-        """The world that this `text` names: an id, or world JSON."""
+        """The world of this `text`."""
         return cls.from_json(text) if text.startswith("{") else cls.from_id(text)
 
     @property
     def text(self) -> str:
-        """The shortest text that names it: its id; its JSON where it is too large for an id."""
+        """The id; the JSON of a world too large for one."""
         small = len(self.edges) <= rank_order.MAX_ID_EDGES
         return self.id if small else self.to_json()
 
     def is_isomorphic(self, other: World) -> bool:
-        """Is there a bijection of darts that keeps alpha, sigma and the root?"""
+        """Whether a bijection of darts keeps alpha, sigma and the root."""
         return self.code == other.code
 
     def mirror(self) -> Self:
-        """The same world seen from the other side: every rotation reversed. It has no name."""
+        """The world with every rotation reversed, unnamed."""
         back = [0] * len(self.sigma)
         for dart, after in enumerate(self.sigma):
             back[after] = dart
-        # Reflected in the y axis, so that the drawing stays clockwise as the rotations are.
+        # reflected in the y axis: the drawing stays clockwise
         flipped = tuple((-x, y) for x, y in self.positions)
         return replace(self, sigma=tuple(back), positions=flipped, name="")
 
     def with_marker(self, root: Dart) -> Self:
-        """The same map with the marker at another dart. It has no name: it is another world.
+        """The same map with the marker at another dart, unnamed.
 
         Raises:
             InputError: there is no such dart.
@@ -347,7 +334,7 @@ class World:
         return replace(self, root=root, name="")
 
     def renumbered(self, numbers: Sequence[Dart]) -> Self:
-        """The same world with dart d called numbers[d] (a permutation of 0 … 2m-1)."""
+        """The same world with dart d called numbers[d], a permutation."""
         alpha, sigma = [0] * len(self.alpha), [0] * len(self.sigma)
         for dart, number in enumerate(numbers):
             alpha[number] = numbers[self.alpha[dart]]
@@ -379,7 +366,7 @@ class World:
         return f"<World {self.name!r}: {size}>"
 
     def draw(self, path: str | PathLike[str] | None = None) -> str:
-        """A picture as SVG, in which the order of the darts at every vertex is the true one.
+        """A picture as SVG, with the true order of the darts at every vertex.
 
         Args:
             path: also write it to this file: .svg, .png, .pdf or .html.

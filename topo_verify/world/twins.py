@@ -1,24 +1,20 @@
 """Twins: two different worlds that look the same to every robot without the marker's direction.
 
-A robot whose marker shows no direction senses at a dart the degree, and whether the marker is here
-(`undirected`); without a marker the degree alone (`none`). Two darts are **alike** if no walk from
-them senses a difference. The alike darts of a world are found by refining a partition: split by
-what is sensed, then by the classes of the next dart and of the other end, until nothing changes.
+Such a robot senses at a dart the degree, and whether the marker is here (`undirected`); without a
+marker the degree alone (`none`). Two darts are **alike** if no walk from them senses a difference;
+partition refinement finds them.
 
-**Making a twin.** Exchange the far ends of two edges whose darts are alike. Each dart is still
-alike to itself, so nothing that a robot senses has changed. If the world stays connected and is not
-isomorphic to what it was, it is a twin. One of another genus is preferred, for two worlds may also
-differ by their marked darts alone. Without a marker, two copies of the world, joined crosswise at
-an edge on a cycle, are a twin with twice the edges.
+**Making a twin.** Exchange the far ends of two edges whose darts are alike: a robot senses the
+same. If the world stays connected and is not isomorphic to the original, it is a twin. One of
+another genus is preferred, for two worlds may differ by their marked darts alone. Without a marker,
+two copies of the world, joined crosswise at an edge on a cycle, are a twin.
 
 **When there is none.** With the mark, worlds that look like W are coverings of its quotient by
-alike darts, with as many sheets N as W has, because the mark lies on one vertex. There is one of
-them alone if N = 1 (no two darts alike), if W has at most one cycle, or if N = 2 and the quotient
-has no cycle. In every world with up to 6 edges these are all cases, and one exchange makes a twin
-wherever none of them holds (`benchmarks/twins.py`). Neither is proved for larger worlds, where the
-answer may be that no exchange makes one. Without a marker a world is determined iff it is a tree.
-
-With the direction seen no world has a twin: no two darts are alike, since one alone is marked.
+alike darts, with the N sheets that W has, because the mark lies on one vertex. Only one exists
+if N = 1 (no two darts alike), if W has at most one cycle, or if N = 2 and the quotient has no
+cycle. In every world with up to 6 edges these are all cases, and otherwise one exchange makes a
+twin (`benchmarks/twins.py`). Neither is proved for larger worlds. Without a marker a world is
+determined iff it is a tree.
 """
 
 from __future__ import annotations
@@ -32,12 +28,12 @@ from topo_verify.world.permutations import cycles
 from topo_verify.world.rooted_map import Dart, World
 
 MarkerModel = Literal["undirected", "none"]
-"""What of the marker is sensed: where it lies but not its direction, or nothing."""
+"""What is sensed of the marker: its place, or nothing."""
 
 MODELS: tuple[MarkerModel, ...] = get_args(MarkerModel)
 
 MOST_TRIED = 500
-"""Most twins among which one of another genus is looked for."""
+"""Limit of the search for a twin of another genus."""
 
 
 def find_twin(world: World, model: MarkerModel) -> tuple[World | None, str]:
@@ -50,8 +46,8 @@ def find_twin(world: World, model: MarkerModel) -> tuple[World | None, str]:
         raise InputError(f"expected one of {', '.join(MODELS)}, got {model!r}")
     if why := no_twin(world, model):
         return None, why
-    made = _exchanged(world) if model == "undirected" else _doubled(world)
-    others = (other for other in made if not world.is_isomorphic(other))
+    candidates = _exchanged(world) if model == "undirected" else _doubled(world)
+    others = (other for other in candidates if not world.is_isomorphic(other))
     twin = next(others, None)
     if twin is None:
         return None, "no exchange of two edges makes one"
@@ -91,17 +87,17 @@ def alike_darts(world: World, model: MarkerModel) -> list[int]:
 
 
 def sensed(world: World, model: MarkerModel) -> list[tuple[int, bool]]:
-    """What is sensed at each dart: the degree, and whether the marker is here."""
+    """The degree at each dart, and whether the marker is sensed there."""
     marked = world.marker_vertex if model == "undirected" else None
     return [(world.degrees[v], v == marked) for v in world.vertex_of]
 
 
 def look_alike(world: World, other: World, model: MarkerModel) -> bool:
-    """Whether every walk senses the same in both worlds: they are walked side by side."""
+    """Whether every walk senses the same in both worlds."""
     here, there = sensed(world, model), sensed(other, model)
     pairs = [(world.root or 0, other.root or 0)]
     known = set(pairs)
-    for a, b in pairs:  # grows as it goes
+    for a, b in pairs:  # grows
         if here[a] != there[b]:
             return False
         for end in (
@@ -128,7 +124,7 @@ def _has_cycle(world: World, classes: Sequence[int]) -> bool:
 
 
 def _joined(alpha: list[Dart], pairs: Iterable[tuple[Dart, Dart]], world: World) -> World | None:
-    """The world with these pairs of darts as edges; None if it is not connected any more."""
+    """The world with these pairs of darts as edges; None if it is disconnected."""
     for a, b in pairs:
         alpha[a], alpha[b] = b, a
     copies = len(alpha) // len(world.alpha)

@@ -1,17 +1,15 @@
 """The number of worlds without their marker: maps up to isomorphism that keeps the orientation.
 
-A rooted map is counted once for each dart that looks different, so there are fewer unrooted ones.
-They are the pairs (alpha, sigma) on 2m darts, connected, up to renumbering. By Burnside's lemma all
-pairs, connected or not, are counted by the sum over the permutations g of the darts, one of each
-cycle type, of the fixed-point-free involutions that commute with g (times the sigma that commute
-with g, divided by the order of its centraliser, which are equal). On j cycles of length k such an
-involution pairs some cycles, k ways each, and turns each of the others by half, if k is even:
+They are the connected pairs (alpha, sigma) on 2m darts, up to renumbering. By Burnside's lemma all
+pairs are counted by the sum over the permutations g of the darts, one of each cycle type, of the
+fixed-point-free involutions that commute with g (times the sigma that commute with g, divided by
+the order of its centraliser, which are equal). On j cycles of length k such an involution pairs
+some cycles, k ways each, and turns each of the others by half, if k is even:
 
     c(k, j) = sum over i of  j! / (i! 2^i (j - 2i)!) * k^i * [k is even or j = 2i]
 
-The generating function is a product over k; the inverse Euler transform leaves the connected pairs.
-
-Other classes than `any` have no such formula here: their worlds are listed, each with its markers.
+The generating function is a product over k; the inverse Euler transform keeps the connected pairs.
+Worlds of classes other than `any` are listed.
 """
 
 from __future__ import annotations
@@ -27,7 +25,7 @@ SIZES = (20, 60, 200)
 """The formula is evaluated for all sizes up to one of these at once."""
 
 MOST_LISTED = 1000
-"""Most worlds of another class that are listed."""
+"""The limit of worlds of another class that are listed."""
 
 
 def unrooted_count(edges: int, kind: WorldClass) -> int | None:
@@ -40,7 +38,7 @@ def unrooted_count(edges: int, kind: WorldClass) -> int | None:
     try:
         if kind.count(edges) > MOST_LISTED:
             return None
-    except InputError:  # too many to be counted
+    except InputError:
         return None
     listed = worlds(edges, cls=str(kind))
     return len({min(w.with_marker(d).code for d in range(2 * edges)) for w in listed})
@@ -50,7 +48,7 @@ def unrooted_count(edges: int, kind: WorldClass) -> int | None:
 def _connected(most: int) -> list[int]:
     """The connected pairs with 0 … `most` edges: the inverse Euler transform of all pairs."""
     pairs = _pairs(most)
-    sums = [0] * (most + 1)  # of each n: the sum over its divisors d of d times the connected
+    sums = [0] * (most + 1)  # for each n: Σ d·connected[d] over its divisors d
     connected = [0] * (most + 1)
     for n in range(1, most + 1):
         sums[n] = n * pairs[n] - sum(sums[k] * pairs[n - k] for k in range(1, n))

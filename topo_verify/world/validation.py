@@ -1,7 +1,7 @@
-"""Checks that rotations, edges and a marker make a world, and refuses what does not.
+"""Refuses rotations, edges and markers that do not make a world.
 
-Each refusal is an `InputError` that names the dart. Nothing is repaired and nothing is guessed,
-because a world that differs from what its writer meant makes every result about it worthless.
+An `InputError` names the dart. Nothing is repaired: results about another world than the one meant
+are worthless.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int |
             f"the marker points at dart {root}, which is out of range:"
             f" name one of the darts 0 … {darts - 1}"
         )
-    # Ranges first: the checks after these use images as indices.
+    # ranges first: later checks use images as indices
     for name, row in (("alpha", alpha), ("sigma", sigma)):
         for dart, image in enumerate(row):
             if not 0 <= image < darts:
@@ -53,8 +53,8 @@ def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int |
                 f"alpha is not an involution: alpha[{dart}] = {other}, but"
                 f" alpha[{other}] = {alpha[other]}; let the two darts of an edge name each other"
             )
-    if len(set(sigma)) != darts:  # all images are in range, so one dart is the image of two
-        # Reversed: of two darts with one image, the lower is written last and stays.
+    if len(set(sigma)) != darts:  # so one dart is the image of two
+        # reversed, so that the lower of two darts with one image stays
         first = {image: dart for dart, image in reversed(list(enumerate(sigma)))}
         second = min(dart for dart, image in enumerate(sigma) if first[image] != dart)
         raise InputError(
@@ -66,11 +66,11 @@ def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int |
 def require_one_each(
     vertices: int, names: Sequence[str], positions: Sequence[Sequence[float]]
 ) -> None:
-    """Refuse names or positions unless there is one a vertex, or none; positions are finite."""
-    for what, row in (("vertex_names", names), ("positions", positions)):
+    """Refuse names or positions of a wrong number, and positions that are not finite."""
+    for name, row in (("vertex_names", names), ("positions", positions)):
         if row and len(row) != vertices:
             raise InputError(
-                f"{what} has {len(row)} entries for {vertices} vertices:"
+                f"{name} has {len(row)} entries for {vertices} vertices:"
                 " give one a vertex, in the order of the vertices, or leave it out"
             )
     for vertex, position in enumerate(positions):
@@ -136,7 +136,7 @@ def require_marker(marker: int | None, darts: Container[int]) -> None:
 
 
 def map_parts(map_like: object) -> tuple[list[list[int]], list[list[int]], int | None]:
-    """The vertices, edges and marker of any object that has them, as attributes or as keys."""
+    """The vertices, edges and marker of an object that has them as attributes or as keys."""
     vertices, edges, marker = (_part(map_like, name) for name in ("vertices", "edges", "marker"))
     dart = None if marker is None else _integer(marker)
     if marker is not None and dart is None:
@@ -148,7 +148,7 @@ def map_parts(map_like: object) -> tuple[list[list[int]], list[list[int]], int |
 
 
 def optional_part(map_like: object, name: str, default: Any = None) -> Any:
-    """A map's attribute or key of this name; the default if it has neither."""
+    """A map's attribute or key of this name, or the default."""
     if isinstance(map_like, Mapping):
         return cast("Mapping[str, Any]", map_like).get(name, default)
     return getattr(map_like, name, default)
@@ -170,22 +170,22 @@ def _part(map_like: object, name: str) -> Any:
 def _rows(name: str, value: object) -> list[list[int]]:
     given = _items(value)
     if given is None:
-        seen = type(value).__name__
+        got = type(value).__name__
         raise InputError(
-            f"expected a list of lists of darts as the map's {name!r}, got a {seen}: give one list"
+            f"expected a list of lists of darts as the map's {name!r}, got a {got}: give one list"
             f" of darts {'a vertex' if name == 'vertices' else 'an edge'}"
         )
     rows: list[list[int]] = []
     kinds = [type(row).__name__ for row in given]
     for place, row in enumerate(given):
-        # A set has no order, and the order is the rotation. An edge may be a set of two darts.
+        # A set has no order, which a rotation needs and an edge does not.
         items = None if name == "vertices" and isinstance(row, AbstractSet) else _items(row)
         darts = [dart for item in items or () if (dart := _integer(item)) is not None]
         if items is None or len(darts) < len(items):
-            seen = f"a {kinds[place]}" if items is None else "one with something else in it"
+            got = f"a {kinds[place]}" if items is None else "one with something else in it"
             raise InputError(
                 f"expected a list of darts (integers of at most 64 bits) as the map's"
-                f" {name}[{place}], got {seen}: give their numbers"
+                f" {name}[{place}], got {got}: give their numbers"
             )
         rows.append(darts)
     return rows
@@ -193,20 +193,20 @@ def _rows(name: str, value: object) -> list[list[int]]:
 
 def _items(value: object) -> list[Any] | None:
     """The items of a list or another sized collection; None for anything else."""
-    if isinstance(value, (tuple, list)):  # nearly always
+    if isinstance(value, (tuple, list)):  # the usual case, quickly
         return list(cast("Iterable[Any]", value))
     if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Sized):
         return None
-    with suppress(TypeError):  # an array without a dimension has a length and no items
+    with suppress(TypeError):  # a 0-dimensional array has a length and no items
         return list(cast("Iterable[Any]", value))
     return None
 
 
 def _integer(value: object) -> int | None:
-    """The value as an int; None if it is not an integer, or longer than a message could show."""
-    if type(value) is int:  # nearly always, and no bool
+    """The value as an int; None if it is no integer of at most 64 bits."""
+    if type(value) is int:  # the usual case, and no bool
         return value if value.bit_length() <= 64 else None
-    if isinstance(value, bool) or not hasattr(value, "__index__"):  # quick, unlike SupportsIndex
+    if isinstance(value, bool) or not hasattr(value, "__index__"):  # quicker than SupportsIndex
         return None
     with suppress(TypeError):  # an array of one float has `__index__` and refuses
         number = index(cast("SupportsIndex", value))

@@ -1,7 +1,6 @@
 """Pictures of worlds: the cyclic order of the edges at every vertex is the true one.
 
-`lay_out` finds where everything lies, `to_svg` draws it, and `read_back` reads the finished picture
-and compares it with the world. This room is imported late: it loads numpy.
+Imported late: it loads numpy.
 """
 
 from topo_verify.world.drawing.choice import lay_out
@@ -9,18 +8,18 @@ from topo_verify.world.drawing.export import FORMATS, IN_NOTEBOOKS, document, fo
 from topo_verify.world.drawing.layout import Bridge, Layout
 from topo_verify.world.drawing.svg import to_svg
 
-# choice.py     chooses how a world is drawn, and tries again until the picture is true; balls
-# layout.py     Layout: where vertices, edges and bridges lie; sketches fitted to it
-# straight.py   straight edges: the positions of the world's file, trees; springs spread them evenly
-# cells.py      surfaces cut open: regular maps of the torus, worlds with one face as a 4g-gon
-# planar.py     any world as a plane map with bridges: a mesh over it, packed and polished
-# plane_map.py  edges that do not fit cross others in dummies; the mesh over such a map
-# svg.py        a layout as SVG, in colours for light and dark, with the numbers of darts
+# choice.py     how a world is drawn; tries until the picture is true; balls
+# layout.py     Layout: where everything lies; fits sketches
+# straight.py   straight edges: given positions, trees; springs
+# cells.py      surfaces cut open: regular tori, worlds with one face
+# planar.py     any world as a plane map with bridges, polished
+# plane_map.py  plane maps with dummies for crossings, and their meshes
+# svg.py        a layout as SVG
 # heat.py       a world coloured by a cost for each dart
-# export.py     the picture as a file: SVG, PNG, PDF or HTML
-# curves.py     SVG path data: made and flattened, and where it crosses
+# export.py     files: SVG, PNG, PDF or HTML
+# curves.py     SVG path data and crossings
 # arrays.py     names for arrays, sparse linear equations
-# read_back.py  reads a finished SVG and says what in it is untrue
+# read_back.py  compares a finished SVG with the world
 
 __all__ = [
     "FORMATS",

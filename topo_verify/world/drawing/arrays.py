@@ -1,8 +1,4 @@
-"""Names for the arrays of this room, and sparse linear equations.
-
-The equations are solved by SuperLU as SciPy ships it, or dense while they are few. Loading SciPy
-takes longer than drawing a small world does, so that is left to large ones.
-"""
+"""Names for arrays, and sparse linear equations, solved by SciPy's SuperLU or, if few, by NumPy."""
 
 from __future__ import annotations
 
@@ -16,18 +12,15 @@ Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
 
-# ---------------------------------------------------------------- sparse linear equations
-
-# SciPy has no types.
 # pyright: reportMissingTypeStubs=false
 
 
 FEW = 100
-"""Up to this number NumPy solves equations faster, on one thread."""
+"""Up to this number NumPy is faster, also because SciPy loads slowly."""
 
 
 def solve(rows: Ints, columns: Ints, values: Floats, right: Floats) -> Floats:
-    """The solution of the symmetric positive definite equations; entries given twice are added."""
+    """The solution of the symmetric positive definite equations; repeated entries add up."""
     size = len(right)
     if size <= FEW:
         dense = np.bincount(rows * size + columns, values, size * size).reshape(size, size)

@@ -1,18 +1,15 @@
 """Surfaces cut open, without crossings: what leaves on one side comes back on its partner.
 
-**A regular map of the torus** is a flat periodic cell.
-The torus is the plane divided by a lattice: each dart gets a whole translation, so that the sum
-around every face is zero, and each vertex comes to lie in the middle of its neighbours (Tutte's
-drawing, on a torus: S. Gortler, C. Gotsman and D. Thurston, "Discrete one-forms on meshes", CAGD
-23 (2006)). For maps whose vertices have one degree and whose faces have one length this is the
-regular drawing, up to an affine map that makes edges equally long.
+**A regular map of the torus** is a flat periodic cell. The torus is the plane divided by a lattice:
+each dart gets a whole translation with sum zero around every face, and each vertex lies in the
+middle of its neighbours (S. Gortler, C. Gotsman and D. Thurston, "Discrete one-forms on meshes",
+CAGD 23 (2006)). An affine map then makes edges equally long.
 
-**A world with one face**, of any genus g above 0, is a polygon with 4g sides. A spanning tree lies
-in the middle. The 2g other edges leave it as spokes, one through each side in the order of the
-tree's contour, and come back through the side with the same letter: the dual picture of the 4g-gon
-of textbooks, whose sides are the edges. The boundary is a circle, and each vertex lies in the
-middle of its neighbours (W. Tutte, "How to draw a graph", 1963); a dead end is held by a point of
-the boundary that is not drawn.
+**A world with one face**, of genus g > 0, is a polygon with 4g sides. A spanning tree lies in the
+middle. The 2g other edges leave it as spokes through the sides, in the order of the tree's contour,
+and come back through the side with the same letter. The boundary is a circle, and each vertex lies
+in the middle of its neighbours (W. Tutte, "How to draw a graph", 1963); an undrawn point of the
+boundary holds a dead end.
 """
 
 from __future__ import annotations
@@ -37,10 +34,9 @@ class _Torus:
     """The drawing in the plane.
 
     Attributes:
-        places: of the vertices, as fractions of the sides, in [0, 1) once the cell is chosen.
+        places: of the vertices, as fractions of the sides.
         steps: from each dart's vertex to its other end, likewise.
         sides: of the cell, as rows.
-        vertex_of: the vertex of each dart.
     """
 
     places: Floats
@@ -94,7 +90,7 @@ def _translations(world: World) -> dict[Dart, list[int]]:
     """A whole translation of each dart: the sum around every face is zero, and none is trivial.
 
     Two edges lie neither in a tree of vertices nor in one of faces. Each closes a cycle of faces;
-    a dart's translation counts how often these two cycles cross it.
+    translations count how often the two cycles cross a dart.
     """
     face_of = {dart: k for k, face in enumerate(world.faces) for dart in face}
     tree = _tree(world, 0)
@@ -116,30 +112,30 @@ def _translations(world: World) -> dict[Dart, list[int]]:
         return way
 
     used = tree | {d for dart in entered.values() for d in (dart, world.alpha[dart])}
-    found = {dart: [0, 0] for dart in range(len(world.alpha))}
+    translations = {dart: [0, 0] for dart in range(len(world.alpha))}
     for k, (a, b) in enumerate(edge for edge in world.edges if edge[0] not in used):
         back = [world.alpha[dart] for dart in home(face_of[b])]
         for dart in (a, *back, *home(face_of[a])):
-            found[dart][k] += 1
-            found[world.alpha[dart]][k] -= 1
-    return found
+            translations[dart][k] += 1
+            translations[world.alpha[dart]][k] -= 1
+    return translations
 
 
 def _tree(world: World, root: int) -> set[Dart]:
-    """The darts of a breadth-first spanning tree, two of each edge."""
-    seen, queue, tree = {root}, deque([root]), set[Dart]()
+    """The darts of a breadth-first spanning tree."""
+    reached, queue, tree = {root}, deque([root]), set[Dart]()
     while queue:
         for dart in world.vertices[queue.popleft()]:
             end = world.vertex_of[world.alpha[dart]]
-            if end not in seen:
-                seen.add(end)
+            if end not in reached:
+                reached.add(end)
                 queue.append(end)
                 tree |= {dart, world.alpha[dart]}
     return tree
 
 
 def _flat(world: World) -> _Torus:
-    """Every vertex in the middle of its neighbours; then as regular as an affine map makes it."""
+    """Vertices in the middle of their neighbours, then an affine map."""
     translation = _translations(world)
     moves = np.array([translation[dart] for dart in range(len(world.alpha))], float)
     tails = np.array(world.vertex_of)
@@ -148,7 +144,7 @@ def _flat(world: World) -> _Torus:
     right = np.zeros((size, 2))
     np.add.at(right, tails, moves)
     places = np.zeros((size, 2))
-    if size > 1:  # the first vertex stays where it is
+    if size > 1:  # the first vertex is fixed
         kept = (tails > 0) & (heads > 0)
         inner = np.arange(size - 1)
         places[1:] = solve(
@@ -158,7 +154,7 @@ def _flat(world: World) -> _Torus:
             right[1:],
         )
     steps = places[heads] + moves - places[tails]
-    # The affine map after which the steps are spread alike in all directions.
+    # the affine map that spreads steps alike in all directions
     spread = steps.T @ steps
     a = np.sqrt(spread[0, 0])
     b = spread[0, 1] / a
@@ -167,14 +163,14 @@ def _flat(world: World) -> _Torus:
     drawn = steps @ sides
     after = drawn[np.array(world.sigma)]
     if (drawn[:, 0] * after[:, 1] - drawn[:, 1] * after[:, 0]).sum() > 0:
-        sides = sides * np.array([1, -1])  # clockwise with y upwards: turns are negative
+        sides = sides * np.array([1, -1])  # clockwise turns are negative with y upwards
     lattice = _reduced(sides)
     change = sides @ np.linalg.inv(lattice)
     return _Torus(places @ change, steps @ change, _level(lattice), tails)
 
 
 def _reduced(sides: Floats) -> Floats:
-    """A basis of the same lattice whose vectors are short, the longer one first."""
+    """A basis of the same lattice of short vectors, the longer one first."""
     a, b = sides[0], sides[1]
     while True:
         if a @ a > b @ b + 1e-9:
@@ -183,21 +179,20 @@ def _reduced(sides: Floats) -> Floats:
         if not times:
             break
         b = b - times * a
-    # Counter-clockwise from the first to the second, with an angle between them of 90° or more.
+    # counter-clockwise from the first to the second, at an angle of 90° or more
     if b[0] * a[1] - b[1] * a[0] < 0:
         a = -a
     return np.array([b, a])
 
 
 def _level(sides: Floats) -> Floats:
-    """The sides turned so that the first lies level."""
     x, y = sides[0] / np.hypot(*sides[0])
     turned: Floats = sides @ np.array([[x, -y], [y, x]])
     return turned
 
 
 def _shifted(torus: _Torus) -> _Torus:
-    """The cell moved so that its border is far from vertices and its corners far from edges."""
+    """The cell with its border far from vertices and its corners far from edges."""
     candidates: list[list[float]] = []
     for k in (0, 1):
         row: list[float] = sorted(set((torus.places[:, k] % 1).round(6).tolist()))
@@ -213,16 +208,14 @@ def _shifted(torus: _Torus) -> _Torus:
 
 
 def _to_border(torus: _Torus) -> float:
-    """The distance of the border from the nearest vertex."""
     area = abs(float(np.linalg.det(torus.sides)))
     heights = area / np.hypot(*torus.sides[::-1].T)
     return float((np.minimum(torus.places, 1 - torus.places) * heights).min())
 
 
 def _to_corner(torus: _Torus) -> float:
-    """The distance of the corners from the nearest edge."""
     starts = torus.places[torus.vertex_of]
-    # All corners are one point of the torus: take those copies that lie near the edge.
+    # the copies of the corners near the edge
     near = np.round(starts)[:, None] + np.array([*product(range(-2, 3), repeat=2)])
     offset = (near - starts[:, None]) @ torus.sides
     step = (torus.steps @ torus.sides)[:, None]
@@ -234,7 +227,7 @@ def _parts(place: Floats, step: Floats, trim: float) -> list[Floats]:
     """The pieces of an edge within the cell, in fractions of the sides.
 
     Args:
-        trim: the share of the edge that lies within the circles of its vertices, at each end.
+        trim: the share of the edge within the circle at each end.
     """
     times = {trim, 1 - trim}
     for start, length in zip(place.tolist(), step.tolist(), strict=True):
@@ -248,13 +241,10 @@ def _parts(place: Floats, step: Floats, trim: float) -> list[Floats]:
     return pieces
 
 
-# ---------------------------------------------------------------- one face: a polygon
-
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
-"""The names of the pairs of sides."""
 
 SMALL = 0.04
-"""The radius of vertices in a polygon of width 2 below which bridges are easier to read."""
+"""In a polygon of width 2 with smaller circles, bridges are easier to read."""
 
 
 def polygon(world: World) -> Layout | None:
@@ -278,13 +268,12 @@ def polygon(world: World) -> Layout | None:
     scale, half = RADIUS / radius, pi / len(spokes)
     corners = np.array([[cos(angle[d] - half), sin(angle[d] - half)] for d in spokes]) / cos(half)
     low, high = corners.min(0), corners.max(0)
-    margin = (MARGIN + 1) * RADIUS  # there are letters outside
+    margin = (MARGIN + 1) * RADIUS  # letters stand outside
 
     def on_page(points: Floats) -> tuple[Point, ...]:
         return _points((points - low) * scale + margin)
 
     def part(dart: Dart) -> tuple[Point, ...]:
-        """From the circle of the dart's vertex on, to a side or to another circle."""
         start, end = chains[dart]
         trim = (end - start) * radius / float(np.hypot(*(end - start)))
         return on_page(np.array([start + trim, end - trim if dart in tree else end]))
@@ -308,7 +297,7 @@ def polygon(world: World) -> Layout | None:
 
 
 def _contour(world: World, tree: set[Dart]) -> Iterator[Dart]:
-    """Clockwise around the tree, from the marker on: all darts of other edges, and dead ends."""
+    """Clockwise around the tree, from the marker: dead ends and the darts of other edges."""
     start = dart = world.root or 0
     while True:
         if dart not in tree or world.sigma[dart] == dart:
@@ -319,12 +308,12 @@ def _contour(world: World, tree: set[Dart]) -> Iterator[Dart]:
 
 
 def _angles(stops: Iterable[Dart], tree: set[Dart]) -> dict[Dart, float]:
-    """By stop, its angle: spokes are spread evenly, the first one up; dead ends lie between."""
+    """The angles of the stops: spokes evenly, the first one up; dead ends between."""
     groups: list[list[Dart]] = [[]]
     for dart in stops:
         groups += [] if dart in tree else [[]]
         groups[-1].append(dart)
-    groups[-1] += groups.pop(0)  # before the first spoke is behind the last one
+    groups[-1] += groups.pop(0)  # it follows the last spoke
     step = 2 * pi / len(groups)
     return {
         dart: step * (k + place / len(group)) - pi / 2
@@ -334,7 +323,6 @@ def _angles(stops: Iterable[Dart], tree: set[Dart]) -> dict[Dart, float]:
 
 
 def _held(world: World, tree: set[Dart], rim: Mapping[Dart, Floats]) -> Floats:
-    """Each vertex in the middle of its neighbours in the tree and of its points on the rim."""
     size = len(world.vertices)
     matrix, right = np.zeros((size, size)), np.zeros((size, 2))
     for dart, vertex in enumerate(world.vertex_of):

@@ -1,7 +1,6 @@
 """Chooses how a world is drawn, and tries again until the picture is true.
 
-Of a world that is too large to be shown whole, a ball is drawn: the part around a dart, as a world,
-whose layout is put back.
+Of a world that is too large, a ball is drawn: the part around a dart.
 """
 
 from __future__ import annotations
@@ -20,24 +19,23 @@ from topo_verify.world.drawing.svg import to_svg
 from topo_verify.world.rooted_map import Dart, World
 
 ROUNDINGS = (0.5, 0.35, 0.2, 0.1, 0.0)
-"""How round the corners of edges are, the roundest first."""
 
 ROOMY = 0.025
 """Vertex radius, as a share of the longer side, that needs no further improvement."""
 
 CRAMPED = 0.0003
-"""The share below which vertices have no room; `layout` makes no radius below 0.0002."""
+"""The share below which vertices have no room."""
 
 WHOLE = 1000
-"""The most edges of a world that is shown whole, if it needs at most `MOST_CROSSINGS` bridges."""
+"""The most edges shown whole."""
 
 
 def lay_out(world: World, *, centre: Dart | None = None) -> Layout:
     """A layout of the world whose picture was read back and found true.
 
     Args:
-        centre: a dart around which a part is shown, unless that is the whole world; default: the
-            whole world or, of a world that is too large, the part around the marker.
+        centre: show a part around this dart, unless that is everything; default: the whole world
+            if possible, or the part around the marker.
     """
     if centre is not None and len(ball(world, centre, limit=LIMIT).vertices) < len(world.vertices):
         return _ball(world, centre)
@@ -70,7 +68,6 @@ def _sketches(world: World) -> Iterator[Sketch]:
 
 
 def _ball(world: World, centre: Dart) -> Layout:
-    """A true layout of the largest ball that has one."""
     limit = LIMIT
     while limit > 8:
         around = ball(world, centre, limit=limit)
@@ -85,14 +82,14 @@ def _ball(world: World, centre: Dart) -> Layout:
 
 
 def _true(world: World, sketch: Sketch) -> Layout | None:
-    """The layout of the sketch, with corners as round as they may be; None if none is true."""
+    """The layout of the sketch, with corners as round as possible; None if none is true."""
     straight = fitted(sketch, 0.0)
     if _share(straight) < CRAMPED and untrue(world, straight, _meant(sketch, straight)):
-        return None  # vertices coincide, and rounder corners give them no more room
+        return None  # vertices coincide
     best: Layout | None = None
     for rounding in ROUNDINGS:
         layout = fitted(sketch, rounding)
-        # A corner that is cut may come near a vertex: then all circles get small.
+        # a cut corner may come near a vertex and shrink all circles
         if best is not None and _share(layout) < 1.3 * _share(best):
             break
         if not untrue(world, layout, _meant(sketch, layout)):
@@ -103,30 +100,27 @@ def _true(world: World, sketch: Sketch) -> Layout | None:
 
 
 def _meant(sketch: Sketch, layout: Layout) -> int | None:
-    """The crossings that the sketch means; of many, a twentieth may differ: each has its bridge."""
+    """The crossings of the sketch; a twentieth may differ, since each has its bridge."""
     if sketch.bridges and abs(len(layout.bridges) - sketch.bridges) <= sketch.bridges // 20:
         return len(layout.bridges)
     return sketch.bridges
 
 
 def _share(layout: Layout) -> float:
-    """The radius of a vertex as a share of the picture's longer side."""
     return layout.radius / max(layout.width, layout.height)
 
 
 def untrue(world: World, layout: Layout, bridges: int | None) -> list[str]:
-    """A sentence on each mistake in the finished picture of the layout.
+    """A sentence on each mistake in the picture of the layout.
 
     Args:
-        bridges: the number of crossings that are meant; None: any.
+        bridges: the number of crossings meant; None: any.
     """
     return read_back.untruths(read_back.read(to_svg(world, layout)), world, bridges=bridges)
 
 
-# ---------------------------------------------------------------- balls
-
 LIMIT = 220
-"""Maximal darts of a ball, unless its central vertex alone has more."""
+"""Maximal darts of a ball, unless its central vertex has more."""
 
 
 @dataclass(frozen=True)
@@ -134,9 +128,9 @@ class Ball:
     """A part of a world.
 
     Attributes:
-        part: the world of this part. Where an edge leaves it there is a vertex of degree 1.
+        part: as a world; an edge that leaves it ends at a vertex of degree 1.
         whole: the world that it is a part of.
-        vertices: the vertices of the whole that are shown, as they stand first in `part`.
+        vertices: the shown vertices of the whole, the first ones in `part`.
         cut: the darts whose edges leave the part, each with the vertex of `part` at its end.
     """
 
@@ -164,7 +158,7 @@ def ball(world: World, centre: Dart, *, limit: int = LIMIT) -> Ball:
     for dart in (dart for rotation in rotations[:] for dart in rotation):
         other = world.alpha[dart]
         if world.vertex_of[other] not in inside:
-            # The new dart is greater than all others: the edge is drawn from the inside.
+            # greatest number: the edge is drawn from the inside
             cut[dart] = len(rotations)
             rotations.append([len(world.alpha) + dart])
             edges.append((dart, len(world.alpha) + dart))
@@ -175,9 +169,9 @@ def ball(world: World, centre: Dart, *, limit: int = LIMIT) -> Ball:
 
 
 def put_back(around: Ball, layout: Layout) -> Layout:
-    """The layout of the whole world that shows its part as in this layout of the part."""
+    """The layout of the whole world that shows its part like this."""
     world, part = around.whole, around.part
-    # Darts of the part keep their order: the k-th of the part is the k-th of these.
+    # darts of the part keep their order
     darts = sorted(dart for vertex in around.vertices for dart in world.vertices[vertex])
     edge_of = {dart: k for k, edge in enumerate(world.edges) for dart in edge}
     numbers = [edge_of[darts[a]] for a, _ in part.edges]
@@ -195,7 +189,7 @@ def put_back(around: Ball, layout: Layout) -> Layout:
         if not {darts[part.edges[k][0]] for k in (bridge.over, bridge.under)} & around.cut.keys()
     )
     places = dict(zip(around.vertices, layout.centres, strict=False))
-    # A hidden vertex lies where the shortest way to it leaves the ball.
+    # at the end of the shortest way inside
     queue: deque[int] = deque()
     for dart, leaf in around.cut.items():
         end = world.vertex_of[world.alpha[dart]]

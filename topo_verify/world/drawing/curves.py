@@ -1,7 +1,4 @@
-"""SVG path data: written from control points, and flattened into points.
-
-Only absolute `M`, `L` and `Q` occur. Where flattened curves cross is found on a grid of cells.
-"""
+"""SVG path data of absolute `M`, `L` and `Q`: made, flattened, and where it crosses."""
 
 from __future__ import annotations
 
@@ -15,7 +12,7 @@ from topo_verify.world.drawing.arrays import Floats, Ints
 from topo_verify.world.formats.embedding import Point
 
 STEPS = 8
-"""The pieces into which a quadratic arc is flattened."""
+"""The pieces of a flattened quadratic arc."""
 
 
 def number(value: float) -> str:
@@ -33,8 +30,7 @@ def smooth(points: Sequence[Point], rounding: float = 0.5) -> str:
     """Path data of the polyline with rounded corners.
 
     Args:
-        rounding: how far along each leg a corner's arc reaches; 0.5 is the quadratic B-spline, 0
-            the polyline itself.
+        rounding: how far along each leg a corner's arc reaches; 0.5 is the quadratic B-spline.
     """
     if len(points) < 3 or not rounding:
         return straight(points)
@@ -42,7 +38,7 @@ def smooth(points: Sequence[Point], rounding: float = 0.5) -> str:
     last = len(points) - 2
     for k in range(1, len(points) - 1):
         before, corner, after = points[k - 1 : k + 2]
-        # The first and the last leg have one corner only: it may take more of them.
+        # the first and the last leg have only one corner
         start = _between(corner, before, rounding if k > 1 else min(1.0, 1.6 * rounding))
         end = _between(corner, after, rounding if k < last else min(1.0, 1.6 * rounding))
         if rounding < 0.5 or k == 1:
@@ -67,7 +63,7 @@ def flatten(data: str) -> Floats:
     """The points of the path, arcs in `STEPS` pieces.
 
     Raises:
-        ValueError: the data holds anything but absolute M, L and Q.
+        ValueError: other commands than absolute M, L and Q.
     """
     if _WORD.sub("", data).strip(" "):
         raise ValueError(f"expected absolute M, L and Q in path data, got {data!r}")
@@ -97,26 +93,22 @@ def length(points: Floats) -> float:
 
 
 def place(points: Floats, distance: float | Floats) -> Floats:
-    """The point at this distance along the polyline; for several distances, as many rows."""
+    """The points at these distances along the polyline."""
     along = _along(points)
     return np.stack([np.interp(distance, along, points[:, k]) for k in (0, 1)], -1)
 
 
 def _along(points: Floats) -> Floats:
-    """How far along the polyline each of its points is."""
     return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
 
 
 def piece(points: Floats, middle: float, half: float) -> str:
-    """Path data of the part of the polyline within `half` of the place `middle` along it."""
+    """Path data of the polyline within `half` of `middle` along it."""
     along = _along(points)
     low, high = max(0.0, middle - half), min(float(along[-1]), middle + half)
     inside = [place for place in along.tolist() if low < place < high]
     ends = place(points, np.array([low, *inside, high]))
     return straight(dict.fromkeys((x, y) for x, y in ends.tolist()))
-
-
-# ---------------------------------------------------------------- crossings
 
 
 class Crossing(NamedTuple):
@@ -130,15 +122,11 @@ class Crossing(NamedTuple):
 
 
 def crossings(curves: Sequence[Floats]) -> list[Crossing]:
-    """All crossings and touches of the polylines, each with itself included.
-
-    Two legs that follow each other on one curve meet in their common point: that is no crossing.
-    """
+    """All crossings and touches of the polylines, each with itself included."""
     starts, steps, owner, place, along = _legs(curves)
     if not len(owner):
         return []
     first, second = _close(starts, steps)
-    # Legs that follow each other on one curve share a point.
     follow = (owner[first] == owner[second]) & (np.abs(place[first] - place[second]) < 2)
     first, second = first[~follow], second[~follow]
     p, q, offset = steps[first], steps[second], starts[second] - starts[first]
@@ -146,7 +134,7 @@ def crossings(curves: Sequence[Floats]) -> list[Crossing]:
     with np.errstate(divide="ignore", invalid="ignore"):
         t = (offset[:, 0] * q[:, 1] - offset[:, 1] * q[:, 0]) / turn
         u = (offset[:, 0] * p[:, 1] - offset[:, 1] * p[:, 0]) / turn
-        hit = (t >= 0) & (t < 1) & (u >= 0) & (u < 1)  # False where parallel
+        hit = (t >= 0) & (t < 1) & (u >= 0) & (u < 1)  # False if parallel
     result: list[Crossing] = []
     for i, j, s, r in zip(first[hit], second[hit], t[hit], u[hit], strict=True):
         x, y = starts[i] + s * steps[i]
@@ -157,7 +145,7 @@ def crossings(curves: Sequence[Floats]) -> list[Crossing]:
 
 
 def _legs(curves: Sequence[Floats]) -> tuple[Floats, Floats, Ints, Ints, Floats]:
-    """Of every leg of every curve: start, step, whose it is, its place, how far along it begins."""
+    """Of every leg: start, step, curve, place and distance along it."""
     curves = [curve if len(curve) > 1 else np.zeros((1, 2)) for curve in curves]
     starts = np.concatenate([np.zeros((0, 2)), *(curve[:-1] for curve in curves)])
     steps = np.concatenate([np.zeros((0, 2)), *(np.diff(curve, axis=0) for curve in curves)])
@@ -171,7 +159,7 @@ def _legs(curves: Sequence[Floats]) -> tuple[Floats, Floats, Ints, Ints, Floats]
 
 
 def _close(starts: Floats, steps: Floats) -> tuple[Ints, Ints]:
-    """Pairs of legs (the lesser first) whose boxes share a cell of a grid."""
+    """Pairs of legs (the lesser first) with boxes in one cell of a grid."""
     ends = starts + steps
     low, high = np.minimum(starts, ends), np.maximum(starts, ends)
     extent = float((high.max(0) - low.min(0)).max())

@@ -1,4 +1,4 @@
-"""A picture in the format that a file's name asks for: SVG, PNG, PDF, or a page that holds it."""
+"""Pictures as SVG, PNG, PDF or HTML."""
 
 from __future__ import annotations
 
@@ -63,11 +63,11 @@ IN_NOTEBOOKS = (
     "{color-scheme:dark}"
     "@media(prefers-color-scheme:dark){[data-theme=auto] .tv-themed{color-scheme:dark}}</style>"
 )
-"""Pictures with the class are light or dark as the notebook is, whatever the system prefers."""
+"""Pictures of the class follow the notebook's theme, not the system's."""
 
 
 def image(svg: str, alt: str, style: str = "max-width:100%") -> str:
-    """The picture as an image for notebooks: its names and styles do not meet those of the page."""
+    """The picture as an image for notebooks, apart from the page's names and styles."""
     data = b64encode(svg.encode()).decode()
     return (
         f'<img class="tv-themed" alt="{text(alt)}" style="{style}"'
@@ -87,13 +87,13 @@ def _rendered(layout: Layout, svg: str, kind: Literal["png", "pdf"]) -> bytes:
         format=kind,
         ppi=min(DENSITY, 72 * MOST_PIXELS / max(layout.width, layout.height)),
         sys_inputs={"svg": svg, "size": f"[{layout.width}, {layout.height}]"},
-        ignore_system_fonts=True,  # the same bytes whatever fonts are installed
+        ignore_system_fonts=True,  # for the same bytes everywhere
     )
     return content
 
 
 def _page(world: World, layout: Layout, svg: str) -> str:
-    """A page that asks for nothing: its policy allows two styles by their hashes, and no script."""
+    """A page without requests or scripts; its policy allows two styles by their hashes."""
     own = (
         "body{margin:0;background:#fdfcf9;color:#22282e;font:16px system-ui,sans-serif}"
         "main{display:flex;min-height:100vh;align-items:center;justify-content:center}"
@@ -104,7 +104,7 @@ def _page(world: World, layout: Layout, svg: str) -> str:
         f"'sha256-{b64encode(sha256(style.encode()).digest()).decode()}'" for style in (own, STYLE)
     )
     policy = f"default-src 'none'; style-src {hashes}; base-uri 'none'; form-action 'none'"
-    # The policy forbids style attributes; the page has a rule in their place.
+    # the policy forbids style attributes; `own` replaces it
     inside = svg.replace(' style="max-width:100%;height:auto"', "", 1)
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'

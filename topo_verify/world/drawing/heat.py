@@ -1,15 +1,14 @@
 """A world coloured by a cost for each dart: where to put the marker, and where to point it.
 
-The picture is that of svg.py, so a script reads it as any drawing of a world. Over it lie
+Over the picture of svg.py lie
 
-- on each vertex a disc in the colour of the MEAN over its darts, `data-mean` the number, and
-- along the beginning of each dart a stroke in the colour of that dart, `data-dart` and `data-cost`,
+- on each vertex a disc in the colour of the mean over its darts, `data-mean`, and
+- along the beginning of each dart a stroke in its colour, `data-dart` and `data-cost`,
 
 and beneath it a legend. The arrow stands on the best dart, a dashed ring around the vertex of the
-worst. Colours go from dark (low cost) to light (high cost) along a scale that is even for the eye
-and for colour-blind eyes (J. R. Nuñez, C. R. Anderton, R. S. Renslow: "Optimizing colormaps with
-consideration for color vision deficiency", PLOS ONE 13(7), 2018); both ends stand out from light
-and dark cards by an outline.
+worst. The scale, from dark to light, is perceptually uniform, also for colour-blind eyes (J. R.
+Nuñez, C. R. Anderton, R. S. Renslow: "Optimizing colormaps with consideration for color vision
+deficiency", PLOS ONE 13(7), 2018).
 """
 
 from __future__ import annotations
@@ -31,14 +30,14 @@ SCALE = (
     (0, 32, 81), (10, 50, 109), (43, 68, 110), (76, 86, 108), (104, 104, 109), (127, 124, 117),
     (146, 143, 120), (166, 163, 117), (190, 184, 107), (218, 206, 91), (253, 234, 69),
 )  # fmt: skip
-"""Red, green and blue of evenly spaced points of the scale, dark to light."""
+"""Evenly spaced points of the scale, dark to light."""
 
 STEPS = 40
-"""Steps of the legend."""
+"""Of the legend."""
 
 
 def colour(share: float) -> str:
-    """The colour of a share of the way from the least cost (0) to the greatest (1)."""
+    """The colour of a share of the way from the least cost to the greatest."""
     place = min(max(share, 0.0), 1.0) * (len(SCALE) - 1)
     k = min(int(place), len(SCALE) - 2)
     mixed = (a + (b - a) * (place - k) for a, b in zip(SCALE[k], SCALE[k + 1], strict=True))
@@ -50,7 +49,7 @@ def heat_svg(world: World, costs: Sequence[int], *, title: str) -> str:
 
     Args:
         costs: of the marker at each dart, in edge traversals.
-        title: what ran, for the legend.
+        title: of the legend.
     Raises:
         InternalError: the finished picture is not true to the world or to the costs.
     """
@@ -67,15 +66,14 @@ def heat_svg(world: World, costs: Sequence[int], *, title: str) -> str:
     ]
     svg = base + "\n".join([*overlay, "</svg>\n"])
     bridges = None if layout.kind == "ball" else len(layout.bridges)
-    found = read_back.untruths(read_back.read(svg), there, bridges=bridges)
-    found += untrue_colours(svg, world, costs)
-    if found:
-        raise InternalError(f"the heat map of {world!r} is not true: {found[0]}")
+    mistakes = read_back.untruths(read_back.read(svg), there, bridges=bridges)
+    mistakes += untrue_colours(svg, world, costs)
+    if mistakes:
+        raise InternalError(f"the heat map of {world!r} is not true: {mistakes[0]}")
     return svg
 
 
 def _unit(layout: Layout) -> float:
-    """The height of a line of the legend."""
     return layout.width / 30
 
 
@@ -85,7 +83,7 @@ def _share(cost: float, costs: Sequence[int]) -> float:
 
 
 def _strokes(world: World, layout: Layout, costs: Sequence[int], best: Dart) -> Iterator[str]:
-    """A stroke along the beginning of each dart; that of the best lies under the arrow."""
+    """Strokes along the beginnings of darts, except under the arrow."""
     width = 0.42 * layout.radius
     yield f'<g fill="none" stroke-linecap="butt" stroke-width="{number(width)}">'
     for dart, along in sorted(leaving(world, layout).items()):
@@ -103,7 +101,6 @@ def _strokes(world: World, layout: Layout, costs: Sequence[int], best: Dart) -> 
 
 
 def _discs(world: World, layout: Layout, costs: Sequence[int], worst: Dart) -> Iterator[str]:
-    """The disc of each vertex with its number, and the ring around the worst."""
     radius = layout.radius
     yield (
         f'<g font-family="{FONT}" text-anchor="middle" font-size="{number(0.9 * radius)}"'
@@ -136,7 +133,6 @@ def _discs(world: World, layout: Layout, costs: Sequence[int], worst: Dart) -> I
 
 
 def _legend(layout: Layout, costs: Sequence[int], title: str) -> Iterator[str]:
-    """The scale with its least and greatest cost, and what the signs mean."""
     unit, size = _unit(layout), number(0.8 * _unit(layout))
     left, top = 0.7 * unit, layout.height + 0.9 * unit
     yield f'<g class="tv-name" font-family="{FONT}" font-size="{size}">'
@@ -164,35 +160,32 @@ def _legend(layout: Layout, costs: Sequence[int], title: str) -> Iterator[str]:
     yield "</g>"
 
 
-# ---------------------------------------------------------------- read back
-
-
 def untrue_colours(svg: str, world: World, costs: Sequence[int]) -> list[str]:
     """A sentence on every disc and stroke of a finished heat map that shows another cost.
 
-    Discs are found by their centres and strokes by where they begin, as a reader finds them.
+    Discs are found by their centres, strokes by where they begin.
     """
-    found: list[str] = []
+    mistakes: list[str] = []
     picture = read_back.read(svg)
     ends = read_back.leavings(picture)
     centres = {(x, y): vertex for vertex, (x, y, _) in picture.circles.items()}
     strokes: dict[Dart, str] = {}
     discs: dict[int, str] = {}
-    for element in ET.fromstring(svg).iter():  # noqa: S314  a picture that we drew
+    for element in ET.fromstring(svg).iter():  # noqa: S314  our own picture
         get = element.attrib.get
         if get("data-mean") is not None:
             discs[centres[float(get("cx", "")), float(get("cy", ""))]] = get("fill", "")
         elif (shown := get("data-dart")) is not None:
             start = curves.flatten(get("d", ""))[0]
             if abs(start - ends[int(shown)][0]).max() > read_back.TOLERANCE:
-                found.append(f"the stroke of dart {shown} begins elsewhere")
+                mistakes.append(f"the stroke of dart {shown} begins elsewhere")
             strokes[int(shown)] = get("stroke", "")
     for vertex in picture.circles:
         average = mean(costs[dart] for dart in world.vertices[vertex])
         if discs.get(vertex) != colour(_share(average, costs)):
-            found.append(f"the disc of vertex {vertex} shows another cost than {average:.2f}")
+            mistakes.append(f"the disc of vertex {vertex} shows another cost than {average:.2f}")
     best = costs.index(min(costs))
-    return found + [
+    return mistakes + [
         f"the stroke of dart {dart} shows another cost than {costs[dart]}"
         for dart in ends
         if dart != best and strokes.get(dart) != colour(_share(costs[dart], costs))

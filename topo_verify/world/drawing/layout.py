@@ -1,8 +1,7 @@
 """Layout: where the vertices, edges and bridges of a drawn world lie.
 
-A sketch, which is places in a plane, is fitted: scaled, trimmed at the circles, with bridges.
-Coordinates are those of the picture: y grows downwards, so clockwise on the screen is clockwise in
-the world.
+A sketch, which is places in a plane, is scaled, trimmed at the circles and given bridges. In a
+layout y grows downwards.
 """
 
 from __future__ import annotations
@@ -27,8 +26,8 @@ class Bridge:
     """One edge passes over another (or over itself).
 
     Attributes:
-        over, under: the edges, as indices into `world.edges`.
-        path: the piece of the upper edge's curve that lies over the lower one, as path data.
+        over, under: indices into `world.edges`.
+        path: the piece of the upper edge's curve over the lower one, as path data.
     """
 
     over: int
@@ -41,8 +40,8 @@ class CutSurface(NamedTuple):
 
     Attributes:
         corners: in order around it.
-        sides: a letter for each side, from its corner to the next one. Two sides with one letter
-            are glued so that the surface is orientable: the end of one is the start of the other.
+        sides: a letter for each side, from its corner to the next one; equal letters are glued, the
+            end of one side to the start of the other.
     """
 
     corners: tuple[Point, ...]
@@ -56,15 +55,11 @@ class Layout:
     Attributes:
         kind: `positions` of the file, `planar` without crossings, planar with `bridges`, a `cell`
             of a surface that was cut open, or a `ball` around a vertex.
-        width, height: the size of the picture; its top left corner is (0, 0).
-        radius: of the circle of each vertex.
-        centres: of the circles, in the order of `world.vertices`. A hidden vertex has the place
-            where the way to it leaves the ball.
-        paths: the curve of each edge, in the order of `world.edges`, as SVG path data. Usually one
-            part; more where the edge leaves a cell on one side and comes back on the other; none
-            if the edge is not shown. The first part begins where the lesser dart leaves the circle
-            of its vertex; the last part ends where the other dart does.
-        bridges: what passes over what.
+        width, height: of the picture; its top left corner is (0, 0).
+        radius: of the circles.
+        centres: of the vertices; of a hidden one, where the way to it leaves the ball.
+        paths: the curve of each edge, as SVG path data, from the circle of the lesser dart's vertex
+            to that of the other's; several parts if it leaves a cell, none if hidden.
         stubs: in a ball, the beginnings of edges whose other vertex is hidden: dart and path data.
         hidden: in a ball, the vertices that are not shown.
         cell: where the surface was cut open.
@@ -82,28 +77,25 @@ class Layout:
     cell: CutSurface | None = None
 
 
-# ---------------------------------------------------------------- places in a plane as a layout
-
 RADIUS = 11.0
-"""Of a vertex' circle, unless the picture would get too large."""
+"""Of a vertex's circle, unless the picture would get too large."""
 
 LONGEST_SIDE = 2400.0
-"""Of a picture with up to `MANY` edges; more edges have more room for their two decimals."""
+"""With up to `MANY` edges; more have more room, for their two decimals."""
 
 MANY = 250
 
 MARGIN = 2.4
-"""Around the picture, in radii of a vertex."""
+"""In radii."""
 
 
 @dataclass(frozen=True)
 class Sketch:
-    """Where vertices and edges lie in a plane whose y axis points upwards.
+    """Where vertices and edges lie in a plane, y upwards.
 
     Attributes:
         centres: of the vertices, an (n, 2) array.
-        chains: the control points of each edge, from the centre of the lesser dart's vertex to the
-            centre of the other's.
+        chains: the control points of each edge, from centre to centre, the lesser dart first.
         bridges: the number of crossings; None: any.
         turn: whether the picture may be turned so that it lies wide.
     """
@@ -116,10 +108,10 @@ class Sketch:
 
 
 def fitted(sketch: Sketch, rounding: float) -> Layout:
-    """The layout of the sketch: the radius is the largest that keeps circles clear of all else.
+    """The layout of the sketch, with the largest circles that stay clear of all else.
 
     Args:
-        rounding: of the corners of the chains; `curves.smooth`.
+        rounding: as for `curves.smooth`.
     """
     centres, chains = _upright(sketch)
     radius = clear_radius(centres, chains, rounding)
@@ -156,11 +148,11 @@ def path(chain: Floats, radius: float, rounding: float) -> str:
 
 
 def find_bridges(paths: Sequence[str], radius: float) -> tuple[Bridge, ...]:
-    """A bridge wherever two of the paths cross; of two edges the later one passes over."""
+    """Bridges where the paths cross; the later edge passes over."""
     flat = [curves.flatten(data) for data in paths]
     places = crossings(flat)
     half = 0.9 * radius
-    # Neighbouring bridges on one edge must not cover each other's halos.
+    # halos of neighbouring bridges must not overlap
     along: dict[int, list[float]] = {}
     for crossing in places:
         along.setdefault(crossing.first, []).append(crossing.along_first)
@@ -182,13 +174,13 @@ def _towards(step: Floats) -> Floats:
 
 
 def _upright(sketch: Sketch) -> tuple[Floats, list[Floats]]:
-    """Centres and chains with y downwards, turned so that the picture lies wide if it may."""
+    """Centres and chains with y downwards, turned wide if allowed."""
     turn = np.array([[1.0, 0.0], [0.0, -1.0]])
     if sketch.turn and len(sketch.centres) > 1:
         points = np.concatenate([sketch.centres, *sketch.chains])
         points = points - points.mean(0)
         spread = points.T @ points
-        # The angle of the main axis; in closed form, so that no library decides on its sign.
+        # the angle of the main axis, in closed form: libraries differ on the sign
         angle = 0.5 * np.arctan2(2 * spread[0, 1], spread[0, 0] - spread[1, 1])
         c, s = np.cos(angle), np.sin(angle)
         turn = np.array([[c, s], [-s, c]]).T @ turn
@@ -202,7 +194,7 @@ def _box(centres: Floats, chains: Sequence[Floats]) -> tuple[Floats, Floats]:
 
 
 def clear_radius(centres: Floats, chains: Sequence[Floats], rounding: float) -> float:
-    """The radius of the vertices: a fraction of what is usual, and clear of all else."""
+    """The radius of the vertices: a fraction of the usual edge, and clear of all else."""
     usual = [curves.length(chain) for chain in chains]
     limits = [0.18 * float(np.median(usual)) if usual else 1.0]
     if len(centres) > 1:
@@ -219,12 +211,12 @@ def clear_radius(centres: Floats, chains: Sequence[Floats], rounding: float) -> 
         own = (np.abs(centres - chain[0]).max(1) == 0) | (np.abs(centres - chain[-1]).max(1) == 0)
         if not own.all():
             limits.append(0.62 * float(apart[~own].min()))
-    # Where vertices coincide no radius is small enough: the picture will be found untrue.
+    # if vertices coincide, the picture will be found untrue
     return max(min(limits), 2e-4 * float(_box(centres, chains)[1].max()), 1e-9)
 
 
 def _flat(chain: Floats, rounding: float) -> Floats:
-    """The points of the curve; not through path data, whose two decimals are for the screen."""
+    """The curve's points, without the rounding of path data."""
     scale = 1e4 / max(float(np.abs(chain).max()), 1e-12)
     data = curves.smooth([(x, y) for x, y in (chain * scale).tolist()], rounding)
     return curves.flatten(data) / scale

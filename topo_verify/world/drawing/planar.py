@@ -2,18 +2,18 @@
 
 **A drawing on a grid** is a first injective map of the mesh into the plane: n points on a grid of
 2n - 4 by n - 2, so no triangle is too small for floating-point numbers (M. Chrobak and T. Payne, "A
-linear-time algorithm for drawing a planar graph on a grid", 1995; NetworkX has it). Tried before: a
-circle packing, whose circles shrink exponentially where loops lie within loops.
+linear-time algorithm for drawing a planar graph on a grid", 1995). Rejected: a circle packing,
+whose circles shrink exponentially where loops lie within loops.
 
-**Polishing** that map gives wished triangles and smooth edges, and no flip, ever. The energy of a
-triangle is the symmetric Dirichlet energy of the linear map J from its wished shape: |J|² + |J⁻¹|².
-It is infinite where a triangle would flip; so a map of a disc that begins injective on a fixed
-frame stays injective. Bends along edges of the world cost their squares.
+**Polishing** that map gives wished triangles and smooth edges without a flip. The energy of a
+triangle is the symmetric Dirichlet energy of the linear map J from its wished shape, |J|² + |J⁻¹|²,
+infinite where a triangle would flip, so the map of a disc on a fixed frame stays injective. Bends
+along edges of the world cost their squares.
 
 Newton's method with the Hessian of every triangle made positive by its eigenvalues in closed form
 (B. Smith, F. de Goes and T. Kim, "Analytic Eigensystems for Isotropic Distortion Energies", ACM TOG
-2019). A triangle far from its wished shape is given a nearer wish first (L. Liu et al.,
-"Progressive Parameterizations", ACM TOG 2018): tiny triangles grow fast.
+2019). Triangles far from their wished shape get a nearer wish first (L. Liu et al., "Progressive
+Parameterizations", ACM TOG 2018).
 """
 
 from __future__ import annotations
@@ -40,19 +40,18 @@ from topo_verify.world.drawing.plane_map import (
 from topo_verify.world.rooted_map import World
 
 BEND = 0.4
-"""What a bend costs, beside the shape of a triangle."""
+"""The cost of a bend, beside the shape of a triangle."""
 
 STEPS = 60
 
 ATTEMPTS, LARGE_ATTEMPTS = 6, 2
-"""How many plane maps and outer faces are tried; fewer for worlds with more than 100 edges."""
+"""Trials for worlds with at most 100 edges, and with more."""
 
 
 def planar(world: World) -> Iterator[Sketch]:
     """Sketches of the world, the most promising first.
 
-    Each has the crossings of a plane map and no other, as long as its chains are straight; rounded
-    corners may spoil that, which the finished picture shows.
+    While its chains are straight, each has the crossings of a plane map.
     """
     if not world.edges:
         yield Sketch("planar", np.zeros((1, 2)), ())
@@ -64,7 +63,7 @@ def planar(world: World) -> Iterator[Sketch]:
             return
         outers = outer_faces(plane)
         outer = outers[min(attempt % 2 if attempt < 4 else attempt - 2, len(outers) - 1)]
-        if (attempt // 2, outer) in tried:  # there are fewer faces than attempts
+        if (attempt // 2, outer) in tried:  # fewer faces than attempts
             continue
         tried.add((attempt // 2, outer))
         points = 2 if len(plane.other) < 600 else 1
@@ -78,7 +77,7 @@ def planar(world: World) -> Iterator[Sketch]:
 
 
 def outer_faces(plane: PlaneMap) -> list[int]:
-    """A half-edge of each face, each face once, the best for the outer face first."""
+    """A half-edge of each face, the best outer face first."""
     faces = plane.faces()
 
     def worth(face: list[int]) -> tuple[int, int]:
@@ -87,17 +86,17 @@ def outer_faces(plane: PlaneMap) -> list[int]:
         return len(edges) - 2 * dummies, len(face)
 
     by_size = sorted(faces, key=worth, reverse=True)
-    # Second the face in the middle: from there every other one is near.
+    # second: the face nearest to all others
     middle = min(by_size[:40], key=lambda face: (_depth(plane, face), -len(face)))
     rest = [face for face in by_size if face is not by_size[0] and face is not middle]
-    # The best face may be the middle: what failed with it as the outer face fails again.
+    # they may be the same; trying it twice is useless
     best = [by_size[0]] if middle is by_size[0] else [by_size[0], middle]
     return [face[0] for face in (*best, *rest)]
 
 
 def _depth(plane: PlaneMap, face: list[int]) -> tuple[int, float]:
-    """How many rings of faces lie around this one, and how far a node is in the mean."""
-    seen, ring = {plane.face[face[0]]}, [face]
+    """The rings of faces around this one, and the mean distance of a node."""
+    visited, ring = {plane.face[face[0]]}, [face]
     nodes: set[int] = set()
     depth = total = 0
     at: dict[int, list[int]] = {}
@@ -111,23 +110,20 @@ def _depth(plane: PlaneMap, face: list[int]) -> tuple[int, float]:
         ring = list[list[int]]()
         for node in sorted(fresh):
             for half in at[node]:
-                if plane.face[half] not in seen:
-                    seen.add(plane.face[half])
+                if plane.face[half] not in visited:
+                    visited.add(plane.face[half])
                     ring.append(plane.cycle(half))
     return depth, total / len(nodes)
-
-
-# ---------------------------------------------------------------- on a grid
 
 
 def gridded(mesh: Mesh) -> Floats:
     """The points of the mesh on a grid whose frame is equilateral."""
     before: dict[int, dict[int, int]] = {}  # by point and neighbour: the next neighbour clockwise
     for x, y, z in [*mesh.triangles.tolist(), mesh.frame[::-1].tolist()]:
-        for point, one, other in ((x, y, z), (y, z, x), (z, x, y)):
-            before.setdefault(point, {})[other] = one
+        for point, next_point, other in ((x, y, z), (y, z, x), (z, x, y)):
+            before.setdefault(point, {})[other] = next_point
     corners: list[int] = mesh.frame.tolist()
-    # NetworkX takes for the outer face that of the first point and its first neighbour.
+    # NetworkX's outer face: that of the first point and its first neighbour
     first = {corners[0]: corners[1]}
     embedding: nx.PlanarEmbedding[int] = nx.PlanarEmbedding()
     embedding.set_data(
@@ -152,22 +148,20 @@ def _cycle(after: Mapping[int, int], start: int) -> Iterator[int]:
             return
 
 
-# ---------------------------------------------------------------- polishing
-
 NEAR = 60.0
 """The energy of a triangle beyond which its wish is brought nearer (at best it is 4)."""
 
 ENOUGH = 3e-4
-"""The polish ends when a step gains no more than this share of the energy."""
+"""The polish ends when a step gains a smaller share of the energy."""
 
 
 @dataclass(frozen=True)
 class _Energy:
-    """The energy and its derivatives, for one mesh.
+    """The energy of one mesh and its derivatives.
 
     Attributes:
         inverse: of the wished shape of each triangle: its edges from the first corner as columns.
-        free: the coordinates that may move, among 2·size in the order x0 y0 x1 y1 …
+        free: the coordinates that may move, in the order x0 y0 x1 y1 …
     """
 
     triangles: Ints
@@ -200,12 +194,12 @@ class _Energy:
         """The step, the gradient, the wishes that they serve, and the worst triangle's energy.
 
         Args:
-            near: whether wishes are brought nearer, and steps are those of a bolder method.
+            near: whether wishes are brought nearer, and steps are bolder.
         """
         u, s, v = np.linalg.svd(self.jacobians(places, self.inverse))
         worst = float((s**2 + s**-2).sum(1).max())
         exponent = _nearer(s) if near else np.ones(len(s))
-        # J becomes U S^t V: the wish is stretched by V' S^(t-1) V.
+        # J becomes U S^t V: the wish is stretched by V' S^(t-1) V
         stretch = s ** (exponent - 1)[:, None]
         inverse = self.inverse @ (v.transpose(0, 2, 1) * stretch[:, None, :]) @ v
         s = s ** exponent[:, None]
@@ -234,8 +228,8 @@ class _Energy:
         """Rows, columns and values of the Hessian, each triangle's part made positive.
 
         Args:
-            bold: for stretches below 1 take the secant of the slope to 1, where it is 0, in place
-                of its derivative: Newton's step multiplies a small stretch by 4/3 at most.
+            bold: for stretches below 1 the secant of the slope to 1, where it is 0, replaces its
+                derivative: Newton's step multiplies a small stretch by 4/3 at most.
         """
         a, b = s[:, 0], s[:, 1]
         cube = (a * b) ** 3
@@ -257,7 +251,7 @@ class _Energy:
 
         twist, flip = outer(u1, v0) - outer(u0, v1), outer(u1, v0) + outer(u0, v1)
         modes = np.stack([outer(u0, v0), outer(u1, v1), twist / np.sqrt(2), flip / np.sqrt(2)], 1)
-        # How J changes with the corners: row k of `grow` belongs to corner k.
+        # how J changes with each corner
         grow = np.concatenate([-inverse.sum(1, keepdims=True), inverse], 1)
         # (triangle, mode, coordinate, corner) -> (triangle, mode, 6)
         parts = modes @ grow.transpose(0, 2, 1)[:, None]
@@ -287,7 +281,7 @@ def _stiffness(s: Floats, *, bold: bool) -> Floats:
 
 
 def _nearer(s: Floats) -> Floats:
-    """The exponents t for which the energies of s^t are at most `NEAR`; 1 where those of s are."""
+    """The exponents t, at most 1, for which the energies of s^t are at most `NEAR`."""
 
     def energy(t: Floats) -> Floats:
         power = s ** (2 * t)[:, None]
@@ -323,8 +317,7 @@ def polished(mesh: Mesh, places: Floats, *, bend: float, steps: int) -> Floats:
         if then < now:
             places = places + step * move
         if near:
-            # Near wishes may change for ever: they have done their work when the worst triangle
-            # gets no better.
+            # near wishes may change for ever; stop when the worst triangle gets no better
             worsts.append(worst)
             near = worst > NEAR and not worst > 0.5 * min([np.inf, *worsts[-4:-3]])
         elif now - then < ENOUGH * now:
@@ -344,7 +337,7 @@ def _wishes(mesh: Mesh) -> Floats:
 
 
 def _scaled(mesh: Mesh, places: Floats) -> Floats:
-    """The points with a frame that has room for all wished triangles, four times."""
+    """The points with a frame that has four times the room of all wished triangles."""
     areas = 0.5 / np.linalg.det(_wishes(mesh))
     room = float(areas[mesh.weights >= RING].sum())
     centre = places[mesh.frame].mean(0)
@@ -354,7 +347,7 @@ def _scaled(mesh: Mesh, places: Floats) -> Floats:
 
 
 def _first_flip(triangles: Ints, places: Floats, move: Floats) -> float:
-    """How many moves it takes until the first triangle has no area."""
+    """The number of moves until the first triangle has no area."""
     a, da = places[triangles[:, 0]], move[triangles[:, 0]]
     u, v = places[triangles[:, 1]] - a, places[triangles[:, 2]] - a
     du, dv = move[triangles[:, 1]] - da, move[triangles[:, 2]] - da
@@ -363,10 +356,10 @@ def _first_flip(triangles: Ints, places: Floats, move: Floats) -> float:
         product: Floats = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
         return product
 
-    two, one, none = cross(du, dv), cross(u, dv) + cross(du, v), cross(u, v)
-    square = one**2 - 4 * two * none
+    quadratic, linear, constant = cross(du, dv), cross(u, dv) + cross(du, v), cross(u, v)
+    square = linear**2 - 4 * quadratic * constant
     root = np.sqrt(np.maximum(square, 0))
     with np.errstate(divide="ignore", invalid="ignore"):
-        times = np.stack([2 * none / (-one + root), 2 * none / (-one - root)])
+        times = np.stack([2 * constant / (-linear + root), 2 * constant / (-linear - root)])
     times = np.where((times > 0) & (square >= 0), times, np.inf)
     return float(np.nanmin(times, initial=np.inf))

@@ -1,20 +1,16 @@
 """A world as a plane map, and a triangulated disc over it.
 
-Edges that do not fit cross others in dummy nodes of degree 4. Every vertex keeps its cyclic order
-whatever the genus. A spanning tree comes first, then the edges
-both of whose corners lie on one face, then each other edge on a shortest way through the dual. With
-few crossings in mind this is repeated in other random orders (M. Chimani and C. Gutwenger,
-"Advances in the Planarization Method", JGAA 16 (2012), weigh such heuristics).
+Edges that do not fit cross others in dummy nodes of degree 4, so every vertex keeps its cyclic
+order whatever the genus. A spanning tree comes first, then the edges both of whose corners lie on
+one face, then each other edge on a shortest way through the dual; the best of several random orders
+counts (M. Chimani and C. Gutwenger, "Advances in the Planarization Method", JGAA 16 (2012)).
 
 A half-edge lies in the face on its left, which is the cycle of "cross, then turn clockwise".
 
-**The mesh** is a triangulated disc over the map: what is drawn lies on its edges. Every half-edge
-pair gets points between its ends, every face a centre, and a face that touches itself a collar
-within its walk. So the mesh has no loops and no parallel edges, whatever the map has. The outer
-face becomes a ring of triangles around the rest, and a large triangle around all of it.
-
-Each point has a wished radius. The wished length of an edge of the mesh is the sum of two radii,
-which makes the wished triangles: where many edges meet, they are longer.
+**The mesh** gets points between the ends of every half-edge pair, a centre of every face, and a
+collar within a face that touches itself, so it has no loops and no parallel edges. The outer face
+becomes a ring of triangles around the rest, and a large triangle around all of it. The wished
+length of an edge of the mesh is the sum of the wished radii of its points.
 """
 
 from __future__ import annotations
@@ -31,7 +27,7 @@ from topo_verify.world.drawing.arrays import Floats, Ints
 from topo_verify.world.rooted_map import Dart, World
 
 MOST_CROSSINGS = 1000
-"""A picture with more cannot be read, and takes minutes."""
+"""A picture with more is slow and unreadable."""
 
 
 class PlaneMap:
@@ -41,8 +37,8 @@ class PlaneMap:
         other, after, before: of each half-edge: the other half, the next and the previous half
             clockwise at its node.
         node, edge, face: of each half-edge: its node, the edge of the world, the face on its left.
-        half: the half-edge of each dart that is in.
-        nodes: how many there are; those from `vertices` on are dummies.
+        half: the half-edge of each inserted dart.
+        nodes: their number; those from `vertices` on are dummies.
     """
 
     def __init__(self, world: World) -> None:
@@ -71,27 +67,25 @@ class PlaneMap:
 
     def faces(self) -> list[list[int]]:
         """All faces, by their least half-edges."""
-        seen: set[int] = set()
+        visited: set[int] = set()
         faces: list[list[int]] = []
         for half in range(len(self.other)):
-            if half not in seen:
+            if half not in visited:
                 faces.append(self.cycle(half))
-                seen.update(faces[-1])
+                visited.update(faces[-1])
         return faces
 
     def chain(self, number: int) -> list[int]:
-        """The half-edges of an edge of the world, one after the other from its lesser dart."""
+        """The half-edges along an edge, from its lesser dart."""
         a, b = self.world.edges[number]
         chain = [self.half[a]]
         while self.other[chain[-1]] != self.half[b]:
-            # At a dummy straight on is two places further.
+            # straight on at a dummy
             chain.append(self.after[self.after[self.other[chain[-1]]]])
         return chain
 
-    # ------------------------------------------------------------ growing
-
     def corner(self, dart: Dart) -> int | None:
-        """The half-edge that follows the place of the dart at its vertex; None: it has none yet."""
+        """The half-edge that follows the place of the dart at its vertex, if any."""
         turned = self.world.sigma[dart]
         while turned not in self.half:
             if turned == dart:
@@ -100,7 +94,6 @@ class PlaneMap:
         return self.half[turned]
 
     def _new(self, node: int, edge: int, before: int | None = None) -> int:
-        """A new half-edge at the node, in the corner that this other one follows."""
         half = len(self.other)
         self.other.append(-1)
         self.node.append(node)
@@ -123,21 +116,21 @@ class PlaneMap:
         self.other[a], self.other[b] = b, a
 
     def insert_tree(self, numbers: Sequence[int]) -> None:
-        """Put the edges of a spanning tree in. No face is asked for before the tree is whole."""
+        """Insert the edges of a spanning tree."""
         for number in numbers:
             a, b = self.world.edges[number]
-            one, two = self._place(a, number), self._place(b, number)
-            self._join(one, two)
+            first, second = self._place(a, number), self._place(b, number)
+            self._join(first, second)
         self._name_faces(range(len(self.other)))
 
     def insert(self, number: int, way: Sequence[int] = ()) -> None:
-        """Put an edge in, across these half-edges in turn."""
+        """Insert an edge across these half-edges in turn."""
         a, b = self.world.edges[number]
         halves = [self._place(a, number)]
         for half in way:
             beyond, across, dummy = self.other[half], self.edge[half], self.nodes
             self.nodes += 1
-            # The new edge comes from the left: clockwise arrival, ahead, departure, back.
+            # clockwise: arrival, ahead, departure, back
             arrive = self._new(dummy, number)
             ahead = self._new(dummy, across, arrive)
             leave = self._new(dummy, number, arrive)
@@ -151,7 +144,6 @@ class PlaneMap:
         self._name_faces(halves)
 
     def _name_faces(self, halves: Sequence[int]) -> None:
-        """New names for the faces beside these half-edges: all that an insertion has changed."""
         for half in halves:
             if self.face[half] < 0:
                 for other in self.cycle(half):
@@ -159,9 +151,8 @@ class PlaneMap:
                 self._faces += 1
 
     def way(self, number: int) -> list[int]:
-        """The half-edges that an edge must cross: a shortest way from corner to corner."""
+        """The half-edges on a shortest way from corner to corner."""
         goal, home = (self.face_at(dart) for dart in self.world.edges[number])
-        # Backwards, so that the way reads forwards.
         halves: dict[int, list[int]] = {}
         for half, face in enumerate(self.face):
             halves.setdefault(face, []).append(half)
@@ -180,15 +171,15 @@ class PlaneMap:
         return way
 
     def face_at(self, dart: Dart) -> int:
-        """The face in which the place of the dart lies."""
+        """The face at the place of the dart."""
         corner = self.corner(dart)
         return -1 if corner is None else self.face[corner]
 
 
 def planarise(world: World, random: Random) -> PlaneMap | None:
-    """The world as a plane map, its edges put in in a random order.
+    """The world as a plane map, its edges inserted in a random order.
 
-    None if there are more than `MOST_CROSSINGS`.
+    None if it has more than `MOST_CROSSINGS`.
     """
     plane = PlaneMap(world)
     number = {dart: k for k, edge in enumerate(world.edges) for dart in edge}
@@ -210,24 +201,24 @@ def planarise(world: World, random: Random) -> PlaneMap | None:
 
 
 def _spanning_tree(world: World, random: Random) -> list[Dart]:
-    """One dart of each edge of a tree that is grown from a random vertex, mostly breadth-first."""
+    """One dart of each edge of a random, mostly breadth-first tree."""
     root = random.randrange(len(world.vertices))
-    seen, queue, tree = {root}, deque([root]), list[Dart]()
+    reached, queue, tree = {root}, deque([root]), list[Dart]()
     while queue:
         vertex = queue.popleft() if random.random() < 0.7 else queue.pop()
         darts = list(world.vertices[vertex])
         random.shuffle(darts)
         for dart in darts:
             end = world.vertex_of[world.alpha[dart]]
-            if end not in seen:
-                seen.add(end)
+            if end not in reached:
+                reached.add(end)
                 queue.append(end)
                 tree.append(dart)
     return tree
 
 
 def _insert_uncrossed(plane: PlaneMap, rest: list[int]) -> list[int]:
-    """Put in what fits without a crossing, as long as anything does; the others are returned."""
+    """Insert what fits without a crossing; returns the others."""
     while True:
         crossing: list[int] = []
         for number in rest:
@@ -247,7 +238,7 @@ def best_plane_map(world: World, seed: int = 0) -> PlaneMap | None:
     None if the first has more than `MOST_CROSSINGS`.
     """
     edges = len(world.edges)
-    # Small maps have few orders, and large ones take long.
+    # small maps have few orders; large ones are slow
     tries = max(3, min(4 + 2 * edges, 40, 3000 // max(1, edges))) if world.genus else 1
     best: PlaneMap | None = None
     for k in range(tries):
@@ -259,13 +250,11 @@ def best_plane_map(world: World, seed: int = 0) -> PlaneMap | None:
     return best
 
 
-# ---------------------------------------------------------------- the mesh over it
-
 COLLAR, RING, OUTER = 0.6, 0.25, 0.002
 """The weights of the triangles of collars, of the ring, and between the ring and the frame."""
 
 AROUND = 3.0
-"""How much more a triangle weighs that has a vertex of the world for a corner."""
+"""The weight factor at vertices of the world."""
 
 
 @dataclass(frozen=True)
@@ -273,11 +262,11 @@ class Mesh:
     """A triangulated disc, with the points and edges of the plane map on it.
 
     Attributes:
-        size: the number of points; those of the plane map's nodes come first.
+        size: the number of points, the plane map's nodes first.
         triangles: three points each, counter-clockwise with y upwards.
-        weights: how much the shape of each triangle matters.
+        weights: of the triangles' shapes.
         radii: the wished radius of each point.
-        frame: the three points of the triangle around everything, counter-clockwise.
+        frame: the outermost triangle, counter-clockwise.
         between: the points between the ends of each half-edge, from its node on.
         lines: three points in a row each, along the edges of the world.
     """
@@ -304,17 +293,16 @@ class _Builder:
                 self.between[half], self.between[other] = middle, middle[::-1]
 
     def new(self, number: int) -> tuple[int, ...]:
-        """The numbers of new points, added at the end."""
         self.size += number
         return tuple(range(self.size - number, self.size))
 
     def triangle(self, a: int, b: int, c: int, weight: float) -> None:
-        """A triangle that is counter-clockwise."""
+        """Add a counter-clockwise triangle."""
         self.triangles.append((a, b, c))
         self.weights.append(weight * (AROUND if min(a, b, c) < self.vertices else 1))
 
     def strip(self, walk: tuple[int, ...], weight: float) -> tuple[int, ...]:
-        """Triangles between a walk and a new cycle on its left."""
+        """Add triangles between a walk and a new cycle on its left."""
         inner = self.new(len(walk))
         for j, (a, d) in enumerate(zip(walk, inner, strict=True)):
             b, c = walk[(j + 1) % len(walk)], inner[(j + 1) % len(walk)]
@@ -323,7 +311,7 @@ class _Builder:
         return inner
 
     def framed(self, cycle: tuple[int, ...]) -> tuple[int, ...]:
-        """The corners of a new triangle around a counter-clockwise cycle, each above a third."""
+        """Add triangles between a counter-clockwise cycle and a new triangle around it."""
         corners = self.new(3)
         above = [corners[3 * j // len(cycle)] for j in range(len(cycle))]
         for j, point in enumerate(cycle):
@@ -338,14 +326,14 @@ def over(plane: PlaneMap, outer: int, *, points: int) -> Mesh:
 
     Args:
         outer: a half-edge of the face that becomes the outer one.
-        points: how many points lie between the two ends of a half-edge pair (loops: 2 at least).
+        points: between the two ends of a half-edge pair (at least 2 on loops).
     """
     builder = _Builder(plane, points)
     frame: tuple[int, ...] = ()
     for face in plane.faces():
         walk = tuple(p for half in face for p in (plane.node[half], *builder.between[half]))
         if outer in face:
-            # The walk of the outer face has the disc on its right.
+            # the walk of the outer face has the disc on its right
             frame = builder.framed(builder.strip(walk, RING)[::-1])
             continue
         weight = 1.0
@@ -367,7 +355,7 @@ def over(plane: PlaneMap, outer: int, *, points: int) -> Mesh:
 
 
 def _radii(plane: PlaneMap, builder: _Builder) -> Floats:
-    """The radius of a point is about that around which one circle for each neighbour fits."""
+    """About the radius around which one circle for each neighbour fits."""
     degree = Counter(p for triangle in builder.triangles for p in triangle)
     drawn = {p for middle in builder.between.values() for p in middle}
     radii = np.full(builder.size, 0.5)
@@ -391,7 +379,7 @@ def _lines(plane: PlaneMap, builder: _Builder) -> Ints:
 
 
 def points_of(plane: PlaneMap, between: dict[int, tuple[int, ...]], number: int) -> list[int]:
-    """The points of the mesh along an edge of the world, from its lesser dart's vertex on."""
+    """The points of the mesh along an edge, from its lesser dart's vertex on."""
     chain = plane.chain(number)
     points = [plane.node[chain[0]]]
     for half in chain:

@@ -1,10 +1,8 @@
 """Reads a finished SVG and compares what it shows with the world.
 
-Independent of what drew it: it parses the XML and the path data, by the attributes that scripts are
-promised, and knows no layout. Nothing here is rounded in the picture's favour.
+It parses the XML and the path data, independently of what drew them.
 
-What this does not show: that a reader's eye tells two near edges apart; `smallest_angle` and the
-distances below say how near they are.
+What this does not show: that a reader's eye tells two near edges apart.
 """
 
 from __future__ import annotations
@@ -22,20 +20,20 @@ from topo_verify.world.drawing.curves import crossings, flatten
 from topo_verify.world.rooted_map import Dart, World
 
 TOLERANCE = 0.03
-"""Distance of a point from its circle that rounding to two decimals may cause."""
+"""Of a point on its circle, for rounding to two decimals."""
 
 SVG = "{http://www.w3.org/2000/svg}"
 
 
 @dataclass(frozen=True)
 class Picture:
-    """What a finished SVG shows.
+    """The content of an SVG.
 
     Attributes:
         circles: x, y and radius of each vertex.
         curves: the parts of each edge, by its two darts, as points.
         stubs: the beginnings of edges that are not shown whole, by their dart.
-        sides: of a surface that was cut open: by letter, its sides from corner to corner.
+        sides: of a surface that was cut open, by letter.
     """
 
     circles: dict[int, tuple[float, float, float]]
@@ -45,7 +43,7 @@ class Picture:
 
 
 def read(svg: str) -> Picture:
-    """What the SVG shows.
+    """The content of the SVG.
 
     Raises:
         ValueError: it is no SVG of a world.
@@ -54,7 +52,7 @@ def read(svg: str) -> Picture:
     parts: dict[tuple[Dart, Dart], dict[int, Floats]] = {}
     stubs: dict[Dart, Floats] = {}
     sides: dict[str, list[Floats]] = {}
-    for element in ET.fromstring(svg).iter():  # noqa: S314  a picture that we drew
+    for element in ET.fromstring(svg).iter():  # noqa: S314  our own picture
         get = element.attrib.get
         if element.tag == f"{SVG}circle" and (vertex := get("data-vertex")) is not None:
             if int(vertex) in circles:
@@ -69,22 +67,18 @@ def read(svg: str) -> Picture:
         elif (stub := get("data-stub")) is not None:
             stubs[int(stub)] = flatten(get("d", ""))
         elif (cell := get("data-cell")) is not None:
-            corner, one, other = np.array([*map(float, cell.split())]).reshape(3, 2)
-            corners = np.array([corner, corner + one, corner + one + other, corner + other])
+            corner, right, up = np.array([*map(float, cell.split())]).reshape(3, 2)
+            corners = np.array([corner, corner + right, corner + right + up, corner + up])
             sides = _sides(corners, "abab")
         elif (outline := get("data-polygon")) is not None:
             corners = np.array([*map(float, outline.split())]).reshape(-1, 2)
             sides = _sides(corners, get("data-sides", ""))
-    curves = {edge: tuple(found[k] for k in sorted(found)) for edge, found in parts.items()}
+    curves = {edge: tuple(pieces[k] for k in sorted(pieces)) for edge, pieces in parts.items()}
     return Picture(circles, curves, stubs, sides)
 
 
 def _sides(corners: Floats, letters: str) -> dict[str, list[Floats]]:
-    """The sides of a polygon by their letters, two of each.
-
-    Raises:
-        ValueError: the letters do not name the sides in pairs.
-    """
+    """The sides of a polygon by their letters, two of each."""
     sides: dict[str, list[Floats]] = {}
     for letter, start, end in zip(letters, corners, np.roll(corners, -1, 0), strict=True):
         sides.setdefault(letter, []).append(np.array([start, end]))
@@ -102,19 +96,19 @@ def untruths(picture: Picture, world: World, *, bridges: int | None = None) -> l
     missing = sorted(set(range(len(world.vertices))) - picture.circles.keys())
     if missing and not picture.stubs:
         return [f"vertex {missing[0]} is not drawn"]
-    # Each of these must hold before the next can be asked.
+    # each is needed by the next
     for check in (_edges, _ends, _seams):
-        if found := [*check(picture, world)]:
-            return found
-    found = [*_orders(picture, world), *overlaps(picture), *_touches(picture, world)]
+        if mistakes := [*check(picture, world)]:
+            return mistakes
+    mistakes = [*_orders(picture, world), *overlaps(picture), *_touches(picture, world)]
     flat = [part for parts in picture.curves.values() for part in parts]
     flat += picture.stubs.values()
     number = len(crossings(flat))
     if bridges is None:
         bridges = number if world.genus and not picture.sides else 0
     if number != bridges:
-        found.append(f"{number} crossings are drawn, {bridges} are meant")
-    return found
+        mistakes.append(f"{number} crossings are drawn, {bridges} are meant")
+    return mistakes
 
 
 def _edges(picture: Picture, world: World) -> Iterator[str]:
@@ -136,15 +130,15 @@ def _edges(picture: Picture, world: World) -> Iterator[str]:
 
 
 def leavings(picture: Picture) -> dict[Dart, Floats]:
-    """The curve of every dart, from where it leaves the circle of its vertex."""
-    found = dict(picture.stubs)
+    """The curve of every dart, from the circle of its vertex on."""
+    lines = dict(picture.stubs)
     for (a, b), parts in picture.curves.items():
-        found[a], found[b] = parts[0], parts[-1][::-1]
-    return found
+        lines[a], lines[b] = parts[0], parts[-1][::-1]
+    return lines
 
 
 def _ends(picture: Picture, world: World) -> Iterator[str]:
-    """Every curve begins and ends on the circle of the vertex that its dart belongs to."""
+    """Every curve begins and ends on the circles of its darts' vertices."""
     for dart, curve in sorted(leavings(picture).items()):
         x, y, r = picture.circles[world.vertex_of[dart]]
         off = hypot(curve[0][0] - x, curve[0][1] - y) - r
@@ -153,22 +147,22 @@ def _ends(picture: Picture, world: World) -> Iterator[str]:
 
 
 def _seams(picture: Picture, _world: World) -> Iterator[str]:
-    """Where an edge leaves the cell it comes back at the point that is the same on the surface."""
+    """An edge that leaves the cell comes back at the same point of the surface."""
     for edge, parts in sorted(picture.curves.items()):
         for before, after in pairwise(parts):
             if not picture.sides:
                 yield f"edge {edge} is torn, and there is no cell that it could leave"
             elif not any(
-                _is_glued(one, other, before[-1], after[0])
+                _is_glued(side, partner, before[-1], after[0])
                 for pair in picture.sides.values()
-                for one, other in (pair, pair[::-1])
+                for side, partner in (pair, pair[::-1])
             ):
                 yield f"edge {edge} does not come back where it left the cell"
 
 
-def _is_glued(one: Floats, other: Floats, out: Floats, back: Floats) -> bool:
-    """Whether a point of one side is this point of the other, whose end lies at its start."""
-    (start, end), (last, first) = one, other
+def _is_glued(side: Floats, partner: Floats, out: Floats, back: Floats) -> bool:
+    """Whether gluing the sides, end to start, makes these two points side."""
+    (start, end), (last, first) = side, partner
     share = float((out - start) @ (end - start) / ((end - start) ** 2).sum())
     off = (out - start - share * (end - start), back - first - share * (last - first))
     return -1e-3 < share < 1 + 1e-3 and float(np.hypot(*np.array(off).T).max()) < 3 * TOLERANCE
@@ -177,16 +171,15 @@ def _is_glued(one: Floats, other: Floats, out: Floats, back: Floats) -> bool:
 def gaps(picture: Picture, world: World) -> dict[int, list[float]]:
     """At each drawn vertex of degree 2 or more, the angles between neighbouring darts.
 
-    With y downwards an angle grows clockwise on the screen, so they sum
-    up to 2 pi exactly if the order is that of the world.
+    They are measured clockwise, so they sum up to 2 pi iff the order is that of the world.
     """
     starts = leavings(picture)
-    found: dict[int, list[float]] = {}
+    angles: dict[int, list[float]] = {}
     for vertex, (x, y, _) in picture.circles.items():
         row = [atan2(starts[d][0][1] - y, starts[d][0][0] - x) for d in world.vertices[vertex]]
         if len(row) > 1:
-            found[vertex] = [(b - a) % tau for a, b in zip(row, row[1:] + row[:1], strict=True)]
-    return found
+            angles[vertex] = [(b - a) % tau for a, b in zip(row, row[1:] + row[:1], strict=True)]
+    return angles
 
 
 def _orders(picture: Picture, world: World) -> Iterator[str]:
@@ -213,7 +206,7 @@ def overlaps(picture: Picture) -> Iterator[str]:
 
 
 def _touches(picture: Picture, world: World) -> Iterator[str]:
-    """No curve comes into a circle: not into a foreign one, nor again into its own."""
+    """No curve enters a foreign circle, or its own again."""
     vertices = sorted(picture.circles)
     rows = np.array([picture.circles[vertex] for vertex in vertices])
     lines = [(edge, part) for edge, parts in picture.curves.items() for part in parts]
@@ -240,6 +233,6 @@ def inside(circles: Floats, line: Floats) -> Floats:
 
 
 def _depth(circle: Floats, line: Floats) -> float:
-    """How deep the polyline goes into the circle, at the middles of its legs and its points."""
+    """How deep the polyline goes into the circle, about."""
     points = np.concatenate([line, (line[1:] + line[:-1]) / 2])
     return float(circle[2] - np.hypot(*(points - circle[:2]).T).min())

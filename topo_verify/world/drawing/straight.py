@@ -1,12 +1,9 @@
 """Drawings with straight edges: trees, and the positions of the world's file.
 
-A long path is wound up to a spiral. Positions stay as they are, or are spread out.
-
 **Springs** spread a drawing evenly, and no edge ever crosses another. A vertex moves at most a
-third of the way to any edge that is not its own, and so do the ends of that edge: what was plane
-stays plane, and every cyclic order stays (P. Simonetto, D. Archambault, D. Auber and R. Bourqui,
-"ImPrEd: An Improved Force-Directed Algorithm that Prevents Nodes from Crossing Edges", EuroVis
-2011).
+third of the way to any foreign edge, and so do the ends of that edge, so every cyclic order stays
+(P. Simonetto, D. Archambault, D. Auber and R. Bourqui, "ImPrEd: An Improved Force-Directed
+Algorithm that Prevents Nodes from Crossing Edges", EuroVis 2011).
 """
 
 from __future__ import annotations
@@ -20,7 +17,7 @@ from topo_verify.world.drawing.layout import Sketch, fitted
 from topo_verify.world.rooted_map import Dart, World
 
 LONG = 16
-"""The vertices of a path beyond which it is wound up."""
+"""Longer paths are wound up to a spiral."""
 
 PITCH = 1.7
 """The distance between two turns of a spiral, in edges."""
@@ -33,7 +30,7 @@ def tree(world: World) -> Sketch | None:
     ends = ends_of(world)
     wound = max(world.degrees) <= 2 and len(world.vertices) > LONG
     centres = _spiral(world) if wound else _fan(world)
-    if not wound and max(world.degrees) < len(world.edges):  # a star needs no springs
+    if not wound and max(world.degrees) < len(world.edges):  # stars need none
         centres = relaxed(centres, ends, steps=max(60, min(300, 30_000 // len(centres))))
     chains = tuple(centres[pair] for pair in ends)
     return Sketch("planar", centres, chains, bridges=0, turn=not wound)
@@ -42,13 +39,13 @@ def tree(world: World) -> Sketch | None:
 def _fan(world: World) -> Floats:
     """Each edge points to the middle of its wedge; the wedges share the circle by their leaves.
 
-    (J. Felsenstein's equal-angle algorithm: no edges cross, whatever their lengths.)
+    (J. Felsenstein's equal-angle algorithm: no edges cross.)
     """
     leaves = _leaves(world)
     places: dict[int, complex] = {}
     root = max(range(len(world.vertices)), key=lambda v: len(world.vertices[v]))
     total = sum(leaves[dart] for dart in world.vertices[root])
-    # The vertex, the dart by which it was entered, the wedge that it has.
+    # vertex, dart of entry, wedge
     todo: list[tuple[int, Dart | None, float, float]] = [(root, None, 0.0, tau)]
     places[root] = 0j
     while todo:
@@ -58,7 +55,7 @@ def _fan(world: World) -> Floats:
         row = rotation[first:] + rotation[:first]
         for dart in row if entry is None else row[:-1]:
             wide = tau * leaves[dart] / total
-            # Clockwise with y upwards: angles fall.
+            # clockwise with y upwards: angles fall
             middle = angle - wide / 2
             out = world.alpha[dart]
             length = 1 + 0.2 * sqrt(leaves[dart])
@@ -107,16 +104,14 @@ def _spiral(world: World) -> Floats:
     return np.array([places[v] for v in range(len(order))])
 
 
-# ---------------------------------------------------------------- springs
-
 ROOM = 1.0
-"""The distance between a vertex and a foreign edge below which they push each other away."""
+"""A vertex and a foreign edge at a smaller distance repel each other."""
 
 GRAVITY = 0.02
-"""A pull to the middle, which folds what would get long."""
+"""A pull to the middle."""
 
 STIFF = 0.15
-"""How far a vertex moves for a force of 1."""
+"""The move for a force of 1."""
 
 
 def relaxed(centres: Floats, ends: Ints, *, steps: int) -> Floats:
@@ -134,18 +129,18 @@ def relaxed(centres: Floats, ends: Ints, *, steps: int) -> Floats:
         force, near = _forces(places, ends, own)
         move = STIFF * force
         reach = np.hypot(*move.T)
-        # Slower and slower, so that it comes to rest.
+        # slower and slower
         most = np.minimum(0.5 * (1 - k / steps) + 0.01, near / 3)
         places = places + move * (np.minimum(reach, most) / np.maximum(reach, 1e-12))[:, None]
     return places
 
 
 def _forces(places: Floats, ends: Ints, own: Flags) -> tuple[Floats, Floats]:
-    """The force on each vertex, and the distance to what its moves must not reach."""
+    """The force on each vertex, and the distance that its moves must not cover."""
     x, y = places.T
     tail, head = ends.T
     force = np.zeros_like(places)
-    # Vertices push each other away, on short ways mostly: far clusters shall not spread the whole.
+    # vertices repel each other at short range, or far clusters would spread the whole
     dx, dy = x[:, None] - x, y[:, None] - y
     square = dx * dx + dy * dy
     np.fill_diagonal(square, np.inf)
@@ -155,7 +150,7 @@ def _forces(places: Floats, ends: Ints, own: Flags) -> tuple[Floats, Floats]:
     length = np.hypot(ex, ey)
     force -= GRAVITY * (places - places.mean(0))
     pull = (1 - 1 / np.maximum(length, 1e-9)) * np.stack([ex, ey])
-    # Vertices and foreign edges.
+    # vertices and foreign edges
     ox, oy = x[:, None] - x[tail], y[:, None] - y[tail]
     t = np.clip((ox * ex + oy * ey) / np.maximum(length * length, 1e-24), 0, 1)
     gx, gy = ox - t * ex, oy - t * ey
@@ -176,17 +171,12 @@ def _forces(places: Floats, ends: Ints, own: Flags) -> tuple[Floats, Floats]:
     return force, near
 
 
-# ---------------------------------------------------------------- the positions of the world's file
-
 CROWDED = 0.12
-"""The picture is crowded if its mean side has more than sqrt(n) / CROWDED radii."""
+"""A picture is crowded with more than sqrt(n) / CROWDED radii along its mean side."""
 
 
 def given(world: World) -> Sketch | None:
-    """The sketch with straight edges between the world's positions.
-
-    None if there are no positions, or edges would lie on each other.
-    """
+    """Straight edges between the world's positions; None if there are none or edges coincide."""
     distinct = len(set(world.positions)) == len(world.vertices)
     if not world.positions or not distinct or not world.is_simple:
         return None
@@ -195,14 +185,14 @@ def given(world: World) -> Sketch | None:
 
 
 def is_crowded(sketch: Sketch) -> bool:
-    """Would the circles of the vertices be small, beside those of an even drawing?"""
+    """Whether the circles are small, compared with an even drawing."""
     layout = fitted(sketch, 0.0)
     share = layout.radius / sqrt(layout.width * layout.height)
     return share * sqrt(len(sketch.centres)) < CROWDED
 
 
 def spread(world: World, sketch: Sketch) -> Sketch | None:
-    """The positions spread evenly; None where edges cross, which springs would not respect."""
+    """The positions spread evenly; None if edges cross."""
     if world.genus or fitted(sketch, 0.0).bridges:
         return None
     ends = ends_of(world)

@@ -2,10 +2,8 @@
 
 docs/commands.md, section "world draw", promises how a script finds vertices and edges in it.
 
-**The number of a dart** stands on its own edge, near its vertex, and on nothing else. It must be
-seen to belong to its edge. So it goes out along the edge until no other number, no circle and no
-other dart of the same vertex is near; where there is no such place, it takes the one that is
-farthest from all of these.
+**The number of a dart** stands on its own edge, as near to its vertex as other numbers, circles and
+darts allow.
 """
 
 from __future__ import annotations
@@ -37,10 +35,10 @@ STYLE = (
     ".tv-side-a{stroke:#6cb0ff}.tv-side-b{stroke:#ff9d5c}"
     ".tv-side-c{stroke:#56d090}.tv-side-d{stroke:#b39ddb}}"
 )
-"""Colours only. Sizes are attributes: two pictures in one page do not disturb each other."""
+"""Colours only, so that two pictures in one page do not disturb each other."""
 
 SIDES = "abcd"
-"""The colours of sides; their letters tell more pairs apart."""
+"""Colours repeat; letters do not."""
 
 FONT = "system-ui,-apple-system,'Segoe UI',Helvetica,Arial,sans-serif"
 
@@ -49,27 +47,27 @@ def to_svg(world: World, layout: Layout, *, doors: bool = False, darts: bool = F
     """The picture of the world, the same bytes for the same arguments.
 
     Args:
-        doors: write the place of each dart in the rotation of its vertex beside it.
+        doors: write the place of each dart in its rotation beside it.
         darts: write the number of each dart beside it.
     """
     return "\n".join([*_head(world, layout), *_body(world, layout, doors, darts), "</svg>\n"])
 
 
 def text(words: str, *, limit: int = 200) -> str:
-    """Words of unknown origin as text of a document: on one line, escaped."""
+    """Words of unknown origin on one line, escaped."""
     return escape(shown(words, limit=limit))
 
 
 def caption(world: World, layout: Layout) -> str:
-    """What the picture shows, in one line."""
+    """The picture's content, in one line."""
     size = (
         f"{plural(len(world.vertices), 'vertex', 'vertices')}, {plural(len(world.edges), 'edge')},"
         f" genus {world.genus}"
     )
     part = ""
     if layout.hidden:
-        seen = len(world.vertices) - len(layout.hidden)
-        part = f"; {seen} of {len(world.vertices)} vertices are shown"
+        visible = len(world.vertices) - len(layout.hidden)
+        part = f"; {visible} of {len(world.vertices)} vertices are shown"
     return f"{world.name}: {size}{part}" if world.name else f"{size}{part}"
 
 
@@ -86,7 +84,7 @@ def _head(world: World, layout: Layout) -> Iterator[str]:
 
 def _body(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[str]:  # noqa: FBT001
     radius = layout.radius
-    # Thin circles in a large picture need lines that can be seen all the same.
+    # visible, but thinner than the circles
     line = number(min(max(0.15 * radius, max(layout.width, layout.height) / 800), 0.45 * radius))
     if layout.cell:
         yield from _cell(layout.cell, radius)
@@ -110,9 +108,9 @@ def _body(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[st
         yield from arrow(world, layout, world.root)
     yield from _vertices(world, layout)
     if layout.hidden:
-        seen = len(layout.centres) - len(layout.hidden)
+        visible = len(layout.centres) - len(layout.hidden)
         size = number(max(0.9 * radius, layout.width / 60))
-        words = f"{seen} of {len(layout.centres)} vertices are shown"
+        words = f"{visible} of {len(layout.centres)} vertices are shown"
         at = f'x="{number(radius)}" y="{number(layout.height - radius)}"'
         yield f'<text class="tv-soft" font-family="{FONT}" font-size="{size}" {at}>{words}</text>'
     if doors or darts:
@@ -120,7 +118,7 @@ def _body(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[st
 
 
 def _cell(cell: CutSurface, radius: float) -> Iterator[str]:
-    """The border of a cell: sides that are the same line have one colour and one letter."""
+    """The border of a cell: glued sides have one colour and one letter."""
     (x, y), *others = cell.corners
     dash = f"{number(0.5 * radius)} {number(0.4 * radius)}"
     if cell.sides == "abab":
@@ -157,8 +155,7 @@ def arrow(world: World, layout: Layout, dart: Dart) -> Iterator[str]:
         x, y = layout.centres[world.vertex_of[dart]]
         at = f'cx="{number(x)}" cy="{number(y)}" r="{number(layout.radius + 0.6 * size)}"'
         yield f'<circle class="tv-mark" stroke-width="{number(0.2 * size)}" {at}/>'
-    # Two thirds of a short edge at most; less of a loop, which turns round beneath it unless it
-    # leaves the cell.
+    # less of a loop, which turns back beneath it
     loop = layout.cell is None and world.vertex_of[dart] == world.vertex_of[world.alpha[dart]]
     reach = min(2.5 * size, (0.3 if loop else 0.66) * curves.length(along))
     tip = 0.5 * reach
@@ -173,19 +170,19 @@ def arrow(world: World, layout: Layout, dart: Dart) -> Iterator[str]:
 
 
 def legible(layout: Layout) -> float:
-    """The radius of a vertex; more where circles are so small that signs need more."""
+    """The least size of legible signs, at least the radius."""
     return max(layout.radius, max(layout.width, layout.height) / 110)
 
 
 def _vertices(world: World, layout: Layout) -> Iterator[str]:
-    """Circles, with names inside or, where circles are small, beside those that have room."""
+    """Circles, with names inside or, if there is room, beside."""
     radius, size = layout.radius, legible(layout)
     yield (
         f'<g stroke-width="{number(0.13 * radius)}" font-family="{FONT}" text-anchor="middle"'
         f' font-size="{number(size)}">'
     )
     names = world.vertex_names or tuple(map(str, range(len(world.vertices))))
-    # A long name is read by pointing at its vertex.
+    # titles show long names
     labels = [name if len(name) <= 3 else str(vertex) for vertex, name in enumerate(names)]
     places = dict(enumerate(layout.centres)) if size == layout.radius else {}
     if not places and len(world.vertices) <= MOST_NAMES:
@@ -204,11 +201,11 @@ def _vertices(world: World, layout: Layout) -> Iterator[str]:
 
 
 MOST_NAMES = 250
-"""The vertices beyond which small circles have no names beside them."""
+"""Vertices beyond which small circles have no names."""
 
 
 def _beside(layout: Layout, labels: Sequence[str], size: float) -> dict[int, Point]:
-    """Places for the names of small circles, clear of circles, edges and other names."""
+    """Places for the names of small circles, clear of everything."""
     page = layout.width, layout.height
     circles = [c for vertex, c in enumerate(layout.centres) if vertex not in layout.hidden]
     parts = [data for parts in layout.paths for data in parts]
@@ -232,11 +229,10 @@ def _beside(layout: Layout, labels: Sequence[str], size: float) -> dict[int, Poi
 
 
 UNITS = np.array([(cos(turn * pi / 4), sin(turn * pi / 4)) for turn in range(8)])
-"""Eight directions, that to the right first."""
+"""Eight directions, from the right on."""
 
 
 def _dart_labels(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[str]:  # noqa: FBT001
-    """Numbers beside the darts where they leave their circles: `door`, `dart`, or `door:dart`."""
     radius = layout.radius
     words = {
         dart: ":".join([str(door)] * doors + [str(dart)] * darts)
@@ -252,20 +248,18 @@ def _dart_labels(world: World, layout: Layout, doors: bool, darts: bool) -> Iter
     yield "</g>"
 
 
-# ---------------------------------------------------------------- the numbers of darts
-
 FIRST, STEP, MOST = 0.75, 0.3, 24
 """In radii: the first place along an edge, the step to the next, and how many are tried."""
 
 CLEAR = 0.55
-"""In radii: the distance of a number with one digit from the lines of other darts."""
+"""In radii: the distance of a one-digit number from other darts."""
 
 DIGIT = 0.2
 """In radii: half the width of a digit."""
 
 
 def leaving(world: World, layout: Layout) -> dict[Dart, Floats]:
-    """The points of the edge of each dart that is drawn, from the dart on; its first part."""
+    """The first part of the edge of each drawn dart, as points from the dart on."""
     lines: dict[Dart, Floats] = {}
     for (a, b), parts in zip(world.edges, layout.paths, strict=True):
         if parts:
@@ -274,12 +268,12 @@ def leaving(world: World, layout: Layout) -> dict[Dart, Floats]:
 
 
 def places(world: World, layout: Layout, words: Mapping[Dart, str]) -> dict[Dart, Point]:
-    """Where the words of each dart that is drawn stand, vertex by vertex, clockwise."""
+    """The places of the words of drawn darts, vertex by vertex, clockwise."""
     lines, radius = leaving(world, layout), layout.radius
     circles = [c for vertex, c in enumerate(layout.centres) if vertex not in layout.hidden]
-    # What a number stays away from: points, and how far from each, across and down.
+    # what numbers avoid: points, and how far from each, across and down
     taken = [(x, y, 1.3 * radius, 1.3 * radius) for x, y in circles]
-    found: dict[Dart, Point] = {}
+    chosen: dict[Dart, Point] = {}
     for vertex, rotation in enumerate(world.vertices):
         if vertex in layout.hidden:
             continue
@@ -288,23 +282,23 @@ def places(world: World, layout: Layout, words: Mapping[Dart, str]) -> dict[Dart
         for dart in near:
             others = [near[other] for other in near if other != dart]
             across = len(words[dart]) * DIGIT * radius
-            found[dart] = _best(
+            chosen[dart] = _best(
                 [*_along(lines[dart], radius, marked=dart == world.root)],
                 np.concatenate(others) if others else np.empty((0, 2)),
                 np.array(taken) + np.array([0, 0, across, 0]),
                 CLEAR * radius,
             )
-            taken.append((*found[dart], across + 0.15 * radius, 0.8 * radius))
-    return found
+            taken.append((*chosen[dart], across + 0.15 * radius, 0.8 * radius))
+    return chosen
 
 
 def _sampled(line: Floats, step: float, most: float) -> Floats:
-    """Points along a line, this far apart, up to a distance from its start."""
+    """Points along a line up to a distance from its start."""
     return curves.place(line, np.arange(0.0, min(curves.length(line), most), step))
 
 
 def _along(line: Floats, radius: float, *, marked: bool) -> Iterator[Point]:
-    """The places to try, the nearest first; beside the arrow on the marked dart."""
+    """The places to try, the nearest first; on the marked dart beside the arrow."""
     most = 0.35 * curves.length(line)  # the other end has a number, too
     for k in range(MOST):
         away = (FIRST + STEP * k) * radius
@@ -318,7 +312,7 @@ def _along(line: Floats, radius: float, *, marked: bool) -> Iterator[Point]:
 
 
 def _best(tries: list[Point], lines: Floats, taken: Floats, clear: float) -> Point:
-    """The first place that is clear of all; else one on no other number, and off the lines."""
+    """The first place clear of all; else one on no other number, and off the lines."""
     rooms: list[tuple[float, float]] = []
     for place in tries:
         apart = (np.abs(taken[:, :2] - place) / taken[:, 2:]).max(axis=1).min()

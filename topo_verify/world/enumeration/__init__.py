@@ -1,7 +1,7 @@
 """Every rooted map with m edges, or of a class of them: counted, listed in rank order, sampled.
 
 rank_order.py  all rooted maps: closed formulas, rank and unrank, listing, uniform samples
-counts.py      counts of worlds by genus, and by properties of their graph
+counts.py      counts by genus, and by properties of the graph
 classes.py     CLASS on a command line: planar, genus:1, simple, ...
-pruned.py      the worlds of a class, grown in rank order without listing the others; `worlds`
+pruned.py      the worlds of a class in rank order, grown with pruning; `worlds`
 """

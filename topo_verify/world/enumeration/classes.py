@@ -1,19 +1,15 @@
 """Classes of worlds, such as `planar` or `simple,max-degree:4`: membership, counts and samples.
 
-A class is written as terms joined with commas, in any order; a world is in it if it has all of
-the properties. They are properties of the map, so where the marker lies never matters.
+A class is terms joined with commas, which must all hold; none depends on the marker.
 
 | term | which worlds |
 | --- | --- |
 | `any` | all |
-| `planar` | of genus 0, the same as `genus:0` |
+| `planar` | `genus:0` |
 | `genus:G`, `genus<=G` | of this genus, of this genus at most |
 | `loopless` | no edge joins a vertex with itself |
 | `simple` | loopless, and no two edges join the same two vertices |
 | `max-degree:D` | no vertex has more than D exits |
-
-`sample` draws from a class other than `any` by rejection. That is exactly uniform, but hopeless
-where hardly a world is in the class; then an error says so.
 
 Source: docs/semantics.md, section 16.
 """
@@ -33,22 +29,20 @@ MAX_LISTED_EDGES = 7
 """Some classes are counted by listing: 1,708,394 worlds with 7 edges."""
 
 MAX_TRIES = 100_000
-"""At most this many worlds are drawn in search of one in the class."""
+"""Limit of draws for one world of the class."""
 
 _TERM = re.compile(r"(any|planar|simple|loopless)|(genus:|genus<=|max-degree:)([0-9]{1,9})")
 
 
 @dataclass(frozen=True, slots=True)
 class WorldClass:
-    """The worlds with all of these properties; `parse` makes one from its text, `str` is the text.
-
-    Equal classes print alike, however they were written: `genus:0,genus<=3` is `planar`.
+    """The worlds with all of these properties. `str` is the text; equal classes print alike.
 
     Attributes:
-        genus: exactly this one; None: any.
-        most_genus: not more; None where `genus` says it all, or nothing does.
-        most_degree: no vertex has more exits; None: any.
-        loopless, simple: as in the table above; one of the two, since simple implies loopless.
+        genus: the exact genus; None: any.
+        most_genus: its upper bound; None if `genus` is given, or any will do.
+        most_degree: upper bound of the degrees; None: any.
+        loopless, simple: at most one, since simple implies loopless.
     """
 
     genus: int | None = None
@@ -68,7 +62,7 @@ class WorldClass:
         exact = {*bounds["genus:"], *([0] if "planar" in words else [])}
         most = min(bounds["genus<="], default=None)
         degree = min(bounds["max-degree:"], default=None)
-        # Two ways to say planar: equal classes must become equal values, since they print alike.
+        # one value for both spellings of planar
         if most == 0:
             exact.add(0)
         if len(exact) > 1 or (exact and most is not None and max(exact) > most):
@@ -77,7 +71,7 @@ class WorldClass:
                 " name one or one bound"
             )
         genus = max(exact, default=None)
-        # With degrees 1 and 2 a connected map is a path or a cycle, and those have genus 0.
+        # degrees 1 and 2 make paths and cycles, of genus 0
         if degree == 0 or (genus and degree in (1, 2)):
             raise InputError(
                 f"class {shown(text, limit=80)!r} is empty: with at most {degree} exits a vertex"
@@ -103,36 +97,31 @@ class WorldClass:
         }
         return ",".join(term for term, holds in terms.items() if holds) or "any"
 
-    # ------------------------------------------------------------ which worlds
-
     def contains(self, world: World) -> bool:
-        """Is the world in the class?"""
+        """Whether the world is in the class."""
         return self.admits(world.code)
 
     def admits(self, table: rank_order.Table) -> bool:
-        """Is the world with this table in the class? Makes no `World`: long lists ask this."""
-        # The cheap tests first: long lists ask this of every world, and the genus walks every face.
+        """Whether the world with this table is in the class; makes no `World`."""
+        # cheap tests first: the genus walks every face
         if self.most_degree is not None and max(table[0]) > self.most_degree:
             return False
         if self.loopless or self.simple:
             ends = _ends(table)
-            # Each edge is in `ends` as (a, b) and as (b, a). Without loops, a pair comes twice only
-            # if two edges are parallel.
+            # (a, b) and (b, a) of each edge: without loops, only parallel edges repeat a pair
             if any(a == b for a, b in ends) or (self.simple and len(set(ends)) < len(ends)):
                 return False
         if self.genus is not None:
             return _genus(table) == self.genus
         return self.most_genus is None or _genus(table) <= self.most_genus
 
-    # ------------------------------------------------------------ how many, and one of them
-
     def count(self, edges: int) -> int:
-        """How many worlds with this many edges are in the class.
+        """The number of worlds with this many edges in the class.
 
-        A formula counts `any`, `planar` and the genus; `degree_counts` counts properties of the
-        graph, up to 16 edges. A genus together with a property of the graph has neither: then all
-        worlds are listed and looked at one by one. None of the three knows how a class is searched
-        (`pruned.py`), so a search that meets the number has left nothing out.
+        A formula counts genera, `count_graphs` properties of the graph up to 16 edges; for both
+        together all worlds are listed and tested. None uses the search (`pruned.py`), so a search
+        that meets the number was complete.
+
         Raises:
             InputError: more edges than can be counted.
         """
@@ -151,17 +140,16 @@ class WorldClass:
         return sum(map(self.admits, rank_order.tables(edges)))
 
     def sample(self, edges: int, random: Random) -> World:
-        """A world of the class with this many edges, exactly uniform over all of them.
+        """A world of the class with this many edges, exactly uniform, by rejection.
 
         Raises:
-            InputError: the class is empty, or so small that `MAX_TRIES` draws are unlikely to find
-                one, or found none.
+            InputError: the class is empty or too rare for `MAX_TRIES` draws.
         """
         if self._has_formula:
             inside, total = self._count_by_formula(edges), rank_order.count(edges)
             if not inside:
                 raise InputError(f"class {self}: there is no world with {edges} edges in it")
-            # A world in the class takes total / inside draws on average.
+            # the mean number of draws is total / inside
             if total > inside * MAX_TRIES:
                 raise InputError(self._too_rare(edges, f"{inside / total:.0e} of all"))
         for _ in range(MAX_TRIES):
@@ -177,16 +165,15 @@ class WorldClass:
     def _count_by_formula(self, edges: int) -> int:
         if self.genus is not None:
             return count_genus(edges, self.genus) if self.genus else rank_order.count_planar(edges)
-        # No map has 2g > m, since n - m + f = 2 - 2g and n, f >= 1. So a higher bound
-        # excludes nothing.
+        # 2g <= m, since n - m + f = 2 - 2g and n, f >= 1
         if self.most_genus is not None and 2 * self.most_genus < edges:
             return sum(count_genus(edges, genus) for genus in range(self.most_genus + 1))
         return rank_order.count(edges)
 
-    def _too_rare(self, edges: int, seen: str) -> str:
+    def _too_rare(self, edges: int, evidence: str) -> str:
         return (
             f"class {self}: too few of the worlds with {edges} edges are in it to draw one"
-            f" ({seen}): ask for fewer edges or a wider class"
+            f" ({evidence}): ask for fewer edges or a wider class"
         )
 
 
@@ -195,14 +182,14 @@ def _terms(text: str) -> tuple[set[str], dict[str, list[int]]]:
     words: set[str] = set()
     bounds: dict[str, list[int]] = {"genus:": [], "genus<=": [], "max-degree:": []}
     for term in text.split(","):
-        found = _TERM.fullmatch(term.strip())
-        if not found:
+        match = _TERM.fullmatch(term.strip())
+        if not match:
             raise InputError(
                 f"class {shown(text, limit=80)!r}: expected any, planar, genus:G, genus<=G,"
                 " simple, loopless or max-degree:D, or several of them joined with commas, all of"
                 f" which hold; got {term.strip()!r}"
             )
-        word, bound, number = found.groups()
+        word, bound, number = match.groups()
         if bound:
             bounds[bound].append(int(number))
         else:
@@ -220,17 +207,17 @@ def _ends(table: rank_order.Table) -> list[tuple[int, int]]:
 def _genus(table: rank_order.Table) -> int:
     """From Euler's formula, V - E + F = 2 - 2g."""
     degrees, alpha = table
-    # `after` is sigma, as in World.from_code.
+    # sigma
     after: list[int] = []
     for degree in degrees:
         first = len(after)
         after += range(first + 1, first + degree)
         after += [first] * (degree > 0)
-    seen = [False] * len(alpha)
+    visited = [False] * len(alpha)
     faces = 0 if alpha else 1
     for dart in range(len(alpha)):
-        faces += not seen[dart]
-        while not seen[dart]:
-            seen[dart] = True
-            dart = after[alpha[dart]]  # noqa: PLW2901  walks along the face
+        faces += not visited[dart]
+        while not visited[dart]:
+            visited[dart] = True
+            dart = after[alpha[dart]]  # noqa: PLW2901
     return (2 - len(degrees) + len(alpha) // 2 - faces) // 2

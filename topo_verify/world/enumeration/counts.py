@@ -1,8 +1,7 @@
 """Counts worlds by a property of their graph, and by genus; nothing here lists them.
 
-**Loopless, simple, or a bound on the degrees.** Where the property says nothing of the rotations,
-every graph counts with all of its rotations. Give the vertices labels and let the darts of each be
-0 … d-1. There are
+**Loopless, simple, or a bound on the degrees.** Every graph counts with all of its rotations. Give
+the vertices labels and let the darts of each be 0 … d-1. There are
 
     wirings(d1, …, dn)    ways to join all darts in pairs such that the property holds.
 
@@ -15,25 +14,18 @@ each partition of 2m into degrees,
 counts all maps, connected or not, each 1 / (its symmetries) times; log T counts the connected ones,
 and rooting them at one of 2m darts takes the symmetries away: N(m) = 2m · [x^m] log T(x).
 
-Wirings are counted by taking the darts of the first vertex off: a dart of it meets one of another
-vertex with so many darts, or (unless loopless) another dart of its own; `simple` takes different
-vertices for all darts at once. What is left is a smaller multiset, so they are remembered. Nothing
-here knows how worlds are listed: its agreement with the lists (tests) is evidence for both.
+Wirings are counted by removing the darts of the first vertex: each meets a dart of another vertex
+or (unless loopless) of its own; `simple` takes different vertices for all darts at once. The count
+of the remaining multiset is cached.
 
-Cost: as many multisets as there are partitions of the numbers up to 2m, each with all ways to lower
-it: a second or two at `MAX_EDGES` and at `MAX_NARROW_EDGES`.
-
-**By genus.** The letters: `m` edges, `g` genus, `Q[g][m]` the number of rooted maps with both. For
-m >= 1,
+**By genus.** Q[g][m] is the number of rooted maps with genus g and m edges. For m >= 1,
 
     (m+1)/6 · Q[g][m] = (4m-2)/3 · Q[g][m-1] + (2m-3)(2m-2)(2m-1)/12 · Q[g-1][m-2]
                         + 1/2 · Σ (2k-1)(2l-1) · Q[i][k-1] · Q[j][l-1],
 
-the sum over k + l = m with k, l >= 1 and i + j = g; Q[0][0] = 1, and Q is 0 outside. It knows
-nothing of how maps are listed here, so its agreement with the lists (tests) is evidence for both.
-
-Source: S. R. Carrell and G. Chapuy, "Simple recurrence formulas to count maps on orientable
-surfaces", J. Combin. Theory Ser. A 133 (2015), theorem 1.
+the sum over k + l = m with k, l >= 1 and i + j = g; Q[0][0] = 1, and Q is 0 outside (S. R. Carrell
+and G. Chapuy, "Simple recurrence formulas to count maps on orientable surfaces", J. Combin. Theory
+Ser. A 133 (2015), theorem 1).
 """
 
 from __future__ import annotations
@@ -50,10 +42,10 @@ Degrees = tuple[int, ...]
 """A multiset of degrees, descending."""
 
 MAX_EDGES = 16
-"""Beyond, there are too many multisets of degrees."""
+"""Beyond, there are too many multisets; counting takes a second or two here."""
 
 MAX_NARROW_EDGES = 100
-"""The same where no degree is above 2, so that m edges have m + 1 multisets: two seconds."""
+"""The same if no degree is above 2: m edges have m + 1 multisets."""
 
 
 def count_graphs(
@@ -79,9 +71,9 @@ def count_graphs(
             " their graph are too many to count; ask for fewer edges"
         )
     total = [_all_maps(m, highest, loopless=loopless, simple=simple) for m in range(edges + 1)]
-    # connected[m] = [x^m] log T(x). The constant terms are T(0) = 1 and log 1 = 0.
+    # connected[m] = [x^m] log T(x); T(0) = 1
     connected = [Fraction(0)]
-    for m in range(1, edges + 1):  # log, from T' = T·(log T)'
+    for m in range(1, edges + 1):  # T' = T·(log T)'
         known = sum((k * connected[k] * total[m - k] for k in range(1, m)), Fraction(0))
         connected.append(total[m] - known / m)
     rooted = 2 * edges * connected[edges] if edges else Fraction(1)
@@ -90,7 +82,7 @@ def count_graphs(
 
 
 def _all_maps(edges: int, highest: int, *, loopless: bool, simple: bool) -> Fraction:
-    """[x^m] T(x): all maps with m edges, connected or not, each 1 / (its symmetries) times."""
+    """[x^m] T(x)."""
     number = Fraction(0)
     for degrees in _partitions(2 * edges, highest):
         ways = _simple_wirings(degrees) if simple else _wirings(degrees, loopless=loopless)
@@ -110,19 +102,19 @@ def _partitions(total: int, highest: int) -> Iterator[Degrees]:
 
 @cache
 def _wirings(degrees: Degrees, *, loopless: bool) -> int:
-    """The number of ways to join all darts in pairs; no two of one vertex, if loopless."""
+    """The number of ways to join all darts in pairs; if loopless, of different vertices."""
     if not degrees:
         return 1
-    # Choose the partner of one dart of the first vertex: it is in every wiring exactly once.
+    # the partner of one dart of the first vertex, which every wiring joins once
     first, rest = degrees[0], degrees[1:]
     ways = 0
     if first > 1 and not loopless:
         ways += (first - 1) * _wirings(_sorted(first - 2, *rest), loopless=False)
     for degree, times in Counter(rest).items():
-        # The partner is one of `degree` darts at one of `times` vertices that are alike.
-        left = list(rest)
-        left.remove(degree)
-        lower = _wirings(_sorted(first - 1, degree - 1, *left), loopless=loopless)
+        # `degree` darts at each of `times` like vertices
+        others = list(rest)
+        others.remove(degree)
+        lower = _wirings(_sorted(first - 1, degree - 1, *others), loopless=loopless)
         ways += times * degree * lower
     return ways
 
@@ -132,13 +124,15 @@ def _simple_wirings(degrees: Degrees) -> int:
     """The number of ways to join all darts such that the graph is simple."""
     if not degrees:
         return 1
-    # All d darts of the first vertex at once: d! ways to give them to the d darts chosen there.
-    met = _meetings(degrees[0], tuple(Counter(degrees[1:]).items()))
-    return factorial(degrees[0]) * sum(ways * _simple_wirings(_sorted(*left)) for ways, left in met)
+    # d! ways to give the first vertex's d darts to the d chosen ones
+    meetings = _meetings(degrees[0], tuple(Counter(degrees[1:]).items()))
+    return factorial(degrees[0]) * sum(
+        ways * _simple_wirings(_sorted(*remaining)) for ways, remaining in meetings
+    )
 
 
 def _meetings(darts: int, groups: tuple[tuple[int, int], ...]) -> Iterator[tuple[int, Degrees]]:
-    """Each choice of different vertices for the darts: its number of ways, and what is left.
+    """Each choice of different vertices for the darts: its number of ways, and the rest.
 
     Args:
         groups: the other vertices, as (degree, how many have it).
@@ -149,34 +143,30 @@ def _meetings(darts: int, groups: tuple[tuple[int, int], ...]) -> Iterator[tuple
         return
     (degree, times), *others = groups
     for chosen in range(min(darts, times) + 1):
-        # Which of the vertices that are alike, and which dart of each.
+        # which of the like vertices, and which dart of each
         here = comb(times, chosen) * degree**chosen
-        left = (degree - 1,) * chosen + (degree,) * (times - chosen)
+        remaining = (degree - 1,) * chosen + (degree,) * (times - chosen)
         for ways, further in _meetings(darts - chosen, tuple(others)):
-            yield here * ways, left + further
+            yield here * ways, remaining + further
 
 
 def _sorted(*degrees: int) -> Degrees:
-    # One form for each multiset, or the caches would hold the same number many times.
+    # one form for each multiset, for the caches
     return tuple(sorted(filter(None, degrees), reverse=True))
 
 
-# ---------------------------------------------------------------- by genus
-
-
 def count_genus(edges: int, genus: int) -> int:
-    """The number of rooted maps with this many edges and exactly this genus.
+    """The number of rooted maps with this many edges and this genus. O(edges² · genus²) products.
 
-    Complexity: O(edges² · genus²) products.
     Raises:
         InputError: a negative number.
     """
     if edges < 0 or genus < 0:
         raise InputError(f"expected 0 or more edges and genus, got edges={edges}, genus={genus}")
-    # Euler: n + f = m + 2 - 2g, and every map has a vertex and a face.
+    # n + f = m + 2 - 2g, and n, f >= 1
     if 2 * genus > edges:
         return 0
-    known: list[list[int]] = []  # known[g][m], the Q of the module's docstring
+    known: list[list[int]] = []  # Q[g][m]
     for g in range(genus + 1):
         known.append([int(g == 0)])
         for m in range(1, edges + 1):
@@ -185,8 +175,8 @@ def count_genus(edges: int, genus: int) -> int:
 
 
 def _next(known: list[list[int]], g: int, m: int) -> int:
-    """Q[g][m] from what is known for lower g, or for the same g and lower m."""
-    # The recurrence times 6, so that every term is an integer; the division leaves no remainder.
+    """Q[g][m] from those before it."""
+    # the recurrence times 6: all terms are integers
     total = 4 * (2 * m - 1) * known[g][m - 1]
     if g and m >= 2:
         total += (2 * m - 3) * (m - 1) * (2 * m - 1) * known[g - 1][m - 2]

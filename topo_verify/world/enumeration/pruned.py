@@ -1,26 +1,25 @@
 """Lists the worlds of a class in rank order: it grows them with pruning and filters nothing out.
 
-Worlds grow as in `rank_order`: the smallest open dart is joined with another open dart, or a new
-vertex is hung on it. A **pruner** follows the growth for one property and stops a branch as soon as
-no completion can have the property. Pruners are values, so branches do not disturb each other:
+Worlds grow as in `rank_order`. A **pruner** follows the growth for one property and stops a branch
+as soon as no completion can have the property. Pruners are immutable; branches share them:
 
-    GenusPruner      genus: the open darts along each boundary of the partial map, one cyclic word
-                     each. Joining two darts of one word cuts the word in two and keeps the genus;
-                     joining darts of two words makes one word of them and raises the genus by one;
-                     a new vertex puts its other darts in the place of the dart that it hangs on. A
-                     word of even length can be closed in the plane; a word of odd length needs a
-                     leaf, or another odd word at the price of a handle.
+    GenusPruner      the open darts along each boundary of the partial map, one cyclic word each.
+                     Joining two darts of one word cuts the word in two and keeps the genus; joining
+                     darts of two words merges them and raises the genus by one; a new vertex puts
+                     its other darts in the place of the dart that it hangs on. A word of even
+                     length can be closed in the plane; a word of odd length needs a leaf, or
+                     another odd word at the price of a handle.
                      So: odd words <= darts still to create + 2·(genus left).
-    NeighbourPruner  loopless and simple: the open darts of each vertex, and (simple) a mask of its
+    NeighbourPruner  loopless and simple: the open darts of each vertex, and (simple) its
                      neighbours. Each open dart needs an end elsewhere: at a vertex with open darts
                      that is no neighbour, or at a vertex still to come.
     DegreePruner     max-degree: looks at the new vertex alone.
 
-Each world comes with its rank among ALL worlds, because a branch that is pruned is counted with all
-its completions. So the list is cut into shards by rank in every class.
+A pruned branch counts with all its completions, so ranks are those among ALL worlds, and shards are
+cut by rank in every class.
 
-Cost: every world costs its path in the tree. For `planar`, `genus<=G` and `loopless` alone no
-branch ends without a world (a test says so); elsewhere some do: that costs time, and nothing else.
+Cost: every world costs its path in the tree. For `planar`, `genus<=G` and `loopless` alone every
+branch has a world (a test says so).
 
 Source: docs/semantics.md, section 12.
 """
@@ -40,15 +39,15 @@ from topo_verify.world.rooted_map import World
 class Pruner(Protocol):
     """Follows one property while a map grows.
 
-    Each step returns the pruner for what comes after it, or None where no completion can have the
-    property. `left` is the number of darts still to create after the step.
+    Each step returns the next pruner, or None if no completion can have the property. `to_create`
+    is the number of darts still to create after the step.
     """
 
-    def join(self, dart: int, partner: int, left: int) -> Pruner | None:
+    def join(self, dart: int, partner: int, to_create: int) -> Pruner | None:
         """The pruner once these two open darts are joined to an edge."""
         ...
 
-    def hang(self, dart: int, first: int, degree: int, left: int) -> Pruner | None:
+    def hang(self, dart: int, first: int, degree: int, to_create: int) -> Pruner | None:
         """The pruner once a new vertex hangs on `dart` by its first dart, `first`."""
         ...
 
@@ -66,7 +65,7 @@ def ranked_tables(
     stop = total if stop is None else min(stop, total)
     kind = WorldClass() if kind is None else kind
     if edges == 0 or kind == WorldClass():
-        # Nothing prunes here. The one world without edges never grows, so it is tested here.
+        # The world without edges never grows, so it is tested here.
         listed = enumerate(rank_order.tables(edges, start, stop), start)
         yield from (pair for pair in listed if edges or kind.admits(pair[1]))
     else:
@@ -84,14 +83,14 @@ class _Partial(NamedTuple):
 
 
 def _grown(edges: int, kind: WorldClass, start: int, stop: int) -> Iterator[tuple[int, Table]]:
-    # Partial maps leave the stack in the order of their ranks, each before its completions.
+    # Partial maps leave the stack in the order of their ranks.
     stack = list(_roots(edges, kind))[::-1]
     while stack:
         partial = stack.pop()
         u, r = len(partial.opened), 2 * edges - len(partial.alpha)
         if partial.rank >= stop:
             return
-        # All its completions have ranks below `start`.
+        # all its completions come before `start`
         if partial.rank + rank_order.completions(u, r) <= start:
             continue
         if u:
@@ -106,15 +105,15 @@ def _roots(edges: int, kind: WorldClass) -> Iterator[_Partial]:
         pruners = _pruners(kind, edges, degree)
         if pruners is not None:
             yield _Partial(rank, (degree,), tuple(range(degree)), (-1,) * degree, pruners)
-        # Also for a root that is pruned: ranks count the worlds of class `any`.
+        # pruned or not: ranks count class `any`
         rank += rank_order.completions(degree, 2 * edges - degree)
 
 
 def _children(partial: _Partial, r: int) -> Iterator[_Partial]:
-    """Maps one step later, in rank order: joins at the smallest open dart, then new vertices."""
+    """Maps one step later, in rank order."""
     rank, degrees, opened, alpha, pruners = partial
     dart, u, created = opened[0], len(opened), len(alpha)
-    # No way at all: the join would leave no open dart while darts remain (a dead end).
+    # dead end: no open dart while darts remain
     ways = rank_order.completions(u - 2, r) if u > 1 else 0
     for place in range(1, u) if ways else ():
         partner = opened[place]
@@ -138,7 +137,7 @@ def _children(partial: _Partial, r: int) -> Iterator[_Partial]:
 
 
 def _all(pruners: Iterator[Pruner | None]) -> tuple[Pruner, ...] | None:
-    """All the pruners, or None if one of them found the step impossible."""
+    """All the pruners, or None if one found the step impossible."""
     kept: list[Pruner] = []
     for pruner in pruners:
         if pruner is None:
@@ -147,26 +146,23 @@ def _all(pruners: Iterator[Pruner | None]) -> tuple[Pruner, ...] | None:
     return tuple(kept)
 
 
-# ---------------------------------------------------------------- one pruner a property
-
-
 def _pruners(kind: WorldClass, edges: int, degree: int) -> tuple[Pruner, ...] | None:
-    """The pruners for a root of this degree; None if no world of the class has such a root."""
+    """The pruners for a root of this degree; None if the class has no such root."""
     pruners: list[Pruner] = []
-    left = 2 * edges - degree
+    to_create = 2 * edges - degree
     if kind.most_degree is not None:
         if degree > kind.most_degree:
             return None
         pruners.append(DegreePruner(kind.most_degree))
     if kind.loopless or kind.simple:
         neighbours = NeighbourPruner(kind.simple, (0,) * degree, (degree,), (0,))
-        if not neighbours.feasible(left):
+        if not neighbours.feasible(to_create):
             return None
         pruners.append(neighbours)
     most = kind.most_genus if kind.genus is None else kind.genus
     if most is not None:
         words = GenusPruner((tuple(range(degree)),), most, kind.genus is not None)
-        if not words.feasible(left):
+        if not words.feasible(to_create):
             return None
         pruners.append(words)
     return tuple(pruners)
@@ -177,12 +173,12 @@ class DegreePruner(NamedTuple):
 
     most: int
 
-    def join(self, dart: int, partner: int, left: int) -> DegreePruner | None:  # noqa: ARG002  see Pruner
+    def join(self, dart: int, partner: int, to_create: int) -> DegreePruner | None:  # noqa: ARG002
         """A join changes no degree."""
         return self
 
-    def hang(self, dart: int, first: int, degree: int, left: int) -> DegreePruner | None:  # noqa: ARG002
-        """Impossible if the new vertex has more darts than allowed."""
+    def hang(self, dart: int, first: int, degree: int, to_create: int) -> DegreePruner | None:  # noqa: ARG002
+        """None if the new vertex has more darts than allowed."""
         return self if degree <= self.most else None
 
 
@@ -199,8 +195,8 @@ class GenusPruner(NamedTuple):
     handles: int
     exact: bool
 
-    def join(self, dart: int, partner: int, left: int) -> GenusPruner | None:
-        """Cuts the darts' word in two; if they have two, makes them one, which takes a handle."""
+    def join(self, dart: int, partner: int, to_create: int) -> GenusPruner | None:
+        """Cuts the word of both darts in two, or merges their two words, which takes a handle."""
         with_dart = next(word for word in self.words if dart in word)
         others = [word for word in self.words if word is not with_dart]
         ahead = _turned(with_dart, dart)
@@ -211,32 +207,32 @@ class GenusPruner(NamedTuple):
             with_partner = next(word for word in others if partner in word)
             others.remove(with_partner)
             parts, handles = [ahead + _turned(with_partner, partner)], self.handles - 1
-        # An empty word is a finished face, and nothing more can happen there.
+        # an empty word is a finished face
         words = (*others, *(part for part in parts if part))
-        return self._if_feasible(GenusPruner(words, handles, self.exact), left)
+        return self._if_feasible(GenusPruner(words, handles, self.exact), to_create)
 
-    def hang(self, dart: int, first: int, degree: int, left: int) -> GenusPruner | None:
+    def hang(self, dart: int, first: int, degree: int, to_create: int) -> GenusPruner | None:
         """Puts the new vertex's other darts in the place of the dart that it hangs on."""
         fresh = tuple(range(first + 1, first + degree))
         grown = (_turned(word, dart) + fresh if dart in word else word for word in self.words)
         return self._if_feasible(
-            GenusPruner(tuple(filter(None, grown)), self.handles, self.exact), left
+            GenusPruner(tuple(filter(None, grown)), self.handles, self.exact), to_create
         )
 
-    def _if_feasible(self, words: GenusPruner, left: int) -> GenusPruner | None:
-        return words if words.feasible(left) else None
+    def _if_feasible(self, words: GenusPruner, to_create: int) -> GenusPruner | None:
+        return words if words.feasible(to_create) else None
 
-    def feasible(self, left: int) -> bool:
-        """Can the words be closed with this many darts to create and the handles that are left?"""
+    def feasible(self, to_create: int) -> bool:
+        """Whether the words can be closed with the darts to create and the handles left."""
         odd = sum(len(word) % 2 for word in self.words)
-        if self.handles < 0 or odd > left + 2 * self.handles:
+        if self.handles < 0 or odd > to_create + 2 * self.handles:
             return False
         if not self.exact:
             return True
-        # Each handle takes a join that makes one word of two; every other join adds a word, perhaps
-        # an empty one. One at least is there at the end, because every map has a face.
-        # If darts are left, one of the edges to come hangs a new vertex and is no join.
-        joins = (sum(map(len, self.words)) + left) // 2 - (left > 0)
+        # Each handle takes a join that merges two words; every other join adds a word, perhaps an
+        # empty one; one remains, because every map has a face. If darts remain, one of the edges
+        # hangs a new vertex and is no join.
+        joins = (sum(map(len, self.words)) + to_create) // 2 - (to_create > 0)
         return 2 * self.handles <= max(0, len(self.words) + joins - 1)
 
 
@@ -250,27 +246,31 @@ class NeighbourPruner(NamedTuple):
     """Allows no loops and, if `simple`, no two edges between the same two vertices."""
 
     simple: bool
-    vertex: IntTuple  # of each dart
-    opened: IntTuple  # how many open darts each vertex has
-    near: IntTuple  # the neighbours of each vertex, as a mask (simple alone)
+    vertex: IntTuple
+    opened: IntTuple  # open darts of each vertex
+    near: IntTuple  # neighbours of each vertex, as a mask; 0 unless `simple`
 
-    def join(self, dart: int, partner: int, left: int) -> NeighbourPruner | None:
-        """Impossible within one vertex and, if `simple`, between neighbours."""
+    def join(self, dart: int, partner: int, to_create: int) -> NeighbourPruner | None:
+        """None within one vertex and, if `simple`, between neighbours."""
         a, b = self.vertex[dart], self.vertex[partner]
-        # Without `simple` the masks stay 0, so only the loop is refused.
         if a == b or self.near[a] >> b & 1:
             return None
-        return self._joined(self.vertex, self.opened, self.near, (a, b), left)
+        return self._joined(self.vertex, self.opened, self.near, (a, b), to_create)
 
-    def hang(self, dart: int, first: int, degree: int, left: int) -> NeighbourPruner | None:  # noqa: ARG002
-        """A new vertex has no neighbour but the one that it hangs on."""
+    def hang(self, dart: int, first: int, degree: int, to_create: int) -> NeighbourPruner | None:  # noqa: ARG002
+        """The new vertex has one neighbour, the one that it hangs on."""
         fresh = len(self.opened)
         vertex = self.vertex + (fresh,) * degree
         opened, near = (*self.opened, degree), (*self.near, 0)
-        return self._joined(vertex, opened, near, (self.vertex[dart], fresh), left)
+        return self._joined(vertex, opened, near, (self.vertex[dart], fresh), to_create)
 
     def _joined(
-        self, vertex: IntTuple, opened: IntTuple, near: IntTuple, ends: tuple[int, int], left: int
+        self,
+        vertex: IntTuple,
+        opened: IntTuple,
+        near: IntTuple,
+        ends: tuple[int, int],
+        to_create: int,
     ) -> NeighbourPruner | None:
         a, b = ends
         darts, masks = list(opened), list(near)
@@ -280,42 +280,36 @@ class NeighbourPruner(NamedTuple):
             masks[a] |= 1 << b
             masks[b] |= 1 << a
         grown = NeighbourPruner(self.simple, vertex, tuple(darts), tuple(masks))
-        return grown if grown.feasible(left) else None
+        return grown if grown.feasible(to_create) else None
 
-    def feasible(self, left: int) -> bool:
-        """Can each open dart still end at another vertex, if `simple` at another one each?"""
+    def feasible(self, to_create: int) -> bool:
+        """Whether each open dart can end at another vertex, if `simple` each at a different one."""
         if not self.simple:
-            # Enough for one vertex is enough for all: max <= (sum - max) + left.
-            return 2 * max(self.opened) <= sum(self.opened) + left
+            # the largest vertex decides: max <= (sum - max) + to_create
+            return 2 * max(self.opened) <= sum(self.opened) + to_create
         waiting = sum(1 << v for v, darts in enumerate(self.opened) if darts)
         return all(
-            darts <= (waiting & ~self.near[v] & ~(1 << v)).bit_count() + left
+            darts <= (waiting & ~self.near[v] & ~(1 << v)).bit_count() + to_create
             for v, darts in enumerate(self.opened)
             if darts
         )
 
 
-# ---------------------------------------------------------------- every world of a class
-
-
 def worlds(edges: int, *, cls: str = "any") -> Iterator[World]:
-    """Every world of a class with this many edges, in the order of their ids.
-
-    Lazy: each world is made when it is asked for, so `islice(tv.worlds(30), 5)` is quick. A
-    world's name is its id.
+    """Every world of a class with this many edges, in the order of their ids, lazily.
 
     Args:
-        edges: how many edges each world has, 0 to 200.
+        edges: of each world, 0 to 200.
         cls: a class as on the command line, such as `planar` or `simple,max-degree:4`.
     Raises:
-        InputError: at the call, if the number is out of range or the class is unknown or empty.
+        InputError: at the call; the number is out of range or the class unknown or empty.
     """
     if type(edges) is not int or not 0 <= edges <= MAX_ID_EDGES:
-        # An integer too long to be shown makes Python raise, so none is shown.
-        seen = "another one" if type(edges) is int else f"a {type(edges).__name__}"
+        # Python refuses to print very long integers.
+        value = "another one" if type(edges) is int else f"a {type(edges).__name__}"
         raise InputError(
             f"expected edges=N with an integer from 0 to {MAX_ID_EDGES} (larger worlds have no id),"
-            f" got {seen}"
+            f" got {value}"
         )
     return (
         World.from_code(table, name=f"m{edges}/{rank}")

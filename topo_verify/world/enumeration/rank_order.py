@@ -4,8 +4,8 @@ The letters: `m` edges; `u` open darts (known, their edge not yet); `r` darts st
 
 A rooted map grows from its root vertex: take the smallest open dart; either join it with another
 open dart, or hang a new vertex of degree `d` on it, whose darts are numbered consecutively from
-the dart by which it hangs. A step that leaves no open dart while darts remain is a dead end and is
-forbidden. What can still happen depends on `u` and `r` alone, so completions are counted by
+the dart by which it hangs. A step that leaves no open dart while darts remain is forbidden. What
+can still happen depends on `u` and `r` alone, so completions are counted by
 
     F(u, r) = (u-1)·F(u-2, r) + Σ_{1<=d<=r} F(u+d-2, r-d),   F(0, 0) = 1,   F(0, r>0) = 0,
 
@@ -18,8 +18,8 @@ open dart, joins first by ascending partner, then new vertices by ascending degr
 A **table** is `(degrees, alpha)`: vertex `i` owns the next `degrees[i]` darts, `alpha[d]` is the
 other dart of `d`'s edge, the root is dart 0. It is the canonical code of its world.
 
-Source: docs/semantics.md, section 12. Planar:
-W. T. Tutte, "A census of planar maps", Canad. J. Math. 15 (1963).
+Source: docs/semantics.md, section 12. Planar: W. T. Tutte, "A census of planar maps", Canad. J.
+Math. 15 (1963).
 """
 
 from __future__ import annotations
@@ -39,14 +39,13 @@ Table = tuple[IntTuple, IntTuple]
 """`(degrees, alpha)`, as above."""
 
 MAX_ID_EDGES = 200
-"""World ids are promised up to this many edges; the counts below work beyond, only slower."""
+"""Largest world with an id. The counts work beyond, only slower."""
 
 
 def completions(open_darts: int, to_create: int) -> int:
-    """F(u, r), the number of completions of a partial map: u darts are open, r still to create.
+    """F(u, r); 0 if u + r is odd.
 
-    Zero where u + r is odd (darts come in pairs). Complexity: the first call for a given u + r
-    fills a table of O((u + r)²) integers, every later one looks it up.
+    Complexity: the first call for a given u + r fills a table of O((u + r)²) integers.
     """
     half, odd = divmod(open_darts + to_create, 2)
     if odd or open_darts < 0 or to_create < 0:
@@ -57,12 +56,11 @@ def completions(open_darts: int, to_create: int) -> int:
 
 
 _rows: list[tuple[int, ...]] = [(1,)]
-"""Row t holds F(2t - r, r) for r = 0 … 2t; each row follows from the one before it."""
+"""Row t holds F(2t - r, r) for r = 0 … 2t."""
 
 
 def _next_row(before: tuple[int, ...]) -> tuple[int, ...]:
-    # total = u + r. F(u, r) joins from before[r], where u - 2 darts are open; with u = 1 there is
-    # no join, and with u = 0 and r > 0 there is no completion.
+    # F(u, r) joins from before[r], with u - 2 open darts; if u = 1 there is no join
     total = len(before) + 1
     attached = [0, *accumulate(before)]  # Σ_d F(u+d-2, r-d) = before[0] + … + before[r-1]
     joined = [(total - r - 1) * ways for r, ways in enumerate(before)]
@@ -87,7 +85,7 @@ def count_by_recurrence(edges: int) -> int:
     _require_edges(edges)
     numbers: list[int] = [1]
     for m in range(1, edges + 1):
-        # z·M and 2z²·M' have the coefficients M[m-1] and 2(m-1)·M[m-1].
+        # z·M and 2z²·M' have the coefficients M[m-1] and 2(m-1)·M[m-1]
         squared = sum(numbers[i] * numbers[m - 1 - i] for i in range(m))
         numbers.append(squared + (2 * m - 1) * numbers[m - 1])
     return numbers[edges]
@@ -110,11 +108,10 @@ def rank(table: Table) -> int:
     degrees, alpha = table
     if not alpha:
         return 0
-    # `before` counts the maps that come first: for each step taken, all completions of the steps
-    # that stand before it.
+    # each step adds all completions of the alternatives before it
     m2 = len(alpha)
     before = sum(completions(d, m2 - d) for d in range(1, degrees[0]))
-    # `opened` stays ascending, because new darts get the highest numbers.
+    # stays ascending: new darts get the highest numbers
     opened = list(range(degrees[0]))
     created, vertices = degrees[0], 1
     while opened:
@@ -148,7 +145,7 @@ def unrank(edges: int, rank: int) -> Table:
     if edges == 0:
         return (0,), ()
     m2 = 2 * edges
-    # `_choose` counts from 0, so here and below the degree is d + 1.
+    # `_choose` counts from 0: the degree is d + 1
     d, rank = _choose(rank, (completions(d, m2 - d) for d in range(1, m2 + 1)))
     degrees, opened, alpha = [d + 1], list(range(d + 1)), [0] * m2
     created = d + 1
@@ -157,7 +154,7 @@ def unrank(edges: int, rank: int) -> Table:
         dart = opened.pop(0)
         joins = (u - 1) * completions(u - 2, r)
         if rank < joins:
-            # Not a division by zero: rank < joins, so joins > 0.
+            # no division by zero: rank < joins
             place, rank = divmod(rank, completions(u - 2, r))
             partner = opened.pop(place)
         else:
@@ -172,11 +169,7 @@ def unrank(edges: int, rank: int) -> Table:
 
 
 def _choose(rank: int, ways: Iterator[int]) -> tuple[int, int]:
-    """The index of the block that the rank falls into, and the rank within that block.
-
-    Args:
-        ways: the sizes of the blocks, which together are more than the rank.
-    """
+    """The index of the block that the rank falls into, and the rank within that block."""
     index, size = 0, next(ways)
     while rank >= size:
         index, rank, size = index + 1, rank - size, next(ways)
@@ -190,7 +183,7 @@ def id_parts(text: str) -> tuple[int, int]:
         InputError: the text is not an id, or names more than 200 edges.
     """
     edges, slash, rank = text.removeprefix("m").partition("/")
-    # Not more digits than Python turns into an integer; the longest rank has 437.
+    # Python parses only so many digits; the longest rank has 437
     digits = all(part.isascii() and part.isdigit() and len(part) < 1000 for part in (edges, rank))
     if not (text.startswith("m") and slash and digits):
         raise InputError(f"expected a world id m<edges>/<rank>, such as m5/17, got {text[:60]!r}")
@@ -212,21 +205,18 @@ def sample(edges: int, random: Random) -> Table:
     return unrank(edges, random.randrange(count(edges)))
 
 
-# ---------------------------------------------------------------- listing them all
-
 _TAIL = 8
-"""Partial maps with at most this many darts left have their completions tabulated once for all."""
+"""Partial maps with at most this many darts left have their completions cached."""
 
 
 def tables(edges: int, start: int = 0, stop: int | None = None) -> Iterator[Table]:
     """The rooted maps of ranks start … stop-1 (default: all of them), in the order of their ranks.
 
-    Guarantees each exactly once, with no hash table and nothing recursive. Parts of the tree that
-    lie before `start` are passed over whole, so a shard costs what it yields.
+    Complexity: a shard costs what it yields; earlier subtrees are skipped whole.
     """
     total = count(edges)
     stop = total if stop is None else min(stop, total)
-    # `islice` takes no larger number, and no list is that long.
+    # the limit of `islice`
     return islice(_tables_from(edges, start), min(max(0, stop - start), sys.maxsize))
 
 
@@ -235,8 +225,8 @@ def _tables_from(edges: int, skip: int) -> Iterator[Table]:
         yield from [((0,), ())][skip:]
         return
     m2 = 2 * edges
-    # One entry a partial map: degrees, open darts, darts joined so far and their partners, in step.
-    # It is a stack, last in first out: the steps are pushed in reverse, so that they come in order.
+    # A stack of partial maps: degrees, open darts, darts joined and their partners, in step.
+    # Steps are pushed in reverse, to come in order.
     stack: list[tuple[IntTuple, IntTuple, IntTuple, IntTuple]]
     stack = [((d,), tuple(range(d)), (), ()) for d in range(m2, 0, -1)]
     while stack:
@@ -246,8 +236,7 @@ def _tables_from(edges: int, skip: int) -> Iterator[Table]:
         if skip and completions(u, r) <= skip:
             skip -= completions(u, r)
         elif u + r <= _TAIL:
-            # What can follow depends on u and r alone: the endings are cached over slots, and here
-            # the slots get the numbers of the darts.
+            # the endings are cached over slots, which here get the numbers of the darts
             slots = (*opened, *range(created, m2))
             place = _inverse(joined + slots)
             for more, partner_slots in islice(_endings(u, r), skip, None):
@@ -264,7 +253,7 @@ def _tables_from(edges: int, skip: int) -> Iterator[Table]:
 def _steps(opened: IntTuple, created: int, r: int) -> Iterator[tuple[int, int, IntTuple]]:
     """Each step at the smallest open dart: its partner's place and number, and new degrees."""
     # A step must leave an open dart (a join leaves u - 2, a new vertex u + d - 2) or no dart to
-    # create. j = u stands for a partner that is not among the open darts.
+    # create. j = u: the partner is a new dart.
     u = len(opened)
     if u > 2 or r == 0:
         for j in range(1, u):
@@ -276,7 +265,7 @@ def _steps(opened: IntTuple, created: int, r: int) -> Iterator[tuple[int, int, I
 
 def _inverse(darts: IntTuple) -> itemgetter[IntTuple]:
     """A getter that puts a row given in the order `darts` into the order of the darts."""
-    # Two darts at least: with one index an itemgetter would return it bare, not in a tuple.
+    # with one index an itemgetter would return no tuple
     return itemgetter(*sorted(range(len(darts)), key=darts.__getitem__))
 
 
@@ -286,18 +275,18 @@ def _endings(u: int, r: int) -> tuple[tuple[IntTuple, itemgetter[IntTuple]], ...
 
     Each is (further degrees, getter of every slot's partner). At most 8 slots: recursion depth 4.
     """
-    found: list[tuple[IntTuple, itemgetter[IntTuple]]] = []
+    endings: list[tuple[IntTuple, itemgetter[IntTuple]]] = []
     slots = tuple(range(u + r))
     for _, partner, more in _steps(slots[:u], u, r):
         rest = tuple(s for s in slots if s not in (0, partner))
-        if not rest:  # two slots are left, and this is the only way to join them
+        if not rest:  # the only way to join two slots
             return ((more, itemgetter(1, 0)),)
-        # `rest` has the form of the slots again: the open ones first, then those to come.
+        # `rest` has the form of slots again: open ones first
         place = _inverse((0, partner, *rest))
         for further, partners in _endings(u - 2 + sum(more), r - sum(more)):
             row = place((partner, 0, *partners(rest)))
-            found.append((more + further, itemgetter(*row)))
-    return tuple(found)
+            endings.append((more + further, itemgetter(*row)))
+    return tuple(endings)
 
 
 def _require_edges(edges: int) -> None:
