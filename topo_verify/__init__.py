@@ -5,8 +5,7 @@ world = tv.World.from_id("m5/17")
 run = tv.explore(world, "enhancement-ii")
 report = tv.examine(my_mapper, world)
 
-A name is imported when it is first used: pytest imports this package in every session of its
-environment because of the plugin, and most sessions use no name of it.
+A name is imported on first use: pytest imports this package in every session, for the plugin.
 """
 
 import sys
@@ -80,7 +79,6 @@ _MODULES = {
     "world.enumeration.pruned": ("worlds",),
     "world.rooted_map": ("World",),
 }
-"""The modules of the names of `__all__`."""
 
 _HOME = {name: f"topo_verify.{module}" for module, names in _MODULES.items() for name in names}
 
@@ -91,8 +89,7 @@ def __getattr__(name: str) -> Any:
     if name not in _HOME:
         raise AttributeError(f"module 'topo_verify' has no attribute {name!r}")
     if "hypothesis" in sys.modules:
-        # Hypothesis bounds the time of an example, and the first one must not import what runs and
-        # judges a mapper. (A test asks for a name when it is defined: `world: tv.World`.)
+        # Imported now: Hypothesis's first example has a deadline.
         import_module("topo_verify.campaign.judge")
     found = globals()[name] = getattr(import_module(_HOME[name]), name)
     return found

@@ -1,7 +1,7 @@
-"""Exceptions, grouped by who must act: the caller, the mapper's author, or us; and their words.
+"""Exceptions, grouped by who must act, and words for messages.
 
-They are `InputError`, `ClaimFailed` (with `ClaimUndecided`) and `InternalError`; the command line
-turns them into the exit codes 2, 1 (3) and 70. A message puts input of unknown origin on one line.
+The command line turns `InputError`, `ClaimFailed` (`ClaimUndecided`) and `InternalError` into the
+exit codes 2, 1 (3) and 70.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import re
 from os import PathLike
 
 LINE = 4000
-"""The most characters of a line in a report; what is quoted within a line is cut sooner."""
+"""Most characters of a line in a report."""
 
 
 def shown(text: str | PathLike[str], *, limit: int = 200) -> str:
@@ -27,7 +27,7 @@ class TopoVerifyError(Exception):
 class InputError(TopoVerifyError, ValueError):
     """The input cannot be used; the text is one sentence: the input, the place and the mend.
 
-    The sentence may quote a file's name or content, so its control characters are escaped.
+    It may quote a file's name or content, so its control characters are escaped.
     """
 
     def __init__(self, sentence: str) -> None:
@@ -41,8 +41,7 @@ class ClaimFailed(TopoVerifyError, AssertionError):
 class ClaimUndecided(TopoVerifyError, AssertionError):
     """No claim fails, but one was neither proved nor refuted; the text names it, with the report.
 
-    What is not decided is no success. Where it is none of yours, catch it: `pytest.skip`, or
-    `hypothesis.reject`.
+    If that does not matter, catch it: `pytest.skip`, or `hypothesis.reject`.
     """
 
 
@@ -54,7 +53,7 @@ class InternalError(TopoVerifyError):
 
 
 def is_utf8(text: str) -> bool:
-    """Whether the text can be written as UTF-8: a file's name may hold other bytes."""
+    """Whether the text can be written as UTF-8; a file's name may hold other bytes."""
     try:
         text.encode()
     except UnicodeEncodeError:
@@ -71,8 +70,5 @@ _LONG_ID = re.compile(r"\b(m[0-9]+/[0-9]{5})[0-9]{5,}([0-9]{5})\b")
 
 
 def shortened(text: str) -> str:
-    """The text with long world ids cut in the middle: `m30/13579…86420`.
-
-    For reading only: commands to copy, and JSON, have them whole.
-    """
+    """The text with long world ids cut in the middle, for reading only: `m30/13579…86420`."""
     return _LONG_ID.sub(r"\1…\2", text)

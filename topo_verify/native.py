@@ -6,11 +6,9 @@
     @numba.njit
     def explore(robot): ...              # topo-verify search --library my_mapper.py:explore
 
-The functions here are those of `topo_verify.h`, without `tv_`; that file says what they do. A robot
-is the address of its `tv_robot`, a number. Rows that are declared or delivered are numpy arrays of
-int64 without gaps; anything else is an error when the mapper is compiled.
-
-This module needs numba, and imports it at once.
+The functions are those of `topo_verify.h`, without `tv_`; that file describes them. A robot is the
+address of its `tv_robot`. Rows are contiguous numpy arrays of int64; anything else is an error when
+the mapper is compiled. Importing this module imports numba.
 """
 
 from __future__ import annotations
@@ -36,7 +34,7 @@ types: Any = import_module("numba.types")  # neither has types
 _njit: Any = njit
 
 NONE = -1
-"""No marker, no dart, no cost, no percept: `TV_NONE`."""
+"""No marker, dart, cost or percept: `TV_NONE`."""
 
 UNSAID, WALK, CROSS, VALIDATE, RETRACE = -1, 0, 1, 2, 3
 """Purposes of a move."""
@@ -57,7 +55,6 @@ _NO_DOORS = np.zeros(1, np.int64)[:0]
 
 
 def _compiled(function: F) -> F:
-    """The function, compiled by numba, with the type of the original."""
     made: F = _njit(function)
     return made
 
@@ -70,7 +67,7 @@ class NativePercept(NamedTuple):
 
 
 def _called(_typing: Any, _robot: Any, _member: Any, given: Any) -> Any:
-    """The answer of a member of the robot, which is given its world and these words and rows."""
+    """A call of a member of the robot with its world and these words and rows."""
     for one in given:
         if isinstance(one, types.Array) and (one.dtype, one.ndim, one.layout) != (
             types.int64,
@@ -199,15 +196,11 @@ def augment(robot: int, edge: int, kind: int, dart: int, degree: int) -> int:
 
 @_compiled
 def deliver(robot: int, degrees: Row, ends: Row, marker: int, cost: int = NONE) -> int:
-    """Deliver the map: each vertex's degree, each dart's other end, the marker's dart.
-
-    Args:
-        ends: as many as the sum of the degrees.
-    """
+    """Deliver the map: each vertex's degree, each dart's other end, the marker's dart."""
     darts = 0
     for degree in degrees:
         darts += max(0, degree)
-    vertices = len(degrees) if darts <= len(ends) else NONE  # which is no map
+    vertices = len(degrees) if darts <= len(ends) else NONE
     return _call(robot, _DELIVER, (vertices, degrees, ends, marker, cost))
 
 

@@ -5,16 +5,13 @@
 
     pytest --topo-target my_mapper.py:explore         the same without a file of tests
 
-The mapper runs once in every world of 1 to N edges (`--topo-edges`), and every claim is judged on
-these runs. The first test of a mapper runs it; the others read the results (with pytest-xdist, once
-in each process). A test passes if its claim holds in every world. It fails if the claim fails in a
-world, and shows the first such world with its replay command. It fails also if the claim is
-undecided: a run exceeded its time, or a decision was neither proved nor refuted. It is skipped if
-in some world the mapper declared no decision that the claim is about.
+The first test of a mapper runs it once in every world of 1 to N edges (`--topo-edges`). A test
+passes if its claim holds in every world. It fails, with the first such world and its replay
+command, if the claim fails or is undecided. It is skipped if in some world the mapper declared no
+decision that the claim is about.
 
-The results travel in the `user_properties` of the test reports, so the summary at the end is the
-same with pytest-xdist, and JUnit files hold them. Pytest loads this file in every session of its
-environment. So it imports no room of topo_verify and no library before there is a mapper to test.
+The results travel in the `user_properties` of the test reports, for JUnit files and pytest-xdist.
+Pytest loads this file in every session, so it imports no room before there is a mapper to test.
 
 What this does not show: anything about worlds with more edges than N.
 """
@@ -43,8 +40,8 @@ if TYPE_CHECKING:
     from topo_verify.studies.verify.by_claim import ClaimResults
     from topo_verify.world.rooted_map import World
 
-EDGES = 4  # the default of --topo-edges: 792 worlds, about a second
-_CASE = "_topo_case"  # the parameter that makes one test for each claim from a marked function
+EDGES = 4  # 792 worlds, about a second
+_CASE = "_topo_case"
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,11 +55,9 @@ class ClaimTest:
 
 @dataclass
 class _Session:
-    """The state of one process, from configuration to summary."""
-
     targets: dict[str, tuple[Target, ...]] = field(default_factory=dict[str, Any])
     results: dict[tuple[int, int], ClaimResults] = field(default_factory=dict[Any, Any])
-    """By the mapper's `id`, which stays its own while the tests hold the mapper, and by edges."""
+    """By the mapper's `id`, stable while the tests hold the mapper, and by edges."""
 
 
 _SESSION = pytest.StashKey[_Session]()
@@ -72,7 +67,7 @@ _SESSION = pytest.StashKey[_Session]()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """The options, in a group of their own."""
+    """Add the options."""
     group = parser.getgroup("topo-verify", "topo-verify (mappers with one robot and one marker)")
     group.addoption(
         "--topo-target",
@@ -114,7 +109,7 @@ def _seconds(text: str) -> float:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Refuse options that are given twice, and make the mark known."""
+    """Refuse options given twice, and register the mark."""
     _require_once(config)
     config.stash[_SESSION] = _Session()
     config.addinivalue_line(
@@ -126,7 +121,6 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def _require_once(config: pytest.Config) -> None:
-    """Refuse an option that the command line has twice; it may replace one of `addopts`."""
     parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
     for name in ("target", "edges", "move-timeout", "world-timeout"):
         parser.add_argument(f"--topo-{name}", dest=f"--topo-{name}", action="append", default=[])
@@ -153,12 +147,9 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 
 
 def _import_for(metafunc: pytest.Metafunc) -> None:
-    """Import what runs and judges a mapper, before a property test that may ask for it.
-
-    Hypothesis bounds the time of an example; the first one would take as long as the import.
-    """
+    """Import what judges a mapper before a property test, whose first example has a deadline."""
     if getattr(metafunc.function, "is_hypothesis_test", False):
-        module = cast("object", metafunc.module)  # pyright: ignore[reportUnknownMemberType]  pytest leaves it untyped
+        module = cast("object", metafunc.module)  # pyright: ignore[reportUnknownMemberType]  untyped
         for value in vars(module).values():
             home = getattr(value, "__name__" if inspect.ismodule(value) else "__module__", None)
             if str(home).startswith("topo_verify"):
@@ -167,11 +158,7 @@ def _import_for(metafunc: pytest.Metafunc) -> None:
 
 
 def _cases(config: pytest.Config, mark: pytest.Mark) -> list[ClaimTest]:
-    """The tests that a mark asks for.
-
-    Raises:
-        CollectError: there is no such mapper, or the mark has other arguments than it takes.
-    """
+    """The tests that a mark asks for; CollectError if it is wrong."""
     wanted = dict(mark.kwargs)
     target = wanted.pop("target", config.option.topo_target)
     edges = wanted.pop("edges", config.option.topo_edges)
@@ -193,11 +180,7 @@ def _cases(config: pytest.Config, mark: pytest.Mark) -> list[ClaimTest]:
 
 
 def _of_targets(config: pytest.Config, named: str | Mapper, edges: int) -> Iterator[ClaimTest]:
-    """One test for each mapper and claim.
-
-    Raises:
-        CollectError: there is no such mapper, or too many edges are asked for.
-    """
+    """One test for each mapper and claim; CollectError if that is impossible."""
     from topo_verify.campaign.targets import one_target, targets
     from topo_verify.checkers import CLAIMS
     from topo_verify.errors import InputError
@@ -232,7 +215,7 @@ def pytest_make_collect_report(
     text = collector.config.option.topo_target
     if isinstance(collector, pytest.Session) and text is not None:
         name = shown(text)
-        collected = MapperCollector.from_parent(collector, name=name, nodeid=name)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
+        collected = MapperCollector.from_parent(collector, name=name, nodeid=name)  # pyright: ignore[reportUnknownMemberType]  untyped
         report.result.append(collected)
     return report
 
@@ -241,9 +224,9 @@ def pytest_make_collect_report(
 def _profile(collector: pytest.Collector) -> Generator[None]:
     """Let property tests of mappers have no deadline, unless the user has loaded a profile.
 
-    Hypothesis's deadline is 200 ms an example. A busy machine exceeds it, and a flaky failure then
-    stands beside the finding, or alone. A test takes its settings when its module is imported, so
-    the profile `topo` is loaded while a module is that mentions both libraries.
+    A busy machine exceeds Hypothesis's 200 ms an example. A test takes its settings when its module
+    is imported, so the profile `topo` is active during the import of a module that mentions both
+    libraries.
     """
     text = collector.path.read_bytes() if isinstance(collector, pytest.Module) else b""
     if b"hypothesis" not in text or b"topo_verify" not in text:
@@ -259,12 +242,12 @@ def _profile(collector: pytest.Collector) -> Generator[None]:
     try:
         yield
     finally:
-        if settings.default == settings.get_profile("topo"):  # the module may have loaded another
+        if settings.default == settings.get_profile("topo"):
             settings.load_profile("default")
 
 
 class MapperCollector(pytest.Collector):
-    """The tests of --topo-target; its name is the option's text, made printable."""
+    """The tests of --topo-target, named by the option's text."""
 
     def collect(self) -> Iterable[ClaimItem]:
         """One test for each mapper and claim."""
@@ -273,14 +256,14 @@ class MapperCollector(pytest.Collector):
         several = len({case.target.text for case in cases}) > 1
         for case in cases:
             name = f"{shown(case.target.text)}::{case.claim}" if several else case.claim
-            yield ClaimItem.from_parent(self, name=name, case=case)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
+            yield ClaimItem.from_parent(self, name=name, case=case)  # pyright: ignore[reportUnknownMemberType]  untyped
 
 
 class ClaimItem(pytest.Item):
     """A test of one claim of one mapper, made from no function."""
 
     def __init__(self, *, case: ClaimTest, **kwargs: Any) -> None:
-        super().__init__(**kwargs)  # pyright: ignore[reportUnknownMemberType]  pytest leaves its keywords untyped
+        super().__init__(**kwargs)  # pyright: ignore[reportUnknownMemberType]  untyped
         self.case = case
         self.add_marker(pytest.mark.topo)
 
@@ -289,12 +272,12 @@ class ClaimItem(pytest.Item):
         _judge(self, self.case)
 
     def reportinfo(self) -> tuple[Any, int | None, str]:
-        """The place that pytest shows: a node id, since there is no line in a file."""
+        """A node id in place of a line in a file."""
         return self.path, None, self.nodeid
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Refuse a mark on a test that was not parametrized, where it would do nothing."""
+    """Refuse a mark on a test that was not parametrized."""
     for item in items:
         if item.get_closest_marker("topo") and not isinstance(item, ClaimItem) and not _case(item):
             raise pytest.UsageError(
@@ -304,7 +287,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def _case(item: pytest.Item) -> ClaimTest | None:
-    """The question of a test made from a marked function; None for any other test."""
     callspec = getattr(item, "callspec", None)
     return None if callspec is None else callspec.params.get(_CASE)
 
@@ -322,7 +304,6 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Generator[None, object, o
 
 
 def _judge(item: pytest.Item, case: ClaimTest) -> None:
-    """Pass, fail or skip a test by the verdict on its claim."""
     from topo_verify.robot.limits import Limits
     from topo_verify.studies.verify.by_claim import by_claim
 
@@ -349,14 +330,13 @@ def _judge(item: pytest.Item, case: ClaimTest) -> None:
 def pytest_runtest_makereport(call: pytest.CallInfo[None]) -> None:
     """Let the tracebacks of a failed test end at the user's code; --full-trace shows all."""
     if call.excinfo is not None:
-        # pytest looks this name up in the globals of each frame. Only now are all modules loaded.
+        # pytest looks this name up in each frame's globals. Only now are all modules loaded.
         for name, module in sys.modules.copy().items():
             if name.startswith("topo_verify."):
                 vars(module).setdefault("__tracebackhide__", _is_no_bug_of_ours)
 
 
 def _is_no_bug_of_ours(excinfo: pytest.ExceptionInfo[BaseException]) -> bool:
-    """Whether an exception is one that we raise on purpose, or was raised by other code."""
     from topo_verify.errors import InternalError, TopoVerifyError
     from topo_verify.robot.limits import MapperStopped
 
@@ -383,16 +363,15 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
 
 
 # ---------------------------------------------------------------- fixtures
-# Of session scope: Hypothesis refuses fixtures of function scope in its tests.
+# Session scope: Hypothesis refuses function scope.
 
 
 @pytest.fixture(scope="session")
 def topo_robot() -> Callable[..., SimulatedRobot]:
     """`topo_robot(world, budget=None)`: a robot at the marker of a world.
 
-    The world is a `World` or an argument of the command line ("m5/17", "nyc"); the default budget,
-    in moves, is the bound of claim 7. The robot has `percept`, `move`, `declare`, `cost` and
-    `events`.
+    The world is a `World` or a command-line argument ("m5/17", "nyc"); the default budget, in
+    moves, is the bound of claim 7. The robot has `percept`, `move`, `declare`, `cost` and `events`.
     """
 
     def robot(world: World | str, *, budget: int | None = None) -> SimulatedRobot:
@@ -408,9 +387,9 @@ def topo_robot() -> Callable[..., SimulatedRobot]:
 def topo_examine() -> Callable[..., Report]:
     """`topo_examine(mapper, world)`: the report on a run, judged by every claim.
 
-    As `topo_verify.examine`, but the world may also be an argument of the command line. A report
-    has `ok`, `undecided`, `cost`, `claims`, `findings`; its text lists the violations and the
-    replay command: `assert report.ok and not report.undecided, str(report)`.
+    The world is a `World` or a command-line argument. A report has `ok`, `undecided`, `cost`,
+    `claims`, `findings`; its text lists violations and the replay command: `assert report.ok and
+    not report.undecided, str(report)`.
     """
 
     def examine(mapper: Mapper | str, world: World | str, **options: Any) -> Report:

@@ -1,7 +1,4 @@
-"""The exhaustive search, for use from Python: `from topo_verify.search import search`.
-
-The search itself lives in `topo_verify.studies.search`; docs/search.md says what it does.
-"""
+"""The exhaustive search, for use from Python: `from topo_verify.search import search`."""
 
 from topo_verify.studies.search.choices import Choices
 from topo_verify.studies.search.search import (

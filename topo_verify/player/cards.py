@@ -1,7 +1,6 @@
 """Reports and findings as HTML for notebooks: a table of claims, a picture, the walk's text.
 
-Whatever a mapper, a file or a name brings is escaped. No script, no request; colours are those of
-the notebook, light or dark, and no statement rests on colour.
+All input is escaped. No script, no request; no statement rests on colour.
 """
 
 from __future__ import annotations
@@ -16,10 +15,9 @@ from topo_verify.player.scenes import Playback
 from topo_verify.world.rooted_map import World
 
 MOST_DRAWN = 80
-"""The most edges of a world that a card draws: a larger one takes seconds."""
+"""Most edges of a world that a card draws: larger ones take seconds."""
 
 _SIGNS: dict[Status, str] = {"ok": "✓", "failed": "✗", "undecided": "?"}
-"""What stands before a status, so that it is seen at a glance."""
 
 
 def report_card(
@@ -28,9 +26,8 @@ def report_card(
     """The report of a run: its claims with their coverage; with a finding the world and the walk.
 
     Args:
-        head: what ran where, and how many claims hold.
-        playback: the run; None if it is not known.
-        again: the command line that shows it again, if there is one.
+        head: mapper, world, and how many claims hold.
+        again: the replay command, or "".
     """
     findings = [finding for one in judgements for finding in one.findings]
     parts = [f"<p><strong>{_text(head)}</strong></p>", _claims(judgements)]
@@ -89,7 +86,6 @@ def _sentence(finding: Finding) -> str:
 
 
 def _claims(judgements: Sequence[Judgement]) -> str:
-    """The table of claims: the status of each, and how much of the run it rests on."""
     rows = (
         f"<tr><td {_LEFT}>{_text(one.claim)}</td>"
         f"<td {_LEFT}>{_SIGNS.get(one.status, '–')} {_text(one.status)}</td>"
@@ -101,7 +97,6 @@ def _claims(judgements: Sequence[Judgement]) -> str:
 
 
 def _picture(world: World, what: str) -> str:
-    """A small picture of the world above its name."""
     name = f" {world.name}" if world.name else ""
     size = (
         f"{plural(len(world.vertices), 'vertex', 'vertices')}, {plural(len(world.edges), 'edge')}"
@@ -119,7 +114,6 @@ def _picture(world: World, what: str) -> str:
 
 
 def _walk(playback: Playback) -> str:
-    """The last moves before the first finding, as `replay` prints them."""
     lines = (escape(shown(line, limit=LINE)) for line in walk.lines(playback))
     font = "font-family:ui-monospace,Menlo,Consolas,monospace;white-space:pre;overflow-x:auto"
     return f'<pre style="{font}">{chr(10).join(lines)}</pre>'
@@ -138,5 +132,5 @@ def _named(text: str | None) -> World | None:
         return None
 
 
-# The checkers know nothing of pictures, so that a finding has one is said here.
-setattr(Finding, "_repr_html_", finding_card)  # noqa: B010  the class does not declare it
+# Here, since the checkers know nothing of pictures.
+setattr(Finding, "_repr_html_", finding_card)  # noqa: B010  undeclared

@@ -1,7 +1,4 @@
-"""What the moves of a run show when they are read together: turns, ways home, circles, tests.
-
-None of it is a judgement; it explains what the checkers found.
-"""
+"""What several moves show together: turns, ways home, circles, tests. None of it is a judgement."""
 
 from __future__ import annotations
 
@@ -19,9 +16,9 @@ class Turn(NamedTuple):
     """A robot that came back to a place leaves it by another dart: its doors count from elsewhere.
 
     Attributes:
-        entry: the dart of the world by which it came to the place.
-        stands: its reference dart now: the one by which it came back.
-        door: the door that it takes, if it were counted from `entry`.
+        entry: the dart of the world by which it first came.
+        stands: its reference dart now.
+        door: the door that it takes, counted from `entry`.
     """
 
     entry: WorldDart
@@ -33,9 +30,9 @@ class Circle(NamedTuple):
     """Moves that repeat to the end of the run.
 
     Attributes:
-        first, last: the events of the first and of the last move of the first round.
-        period: the number of moves of a round.
-        moves: how many moves there are from `first` on.
+        first, last: the events of the first and the last move of the first round.
+        period: the moves of a round.
+        moves: the moves from `first` on.
     """
 
     first: int
@@ -45,18 +42,15 @@ class Circle(NamedTuple):
 
 
 def turns(playback: Playback) -> dict[int, Turn]:
-    """By event, the moves whose door is not counted from the dart by which the robot came.
-
-    Not those that only retrace: back through the dart by which it came, to where it set out.
-    """
+    """By event, the moves, except retracing ones, whose door does not count from the entry dart."""
     found: dict[int, Turn] = {}
     positions = playback.replayed.positions
-    entries = [positions[0]]  # of the places on its way, each by the dart by which it came
-    asked = 1  # how many there were when an edge was asked about
+    entries = [positions[0]]  # by which dart it came to each place
+    asked = 1  # their number at the last question
     for moment in playback.moments[1 : len(positions)]:
         number, out = moment.number, moment.left_by
         if isinstance(moment.event, ev.Augment) and _sees_marker(playback, positions[number]):
-            entries = [positions[number]]  # the marker tells its reference dart: a fresh start
+            entries = [positions[number]]  # the marker shows its reference dart
         if isinstance(moment.event, ev.Pose):
             asked = len(entries)
         if out is None:
@@ -66,7 +60,7 @@ def turns(playback: Playback) -> dict[int, Turn]:
         if stands != entry and not (back and len(entries) > asked):
             found[number] = Turn(entry, stands, playback.door(entry, out))
         if back:
-            entries.pop()  # its reference dart there is now the other end of `out`
+            entries.pop()
         else:
             entries.append(positions[number])
     return found
@@ -77,11 +71,10 @@ def _sees_marker(playback: Playback, dart: WorldDart) -> bool:
 
 
 def circle(playback: Playback) -> Circle | None:
-    """The circle in which the robot walks at the end of a run without a map; None: in none.
+    """The circle in which the robot walks at the end of a run without a map; None without one.
 
-    It is the longest end of the run in which places and doors repeat, twice at least; and it takes
-    a third of the run or more: any two equal moves at the end of a run would be a circle, too.
-    Linear: what a prefix of the reversed run begins and ends with makes its period.
+    It is the longest end of the run in which places and doors repeat at least twice; it must take a
+    third of the run. Linear: the longest border of the reversed run gives the period.
     """
     if isinstance(playback.trace[-1], ev.Finish) or playback.replayed.illegal is not None:
         return None
@@ -103,11 +96,11 @@ def circle(playback: Playback) -> Circle | None:
 
 
 def way_home(playback: Playback, dart: KnownDart, number: int) -> tuple[Door, ...]:
-    """The doors of a shortest way on S, as it is before an event, from a dart to v0.
+    """The doors of a shortest way on S, before this event, from a dart to v0.
 
-    The way that docs/semantics.md, section 6, describes; a mapper may choose another.
+    See docs/semantics.md, section 6; a mapper may choose another.
     """
-    came: dict[int, KnownDart | None] = {0: None}  # by vertex: its dart towards v0
+    came: dict[int, KnownDart | None] = {0: None}  # each vertex's dart towards v0
     for vertex in (queue := [0]):
         for a in playback.darts(vertex):
             if playback.map.joined.get(a, number) < number:
@@ -130,7 +123,7 @@ class SupposedWalk:
         self._playback, self._map = playback, playback.map
         self._behind = Excursion()
         self._trail: list[KnownDart | None] = []  # on S, behind each door of the word
-        self._last: tuple[KnownDart | None, int] = None, 0  # the guess and moment of the trail
+        self._last: tuple[KnownDart | None, int] = None, 0
 
     def place(self, moment: Moment, guess: int | None) -> KnownDart | None:
         """The reference dart on S; None where S does not say, or no guess is tested."""
@@ -152,7 +145,7 @@ class SupposedWalk:
         if self._last != (guess, number - 1):
             self._trail = [guess]
         self._last = guess, number
-        del self._trail[len(word) + 1 :]  # a move changes the end of the word alone
+        del self._trail[len(word) + 1 :]
         for step in word[len(self._trail) - 1 :]:
             at = self._trail[-1]
             out = None if at is None else self._map.turn(at, step.door)

@@ -1,7 +1,6 @@
 """Where in the world a fold identifies visits, and where a rejection by folding contradicts itself.
 
-`checkers.folding` proves; this fold does the same and keeps in mind which visits were involved, so
-that a picture can ring them. Nothing is judged here.
+The fold repeats `checkers.folding` and records its merges; nothing is judged.
 """
 
 from __future__ import annotations
@@ -19,11 +18,11 @@ from topo_verify.robot.percept import Percept
 
 
 class FoldPlaces(NamedTuple):
-    """What the fold of a history shows on the way.
+    """What the fold of a history shows.
 
     Attributes:
-        identified: by event, reference darts of the world at visits that were found to be at a
-            place that was seen before. (That a visit sees the marker is no news.)
+        identified: by event, reference darts of visits recognised as an earlier place, except those
+            that see the marker.
         clashes: by rejection, the reference darts at two visits that would be one place.
     """
 
@@ -32,27 +31,24 @@ class FoldPlaces(NamedTuple):
 
 
 class _WatchedFold(Fold):
-    """A fold that tells which visits it identified, and which two would not be alike."""
-
     def __init__(self, percept: Percept) -> None:
-        self.merged: list[int] = []  # the nodes that were found to be another one
-        self._whose: dict[int, int] = {}  # by identity: the visit that has a percept
+        self.merged: list[int] = []
+        self._whose: dict[int, int] = {}  # the visit of a percept, by its `id`
         super().__init__(percept)
 
     def _visit(self, percept: Percept) -> int:
-        # A copy of the percept for each visit, so that `_require_alike` can identify the visit.
+        # A copy for each visit: `_require_alike` identifies visits by it.
         node = super()._visit(Percept(percept.degree, percept.marker))
         self._whose[id(self._seen[node])] = node
         return node
 
     def _require_alike(self, one: Percept, other: Percept) -> None:
         super()._require_alike(one, other)
-        if id(other) in self._whose:  # a percept that was just sensed belongs to no visit yet
+        if id(other) in self._whose:  # not just sensed
             self.merged.append(self._whose[id(one)])
 
     @property
     def visits(self) -> int:
-        """How many nodes there are."""
         return len(self._seen)
 
     def identified(self, mark: int) -> list[int]:
@@ -61,17 +57,14 @@ class _WatchedFold(Fold):
         return [node for node in self.merged[mark:] if self.find((node, 0))[0] != v0]
 
     def clash(self, one: Place, other: Place) -> tuple[int, int] | None:
-        """Two nodes that would be one place if these were the ends of one edge, and differ.
-
-        None if another contradiction is met before.
-        """
+        """Two nodes that would be one place if these were the ends of one edge, and differ."""
         contradiction, places = next(self.contradictions(one, other, ()), ("", ()))
         nodes = sorted(node for node, _ in places)
         return (nodes[0], nodes[1]) if contradiction == UNLIKE else None
 
 
 LONGEST = 20_000
-"""The most events of a run whose fold is shown: rings at each of more would fill megabytes."""
+"""Most events of a run whose fold is shown: more rings would fill megabytes."""
 
 
 def fold_places(moments: Sequence[Moment]) -> FoldPlaces:
@@ -105,7 +98,6 @@ def fold_places(moments: Sequence[Moment]) -> FoldPlaces:
 
 
 def _grown(on_fold: MapOnFold, moment: Moment) -> bool:
-    """Let S grow by an augmentation, if it is true and its edge was crossed."""
     event = moment.event
     assert isinstance(event, Augment)
     true = moment.growth is not None and moment.growth.true is True

@@ -1,13 +1,8 @@
 """The one narrator: what each event of a run means, in sentences that the replay bears out.
 
-    narrator = Narrator(playback)
-    narrator.sayings             # of every moment: a title, sentences, the percepts that differ
-    narrator.line(moment)        # of a decision, for the text walk: exact, with its darts
-
-A saying is for everybody: a vertex is a place, an edge a road, a dart an exit, a hypothesis a
-guess. The page and the animation show it. A line has the field's terms. Both rest on the same
-facts: positions, evidence, the walk home, and S as it is in the world. A decision that has a
-finding, is false in the world or rests on a false map is the mapper's word: `it says`.
+A saying is in plain words: a vertex is a place, an edge a road, a dart an exit, a hypothesis a
+guess. A line of the text walk has the field's terms. A decision that has a finding, is false in the
+world or rests on a false map is reported as the mapper's word: `it says`.
 
 What this does not show: whether a decision follows from the history. The findings say that.
 """
@@ -40,7 +35,6 @@ EARLIER = {
     "history": "a walk made before",
     "records": "what it saw behind an open exit",
 }
-"""By rule, what refutes a guess without a step."""
 
 
 class Saying(NamedTuple):
@@ -49,10 +43,8 @@ class Saying(NamedTuple):
     Attributes:
         kind: its colour: a question, right, wrong, or none.
         title: the sentence in bold.
-        sentences: what stands below.
-        seen: what the robot senses or has seen; None: no percept is shown.
-        expected: the percept to compare with, or None.
-        labels: what stands below the two percepts.
+        seen, expected: two percepts to compare, or None.
+        labels: the words below the two percepts.
     """
 
     kind: Sense
@@ -64,7 +56,7 @@ class Saying(NamedTuple):
 
     @property
     def text(self) -> str:
-        """The sentences below the title, one behind the other."""
+        """The sentences as one text."""
         return " ".join(self.sentences)
 
 
@@ -76,7 +68,7 @@ class Narrator:
 
     @cached_property
     def folded(self) -> FoldPlaces:
-        """What the fold of the history shows, if the mapper rejects by folding."""
+        """The fold of the history, if the mapper rejects by folding."""
         rules = {event.rule for event in self.playback.trace if isinstance(event, ev.Reject)}
         return fold_places(self.playback.moments if "folding" in rules else ())
 
@@ -111,7 +103,6 @@ class Narrator:
                 guesses = {}
 
     def _saying(self, moment: Moment, guesses: Mapping[int, int], seen: Percept | None) -> Saying:
-        """What is said of a moment that tests no guess."""
         event, illegal = moment.event, self.playback.replayed.illegal
         if illegal is not None and moment.number >= illegal:
             return self._lost(moment, illegal)
@@ -160,7 +151,6 @@ class Narrator:
         return Saying("bad", "No such door", (text,))
 
     def _moved(self, moment: Moment, move: ev.Move) -> Saying:
-        """A move by its stated purpose, and whether its road was walked before."""
         assert moment.position is not None
         crossing = self.playback.replayed.crossing(moment.position)
         is_first = self.playback.replayed.crossings[crossing] == moment.number
@@ -185,7 +175,6 @@ class Narrator:
                 return Saying("", f"A road {before} before", sees)
 
     def _leaves_map(self, moment: Moment) -> bool:
-        """Whether a move leaves S by an unexplored dart."""
         return moment.through is not None and self.map.is_open(moment.through, moment.number)
 
     def _posed(self, moment: Moment, pose: ev.Pose) -> Saying:
@@ -217,7 +206,6 @@ class Narrator:
         return Saying("bad", title, sentences, cited.observed, cited.expected, labels)
 
     def _evidence(self, moment: Moment, reject: ev.Reject, found: Mismatch) -> Iterator[str]:
-        """What differs at the ring; what is not so in the world is what the mapper says."""
         observed, expected = reject.evidence.observed, reject.evidence.expected
         assert observed is not None, "the caller has looked"
         assert expected is not None, "the caller has looked"
@@ -284,13 +272,12 @@ class Narrator:
     # ------------------------------------------------------------ exactly
 
     def line(self, moment: Moment) -> str:
-        """What an event says, in one exact sentence; a rejection with where its evidence lies."""
+        """An event in one exact sentence; a rejection with the place of its evidence."""
         if isinstance(moment.event, ev.Reject):
             return self._rejects(moment.number, moment.event, moment.mismatch)
         return event_words(moment.event, brief=True)
 
     def _rejects(self, number: int, event: ev.Reject, found: Mismatch | None) -> str:
-        """A rejection with its evidence, and where that lies."""
         cited, spoiled = event.evidence, self.playback.replayed.spoiled
         if cited.contradiction is not None:
             return event_words(event)
@@ -325,13 +312,11 @@ def _started(percept: Percept) -> Saying:
 
 
 def _not_home(way: Homeward) -> tuple[str, ...]:
-    """That the walk ended before the marker, or went another way."""
     home, took = plural(len(way.home), "road"), plural(len(way.took), "road")
     return (f"The way home from there takes {home}, to the marker.", f"It walked {took}.")
 
 
 def _differs(way: Homeward) -> tuple[str, ...]:
-    """What speaks against a confirmation: the first place on the walk that differs from S."""
     where = f"After {plural(way.step, 'road')} of its walk" if way.step else "Behind the new road"
     if way.seen.signature == way.expected.signature:
         return (f"{where} the marker would have to point another way.",)
@@ -339,7 +324,6 @@ def _differs(way: Homeward) -> tuple[str, ...]:
 
 
 def _is_map_of(world: World, delivered: ev.MapData) -> bool:
-    """Whether a delivered map is the world."""
     try:
         return World.from_map(delivered).code == world.code
     except InputError:

@@ -1,7 +1,6 @@
-"""The player: a run in the browser, as ONE self-contained file that makes no request.
+"""The player: a run in the browser, as one self-contained file that makes no request.
 
-The parts lie in `page/`: a template, a style sheet and small scripts that are written one behind
-the other. A content security policy allows exactly these, by their hashes. Whatever a mapper, a
+A content security policy allows exactly the scripts of `page/`, by their hashes. What a mapper, a
 world or a file name brings is data in JSON, with `<` escaped, and becomes text nodes.
 """
 
@@ -38,16 +37,16 @@ SCRIPTS = (
     "walk.js",
     "start.js",
 )
-"""The parts of the script, in the order in which they are written."""
+"""The parts of the script in their order."""
 
 
 @dataclass(frozen=True)
 class PageShell:
-    """The page around a recording, which is the same for every run.
+    """The page around a recording, the same for every run.
 
     Attributes:
-        before, after: what stands before the recording and behind it.
-        style, script: the sources that its content security policy names.
+        before, after: the text around the recording.
+        style, script: the sources in its content security policy.
     """
 
     before: str
@@ -75,7 +74,7 @@ def page_shell(title: str = "A run, step by step") -> PageShell:
 
 
 def mark_up(template: str, values: Mapping[str, str]) -> str:
-    """The template with its names in braces replaced by values; what is put in is not searched."""
+    """The template with its names in braces replaced; inserted values are not searched."""
     return re.sub(r"\{([a-z]+)\}", lambda match: values[match[1]], template)
 
 
@@ -86,10 +85,10 @@ def json_in_page(data: object) -> str:
 
 
 def player_page(world: World, runs: Sequence[PlayedRun], *, name: str = "") -> str:
-    """The page that shows these runs in this world, the first one first; two: side by side.
+    """The page that shows these runs, the first one first; two side by side.
 
     Args:
-        name: of the world, as the user calls it; default: its own.
+        name: of the world; default: its own.
     """
     data = recording(world, runs, name=name)
     shell = page_shell(" beside ".join(shown(run.name) for run in runs[:2]) + f" in {data['name']}")
@@ -99,8 +98,7 @@ def player_page(world: World, runs: Sequence[PlayedRun], *, name: str = "") -> s
 def framed(world: World, run: PlayedRun) -> str:
     """The page of a run in a frame, for notebooks: scripts run, nothing else may.
 
-    A sandboxed frame cannot ask what theme the notebook has, so its height says it: page.css takes
-    641 pixels for a dark one.
+    The frame cannot ask for the notebook's theme: a height of 641 pixels means dark (page.css).
     """
     from topo_verify.world.drawing import IN_NOTEBOOKS
 
@@ -115,18 +113,15 @@ def framed(world: World, run: PlayedRun) -> str:
 
 @cache
 def part(name: str) -> str:
-    """The text of a file in `page/`, squeezed."""
+    """The squeezed text of a file in `page/`."""
     path = resources.files("topo_verify.player") / "page" / name
     return squeezed(path.read_text(encoding="utf-8"), name)
 
 
 def squeezed(text: str, name: str) -> str:
-    """The text of a part of a page without its comments and idle spaces.
+    """The text of a file of `page/` without comments and idle spaces.
 
-    No text of a script goes over a line end, or has two slashes with spaces around them.
-
-    Args:
-        name: of its file, whose ending says what it is.
+    No text of a script may span lines, or hold two slashes with spaces around them.
     """
     if name.endswith((".js", ".css")):
         text = re.sub(r"^\s*/\*.*?\*/$\n?", "", text, flags=re.MULTILINE | re.DOTALL)

@@ -1,11 +1,7 @@
-"""A run as compact data for the page: the events of its trace, which are deltas, and no snapshot.
+"""A run as compact data for the page: the events of its trace, which are deltas.
 
-The page follows the doors and draws S as it grows (`page/model.js`; a test compares it with
-`scenes.py`, event by event). What the replay of the checkers knows is added here: where evidence
-lies, what records are kept, the picture of the world, the narrator's sentences, where the fold of
-the history identifies visits, the findings, and the witness worlds with their pictures.
-
-The events are one text, a letter and numbers for each:
+The page draws S as it grows (`page/model.js`; a test compares it with `scenes.py`). What the replay
+knows is added. The events are one text, a letter and numbers for each:
 
     move       c2: by door 2, to cross (w walk, c cross, v validate, t retrace, m: no purpose)
     pose       p edge, hypotheses
@@ -41,20 +37,18 @@ from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
 MOST_WITNESSES = 4
-"""Maximal number of witness worlds that a page draws."""
 
 WIDEST_WITNESS = 200
-"""Maximal edges of a witness world that is drawn; larger ones take seconds."""
+"""Most edges of a witness world that is drawn; larger ones take seconds."""
 
 
 class GalleryWorld(NamedTuple):
     """A world to walk, with every page.
 
     Attributes:
-        name: what the page calls it.
         text: its name as a WORLD.
         genus: the number of handles of its surface.
-        symmetries: in how many ways it can be laid onto itself, if the marker is ignored.
+        symmetries: the number of its automorphisms without the marker.
     """
 
     name: str
@@ -77,7 +71,6 @@ GALLERY = (
     GalleryWorld("a small torus", "family:torus(3,3)", 1, 36),
     GalleryWorld("a cube", "family:cube()", 0, 24),
 )
-"""Easy ones first."""
 
 DIGITS = string.digits + string.ascii_letters + "-_"
 """Digits of numbers in text: none of them is escaped in JSON."""
@@ -85,13 +78,11 @@ DIGITS = string.digits + string.ascii_letters + "-_"
 
 @dataclass(frozen=True, slots=True)
 class PlayedRun:
-    """A run to be shown.
+    """A run to show.
 
     Attributes:
-        name: of the mapper.
-        trace: what happened.
         judgements: of the claims; their findings are marked.
-        stopped: why the mapper ended without a map, if it did.
+        stopped: why the mapper ended without a map, or None.
     """
 
     name: str
@@ -101,11 +92,7 @@ class PlayedRun:
 
 
 def recording(world: World, runs: Sequence[PlayedRun], *, name: str = "") -> dict[str, Any]:
-    """What the page shows of these runs, as data for JSON.
-
-    Args:
-        name: of the world; default: its own.
-    """
+    """What the page shows of these runs, as data for JSON."""
     worlds, places = [pictured(world)], dict[str, int]()
     return {
         "name": shown(name or world.name or "a world"),
@@ -139,7 +126,6 @@ def pictured(world: World) -> dict[str, Any]:
 
 @cache
 def _gallery() -> list[dict[str, Any]]:
-    """The worlds of the gallery with their pictures, as data for JSON."""
     worlds = [(f"{one.name} ({one.text})", resolve_world(one.text)) for one in GALLERY]
     return [{**pictured(world), "name": name} for name, world in worlds]
 
@@ -200,7 +186,7 @@ def _digits(number: int) -> str:
 def _findings(
     playback: Playback, worlds: list[dict[str, Any]], places: dict[str, int]
 ) -> list[dict[str, Any]]:
-    """The findings; the first at an event has the remarks of the text walk on this event."""
+    """The findings; the first at an event has the remarks of the text walk."""
     found: list[dict[str, Any]] = []
     turned, told = turns(playback), set[int | None]([None])
     for finding in playback.findings:
@@ -234,7 +220,6 @@ _LETTERS = {"walk": "w", "cross": "c", "validate": "v", "retrace": "t", None: "m
 
 
 def _event(moment: Moment, clashes: Mapping[int, Sequence[int]], *, cites_records: bool) -> str:
-    """An event as the page reads it: a letter and numbers."""
     found: Sequence[int] = ()
     match moment.event:
         case ev.Start():

@@ -1,11 +1,8 @@
-"""What the replay adds to an event that the mapper did not say: what speaks against a decision.
+"""What the replay adds to an event: what speaks against a decision.
 
-Lines of text. Darts, doors and percepts are named in them as in all lines of the player:
-
-    w1:4    a dart of the world and its vertex: vertex 1, dart 4, as the world file numbers them
-    v2:7    a dart of S and its vertex: the third vertex that was discovered, dart 7
-
-Percepts are short here: `5` is degree 5 with no marker, `5, marker 2` has the marker at door 2.
+w1:4          a dart of the world and its vertex: vertex 1, dart 4 of the world file
+v2:7          a dart of S and its vertex: the third vertex that was discovered, dart 7
+5, marker 2   a percept: degree 5, the marker at door 2
 """
 
 from __future__ import annotations
@@ -47,7 +44,6 @@ def remarks(playback: Playback, moment: Moment, turn: Turn | None = None) -> Ite
 
 
 def _leaving(playback: Playback, number: int, found: Mismatch, leaves: KnownDart) -> str:
-    """That the doors of a rejection lead out of S, where S expects nothing; and which lead home."""
     start = map_place(playback, found.traced[0])
     words = (
         f"from {start}, {door_words(found.doors)} would leave S by {map_place(playback, leaves)}"
@@ -63,7 +59,7 @@ class Homeward(NamedTuple):
         start: the hypothesis, the dart by which the robot would have come in.
         took: the doors that the robot took.
         step: the doors before the first place that differs; all doors if no place differs.
-        expected, seen: what S has there, and what the robot saw.
+        expected, seen: the percept on S there, and the one sensed.
         arrived: the doors lead to v0 on S.
         home: the doors of a shortest way there.
     """
@@ -78,18 +74,15 @@ class Homeward(NamedTuple):
 
     @property
     def proves(self) -> bool:
-        """Whether the walk led to the marker and each place on it looked as S has it."""
+        """Whether the walk led to the marker and each place on it looked as on S."""
         return self.arrived and self.expected == self.seen
 
 
 def homeward(playback: Playback, moment: Moment) -> Homeward | None:
-    """The walk on which a confirmation by motion rests.
-
-    None if the event is no such confirmation, cannot be judged, or the walk did not begin behind
-    its edge.
+    """The walk on which a confirmation by motion rests; None if it cannot be judged.
 
     From the start of a way to v0 back, S and the marker fix each dart of it. So if each percept is
-    as S has it, the hypothesis is true.
+    as on S, the hypothesis is true.
     """
     event, drawn, number = moment.event, playback.map, moment.number
     spoiled = playback.replayed.spoiled
@@ -119,7 +112,6 @@ def homeward(playback: Playback, moment: Moment) -> Homeward | None:
 
 
 def _about_confirm(playback: Playback, moment: Moment) -> Iterator[str]:
-    """What the walk home shows that speaks against a confirmation, or that it was not walked."""
     way = homeward(playback, moment)
     if way is None or way.proves:
         return
@@ -136,7 +128,6 @@ def _about_confirm(playback: Playback, moment: Moment) -> Iterator[str]:
 
 
 def _turned(playback: Playback, move: ev.Move, before: Moment, turn: Turn) -> str:
-    """That the reference dart is not the dart by which the robot came to the place."""
     now = either_place(playback, before.known, before.position)
     came = either_place(playback, playback.known(turn.entry, before.number), turn.entry)
     words = f"turned: it came here by {came} and back by {now}"
@@ -144,7 +135,6 @@ def _turned(playback: Playback, move: ev.Move, before: Moment, turn: Turn) -> st
 
 
 def _about_pose(playback: Playback, moment: Moment, pose: ev.Pose) -> Iterator[str]:
-    """Which darts it leaves out; when it crossed the edge, or by which dart it came instead."""
     edge, drawn, number = pose.edge, playback.map, moment.number
     if not drawn.is_open(edge, number) or moment.position is None:
         return

@@ -1,18 +1,11 @@
 """What each event of a run means, beside the world: the model behind every view of a run.
 
     playback = Playback(world, trace, judgements)
-    for moment in playback.moments:      # one an event
-        moment.position                  # where the robot really stands: a dart of the world
-        moment.known                     # the same dart on S, where S has it
-        moment.edge, moment.hypotheses   # the question of this moment, and what is left of it
-        moment.growth                    # what S grows by
-        moment.mismatch                  # where the evidence of a rejection lies
-        moment.findings                  # what is wrong here
+    for moment in playback.moments: ...
 
-Where the robot stood follows from the doors (`checkers.replayed_trace`). S is kept twice: as the
-mapper declares it (`Playback.map_at`, `Moment.growth`), and as far as that is true (`Playback.map`,
-which knows for each dart of S the dart of the world). Two kinds of darts never mix: `WorldDart` and
-`KnownDart`; a plain `int` is a dart of S as the mapper declares it, which S need not have.
+S is kept twice: as the mapper declares it (`Playback.map_at`, `Moment.growth`), and as far as it is
+true (`Playback.map`, with the dart of the world for each dart of S). `WorldDart` and `KnownDart`
+never mix; a plain `int` is a declared dart of S, which S need not have.
 
 What this does not show: what a mapper thinks. It shows what it did and said, and what was so.
 """
@@ -37,7 +30,7 @@ from topo_verify.world.rooted_map import World
 
 
 class Spent(NamedTuple):
-    """Edge traversals by the purpose that the mapper stated; `unsaid`: without one."""
+    """Edge traversals by the purpose that the mapper stated."""
 
     walk: int = 0
     cross: int = 0
@@ -52,14 +45,13 @@ class Spent(NamedTuple):
 
 
 class Growth(NamedTuple):
-    """What S grows by, as it is declared.
+    """What S grows by, as declared.
 
     Attributes:
         edge, dart: the two ends of the edge that is explored now.
         kind: `new`: the vertex of `dart` is new, and `dart` is its first; or `loop`.
         degree: of the vertex behind `edge`.
-        true: whether it is so in the world; None where that is not judged any more, behind an
-            illegal move or a false map.
+        true: whether it is so in the world; None after an illegal move or a false map.
     """
 
     edge: int
@@ -73,13 +65,10 @@ class Mismatch(NamedTuple):
     """Where the evidence of a rejection lies, in the world and on S.
 
     Attributes:
-        sequence: which sequence of this edge shows it, counted from 0; None: the moves just made,
-            or none at all.
+        sequence: which sequence of this edge shows it, from 0; None: the moves just made, or none.
         doors: the doors from vu to there.
-        trail: the reference dart in the world at vu and behind each of the doors. What was observed
-            was observed at the last one.
-        traced: the same on S, if the hypothesis were true: from the hypothesis on, as far as S
-            goes. What was expected is expected at the last one, unless `leaves`.
+        trail: the reference darts in the world at vu and behind each door.
+        traced: the same on S, if the hypothesis were true, as far as S goes.
         leaves: the unexplored dart of S by which the doors lead out of S, or None. Then a record
             gave the expectation.
         evidence: as the mapper cites it.
@@ -95,23 +84,22 @@ class Mismatch(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """One event, and how things are after it.
+    """One event, and the state after it.
 
     Attributes:
         number: the index of the event in the trace.
-        event: the event itself.
         position: the reference dart in the world; None from an illegal move on.
-        known: the reference dart on S, or None where S does not know the place.
+        known: the same on S, where S knows the place.
         left_by: of a move: the dart of the world by which the robot left.
         through: of a move: the same dart on S, or None.
         spent: edge traversals so far.
         edge: the dart of S whose other end is in question; None: no question is open.
-        hypotheses: the darts that were posed for it and neither rejected nor confirmed so far.
-        growth: of an augmentation: what S grows by.
+        hypotheses: the darts posed for it and neither rejected nor confirmed so far.
+        growth: of an augmentation.
         recorded: of an augmentation: what is known from now on behind unexplored darts of S.
-        mismatch: of a rejection that can be judged: where its evidence lies.
-        word: of a decision that can be judged: the doors from vu to where the robot stands now, and
-            what is seen behind each.
+        mismatch: of a rejection that can be judged.
+        word: of a decision that can be judged: the doors from vu to where the robot stands, and the
+            percept behind each.
         findings: what is wrong at this event.
     """
 
@@ -135,9 +123,8 @@ class DeclaredMap(NamedTuple):
     """S as the mapper declares it.
 
     Attributes:
-        vertices: the first dart of each vertex, and its degree. (A declared degree may be any
-            number: so darts are not listed.)
-        edges: the explored edges, in the order in which they were explored.
+        vertices: the first dart of each vertex, and its degree, which may be any number.
+        edges: in the order of their exploration.
     """
 
     vertices: tuple[tuple[int, int], ...]
@@ -148,13 +135,10 @@ class Playback:
     """A run, event by event.
 
     Args:
-        world: where the run took place.
-        trace: what happened; begins with its only `start`, and may end with `finish`.
-        judgements: of the claims on this run; their findings are marked.
-        stopped: why the mapper ended without a map, if it did.
+        trace: begins with its only `start`, and may end with `finish`.
+        stopped: why the mapper ended without a map, or None.
     Attributes:
-        replayed: the trace replayed by the checkers.
-        moments: one an event, in order.
+        moments: one an event.
         findings: all that is wrong, in the order of the claims.
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`.
@@ -174,7 +158,7 @@ class Playback:
 
     @property
     def map(self) -> MapInWorld:
-        """S as far as it is true: its `phi` says which dart of the world a dart of S is."""
+        """S as far as it is true; its `phi` gives the world's dart of a dart of S."""
         return self.replayed.map
 
     @property
@@ -184,21 +168,18 @@ class Playback:
 
     @cached_property
     def first_finding(self) -> Finding | None:
-        """The finding with the earliest event; if none has an event, the first; None: no finding.
-
-        Findings about the run as a whole come last: what went wrong at an event explains them.
-        """
+        """The finding with the earliest event, else the first about the run as a whole; or None."""
         last = len(self.trace)
         when = {id(f): last if f.event is None else f.event for f in self.findings}
         return min(self.findings, key=lambda finding: when[id(finding)], default=None)
 
     @property
     def about_the_run(self) -> tuple[Finding, ...]:
-        """The findings that are about the run as a whole."""
+        """The findings without an event."""
         return tuple(finding for finding in self.findings if finding.event is None)
 
     def map_at(self, number: int) -> DeclaredMap:
-        """S after this event, as it is declared."""
+        """S after this event, as declared."""
         start = self.trace[0]
         assert isinstance(start, ev.Start)
         vertices, edges = [(0, start.percept.degree)], list[tuple[int, int]]()
@@ -210,12 +191,12 @@ class Playback:
         return DeclaredMap(tuple(vertices), tuple(edges))
 
     def known(self, dart: WorldDart, number: int) -> KnownDart | None:
-        """This dart of the world on S, as S is after an event; None where S does not have it."""
+        """This dart of the world on S after an event; None where S does not have it."""
         known = self.map.number.get(dart)
         return known if known is not None and self.map.born[known] <= number else None
 
     def vertex(self, dart: KnownDart) -> int:
-        """The vertex of a dart of S: 0 is v0, the others follow as they were discovered."""
+        """The vertex of a dart of S: 0 is v0, the others follow in order of discovery."""
         return bisect_right(self._firsts, dart) - 1
 
     def door(self, stands: WorldDart, out: WorldDart) -> Door:
@@ -225,12 +206,10 @@ class Playback:
 
     @cached_property
     def _firsts(self) -> list[KnownDart]:
-        """The first dart of each vertex of S."""
         darts = sorted(self.map.phi)
         return [dart for dart in darts if dart == 0 or not self._same_vertex(dart)]
 
     def _same_vertex(self, dart: KnownDart) -> bool:
-        """Whether the dart of S before this one is at the same vertex."""
         place = self.world.vertex_of
         phi = self.map.phi
         return place[phi[dart]] == place[phi[KnownDart(dart - 1)]]
@@ -332,7 +311,6 @@ class Playback:
 
 
 def _after(spent: Spent, move: ev.Move) -> Spent:
-    """What is spent after a move."""
     purpose = move.purpose or "unsaid"
     return spent._replace(**{purpose: getattr(spent, purpose) + 1})
 

@@ -1,9 +1,7 @@
 """A run as text: the moves and decisions before a finding, and S beside the truth.
 
-One view, for every command that shows what went wrong. It holds at any width from 50 columns on.
-What a mapper or a file said stays text: control characters are escaped, and lines are cut.
-
-S is listed vertex by vertex, the darts of each clockwise, and in brackets what is so in the world:
+It holds at any width from 50 columns on. Control characters are escaped, and lines are cut. S is
+listed vertex by vertex, the darts of each clockwise, with the truth in brackets:
 
     0-1        dart 0 is explored, its other end is dart 1; so it is in the world
     2-?[4]     dart 2 is unexplored, and leads to dart 4
@@ -30,19 +28,14 @@ from topo_verify.robot.event_words import listed, percept_words
 from topo_verify.world.rooted_map import World
 
 WIDTH = 80
-"""The columns of a view whose reader is not known."""
 
 NARROW = 50
-"""The fewest columns for which the view is laid out."""
 
 MOVES = 10
-"""So many moves before the finding are shown by default."""
 
 MOST_VERTICES = 12
-"""Of a larger S only the vertices are listed that the moment is about."""
 
 MOST_DARTS = 40
-"""So many darts of a vertex are listed."""
 
 _LEGEND = (
     "v2:7 is dart 7 of the map S, at its vertex v2; w1:4 is dart 4 of the world, at its vertex 1. A"
@@ -56,16 +49,15 @@ _LEFT = {"out by", "sees", "arrives by", "by", "in world", "for"}
 """The columns that are flush left; the others hold numbers."""
 
 _LONG = 60
-"""The name of a world that is longer is left out."""
 
 
 @dataclass(frozen=True, slots=True)
 class Extent:
-    """What of a run is shown.
+    """The part of a run that is shown.
 
     Attributes:
         first: the first event; None: some moves before the finding.
-        to_end: whether the events behind the finding are shown, too.
+        to_end: show the events after the finding, too.
     """
 
     first: int | None = None
@@ -73,15 +65,13 @@ class Extent:
 
 
 BRIEF = Extent()
-"""The last moves before the finding."""
 
 
 def lines(playback: Playback, width: int = WIDTH, extent: Extent = BRIEF) -> Iterator[str]:
-    """The view of a run: its last moves before the first finding, and S there beside the truth.
+    """The last moves of a run before its first finding, and S there beside the truth.
 
     Args:
-        width: the columns that a line may take.
-        extent: what is shown; by default the moves before the finding.
+        width: the columns of a line.
     """
     view = _View(playback, max(width, NARROW))
     end = len(playback.trace) - 1
@@ -100,10 +90,10 @@ def lines(playback: Playback, width: int = WIDTH, extent: Extent = BRIEF) -> Ite
 def parting(
     playback: Playback, at: int, sides: Sequence[tuple[str, str]], width: int = WIDTH
 ) -> Iterator[str]:
-    """The view of two runs that part: what they share, what each does then, and S at that moment.
+    """Two runs that differ: their common walk, what each does then, and S at that moment.
 
     Args:
-        playback: one of the runs; of what comes before event `at` both have the same.
+        playback: one of the runs; both are equal before event `at`.
         sides: the name of each mapper, and what it does.
     """
     view = _View(playback, max(width, NARROW), focus=at - 1)
@@ -124,8 +114,6 @@ def is_shown(playback: Playback, finding: Finding, extent: Extent = BRIEF) -> bo
 
 
 class _View:
-    """The parts of the view of one run at one width."""
-
     def __init__(self, playback: Playback, width: int, focus: int | None = None) -> None:
         self.playback, self.width = playback, width
         self.narrator = Narrator(playback)
@@ -133,10 +121,7 @@ class _View:
         self.focus = self._focus() if focus is None else focus
 
     def _focus(self) -> int:
-        """The event that the view is about: that of the first finding, else where the run ends.
-
-        A run that ends in a circle ends, for people, with the first round of it.
-        """
+        """The event of the first finding, else of the run's end or its circle."""
         finding = self.playback.first_finding
         if finding is not None and finding.event is not None:
             return finding.event
@@ -146,7 +131,7 @@ class _View:
     def first(self) -> int:
         """The event from which on there are `MOVES` moves up to the focus."""
         left = MOVES
-        for number in range(self.focus, 3, -1):  # to leave out fewer would save nothing
+        for number in range(self.focus, 3, -1):
             left -= isinstance(self.playback.trace[number], ev.Move)
             if not left:
                 return number
@@ -155,7 +140,7 @@ class _View:
     # ------------------------------------------------------------ the table
 
     def table(self, moments: Sequence[Moment]) -> Iterator[str]:
-        """The events, a row a move; what is decided, remarked and found stands between the rows."""
+        """The events, a row a move, with decisions, remarks and findings between."""
         columns, gap, rows = self._laid_out(moments)
         widths = [max(map(len, column)) for column in zip(columns, *rows.values(), strict=True)]
         yield _line(columns, columns, widths, gap)
@@ -178,7 +163,6 @@ class _View:
     def _laid_out(
         self, moments: Sequence[Moment]
     ) -> tuple[Sequence[str], str, dict[int, tuple[str, ...]]]:
-        """The columns, the gap between them, and the rows by event: fewer where it is narrow."""
         has_row = (ev.Start, ev.Move)
         rows = {m.number: self._row(m) for m in moments if isinstance(m.event, has_row)}
         wide = _WIDE if any(row[-1] for row in rows.values()) else _WIDE[:-1]
@@ -206,7 +190,6 @@ class _View:
         )
 
     def _before(self, moment: Moment) -> str:
-        """What was before the first event that is shown."""
         before = self.playback.moments[moment.number - 1]
         words = f"{plural(moment.number, 'event')} before, {plural(before.spent.cost, 'move')}"
         return words if before.edge is None else f"{words}; it asks where edge {before.edge} leads"
@@ -214,7 +197,6 @@ class _View:
     # ------------------------------------------------------------ below the table
 
     def more(self, last: int) -> list[str]:
-        """How many events follow the last one that is shown."""
         left, words, found = len(self.playback.trace) - 1 - last, "", self.circle
         if found is not None and last == found.last:
             times = f"{found.moves / found.period:.3g} times in all"
@@ -227,11 +209,6 @@ class _View:
         return self.wrapped(words)
 
     def end(self, *, at_end: bool) -> Iterator[str]:
-        """What is wrong with the run as a whole; and where it stood, if it delivered no map.
-
-        Args:
-            at_end: the end of the run is shown.
-        """
         for finding in self.playback.about_the_run:
             yield from self.wrapped(_found(finding, self.playback.world), "", "   ")
         illegal = self.playback.replayed.illegal
@@ -248,7 +225,6 @@ class _View:
             yield from chain.from_iterable(self.wrapped(line, "", "    ") for line in doors)
 
     def _delivered(self) -> Iterator[str]:
-        """What is wrong with the map that was delivered."""
         last = len(self.playback.trace) - 1
         claims = {finding.claim for finding in self.playback.findings if finding.event == last}
         if "map-isomorphic" in claims:
@@ -257,7 +233,7 @@ class _View:
             yield from self.wrapped(never_crossed(self.playback) or "")
 
     def map(self) -> Iterator[str]:
-        """S at the event that the view is about, with the truth in brackets."""
+        """S at the focus, with the truth in brackets."""
         if not any(isinstance(event, ev.Augment) for event in self.playback.trace):
             yield "The mapper does not declare how its map S grows."
             return
@@ -296,7 +272,7 @@ def _found(finding: Finding, world: World) -> str:
 
 
 def known_map(playback: Playback, moment: Moment) -> Iterator[str]:
-    """S after an event, as it is declared, with the truth in brackets: a line a vertex."""
+    """S after an event as declared, with the truth in brackets: a line a vertex."""
     declared = playback.map_at(moment.number)
     other = {a: b for edge in declared.edges for a, b in (edge, edge[::-1])}
     chosen = _chosen(declared, moment)
@@ -317,7 +293,6 @@ def _is_true(playback: Playback, dart: int, moment: Moment) -> bool:
 
 
 def _end(playback: Playback, dart: int, says: int | None, number: int) -> str:
-    """A dart of S: its other end as S has it, and in brackets what is so where that differs."""
     words = f"{dart}-{'?' if says is None else says}"
     if playback.map.born.get(KnownDart(dart), number + 1) > number:
         return words
@@ -330,7 +305,6 @@ def _end(playback: Playback, dart: int, says: int | None, number: int) -> str:
 
 
 def _chosen(declared: DeclaredMap, moment: Moment) -> list[int]:
-    """The vertices of S to list: all of a small one, else those that the moment is about."""
     everything = [*range(len(declared.vertices))]
     if len(everything) <= MOST_VERTICES:
         return everything
@@ -374,7 +348,7 @@ def _named(playback: Playback, dart: WorldDart, number: int) -> str:
 
 
 def never_crossed(playback: Playback) -> str | None:
-    """A sentence that lists the edges of the world that the robot never crossed; None: it did."""
+    """A sentence that lists the edges of the world never crossed; None: there is none."""
     last = len(playback.trace)
     left = [
         " to ".join(
@@ -388,7 +362,7 @@ def never_crossed(playback: Playback) -> str | None:
 
 
 def difference_of_maps(playback: Playback) -> str | None:
-    """Where the delivered map first differs from the world; None: it does not, or there is none."""
+    """Where the delivered map first differs from the world; None without a difference or a map."""
     finish = playback.trace[-1]
     if not isinstance(finish, ev.Finish):
         return None

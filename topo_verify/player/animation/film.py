@@ -1,15 +1,11 @@
 """A short run as one animated SVG: CSS alone, so that it plays inside an `<img>`.
 
-    animated_svg(Playback(world, trace, judgements), name="basic")
+The world is dotted, and solid where S has it. The robot is a blue disc with a notch towards its
+reference dart; e is blue; hypotheses are numbered badges. A ring shows where the robot would be if
+the hypothesis that it tests were right; at a rejection both turn red.
 
-The world is dotted, and becomes solid where S has it. The robot is a blue disc with a notch towards
-its reference dart; e is blue; hypotheses are numbered badges. While the robot validates one, a ring
-goes the same doors on S from there on: that is where the robot would be if it were right. At a
-rejection both turn red, and two glyphs of spokes say what is seen, and what would be.
-
-Without animation (reduced motion, a still picture by librsvg) the last moment is shown: each
-element's own attributes are those of the end, and only keyframes say otherwise. Colours are
-literal, since librsvg ignores CSS variables; a media query has those for dark.
+Without animation the last moment is shown: an element's own attributes are those of the end.
+Colours are literal, since librsvg ignores CSS variables; a media query has those for dark.
 """
 
 from __future__ import annotations
@@ -34,10 +30,8 @@ from topo_verify.world.drawing.svg import FONT, arrow, text
 T = TypeVar("T")
 
 MOST_EVENTS = 500
-"""Maximal number of events; ten minutes of an animation are too long to watch."""
 
 MOST_SPOKES = 12
-"""A glyph of more exits is their number."""
 
 WIDTH, MARGIN, FOOT = 560, 14, 84
 """Of the picture; the words stand below the world."""
@@ -72,12 +66,12 @@ STILL = "@media(prefers-reduced-motion:reduce){*{animation:none!important}}"
 
 
 Keyframe = tuple[float, float, float, float | None]
-"""A time, a place, and the degrees by which something is turned, clockwise."""
+"""A time in seconds, a place, and degrees clockwise or None."""
 
 
 @dataclass
 class Stage:
-    """The time line, and the keyframes that were asked for so far.
+    """The time line, and the keyframes requested so far.
 
     Attributes:
         begins: when each moment begins, in seconds, and when the last one ends.
@@ -92,7 +86,7 @@ class Stage:
         return f"{number(100 * seconds / self.begins[-1])}%"
 
     def during(self, *spans: tuple[int, int]) -> str:
-        """Attributes that show an element from one moment to before another, and else hide it."""
+        """Attributes that show an element during these spans, and hide it otherwise."""
         end = len(self.begins) - 1
         spans = tuple(span for span in spans if span[0] < span[1])
         if spans == ((0, end),):
@@ -105,8 +99,8 @@ class Stage:
         return f' class="t {self._animation("".join(keys))}"{at_end}'
 
     def moving(self, way: Sequence[Keyframe]) -> str:
-        """Attributes that let an element be at these places at these times; between, it goes."""
-        # The place is said again before it changes: without that, the way there would begin early.
+        """Attributes that move an element along these keyframes."""
+        # Repeated before it changes: otherwise the way there would begin early.
         keys = "".join(
             f"{self.percent(pose[0])}{{transform:{_at(pose, 'px', 'deg')}}}" for pose in way
         )
@@ -129,9 +123,9 @@ def animated_svg(playback: Playback, *, name: str = "") -> str:
     """The run as an animated SVG, the same bytes for the same run.
 
     Args:
-        name: what the mapper is called.
+        name: of the mapper.
     Raises:
-        InputError: the run is too long to be watched.
+        InputError: the run is too long.
     """
     if len(playback.moments) > MOST_EVENTS:
         events = f"this run has {len(playback.moments)} events and {playback.cost} moves"
@@ -192,7 +186,6 @@ def _head(playback: Playback, name: str, height: str, stage: Stage) -> Iterator[
 
 
 def _world(tracks: Tracks, stage: Stage) -> Iterator[str]:
-    """Edges and vertices: dotted, and solid from the moment on that S has them."""
     layout, end = tracks.layout, len(tracks.moments)
     r = layout.radius
     vertices, edges = tracks.known_from()
@@ -232,7 +225,6 @@ def _world(tracks: Tracks, stage: Stage) -> Iterator[str]:
 
 
 def _questions(tracks: Tracks, stage: Stage) -> Iterator[str]:
-    """The hypotheses as numbered badges, from the pose to their rejection or the decision."""
     size = 0.5 * tracks.layout.radius
     yield f'<g font-size="{number(1.25 * size)}" font-weight="700" text-anchor="middle">'
     for badge in tracks.badges():
@@ -247,7 +239,6 @@ def _questions(tracks: Tracks, stage: Stage) -> Iterator[str]:
 
 
 def _walkers(tracks: Tracks, stage: Stage) -> Iterator[str]:
-    """The robot, the ring that goes where it would be, and both in red at a rejection."""
     r = tracks.layout.radius
     line = f'fill="none" stroke-width="{number(0.2 * r)}"'
     for (x, y), spans in tracks.clashes().items():
@@ -272,7 +263,6 @@ def _places(steps: Sequence[Leg], stage: Stage) -> list[Keyframe]:
 
 
 def _turned(tracks: Tracks, stage: Stage) -> Iterator[Keyframe]:
-    """Where the robot is at which time, its notch towards the dart by which it came."""
     turn, begun = tracks.first_turn(), 0.0
     for at, points in timed(tracks.robot(), stage.begins):
         if len(points) == 1:
@@ -281,14 +271,13 @@ def _turned(tracks: Tracks, stage: Stage) -> Iterator[Keyframe]:
             (x, y), before = points[-1], points[-2]
             back = math.degrees(math.atan2(before[1] - y, before[0] - x))
             back = turn + (back - turn + 180) % 360 - 180  # the short way round
-            if len(points) == 2:  # it turns where it stands, and then goes
+            if len(points) == 2:
                 yield begun + 0.15 * (at - begun), *before, back
             turn = back
         yield at, *points[-1], turn
 
 
 def _words(playback: Playback, stage: Stage, top: float) -> Iterator[str]:
-    """What happens, in a sentence; more about it below; what is seen; and the moves so far."""
     captioned = [_caption(saying, top) for saying in captions(playback)]
     for first, last, caption in _spans(captioned):
         yield f"<g{stage.during((first, last))}>{caption}</g>"
@@ -303,7 +292,6 @@ def _words(playback: Playback, stage: Stage, top: float) -> Iterator[str]:
 
 
 def _caption(said: Saying, top: float) -> str:
-    """A saying below the world; the percepts that differ stand beside what is wrong."""
     x, kind = MARGIN + 8, f' class="{said.kind}"' if said.kind else ""
     compared = said.seen, said.expected if said.kind == "bad" else None
     columns = COLUMNS if None in compared else BESIDE
@@ -324,7 +312,7 @@ def _caption(said: Saying, top: float) -> str:
 
 
 def _spans(values: Sequence[T]) -> Iterator[tuple[int, int, T]]:
-    """The stretches of equal values: the first, the one behind the last, the value."""
+    """The stretches of equal values: the first, the one after the last, the value."""
     first = 0
     for place in range(1, len(values) + 1):
         if place == len(values) or values[place] != values[first]:

@@ -1,7 +1,6 @@
-"""Where things lie in a picture of a run, and when: what the animation moves and shows.
+"""Where things lie in a picture of a run, and when.
 
-Spans are of moments: the number of the first, and the number behind the last. Points are in the
-space of the layout.
+Spans are of moments: the first, and the one after the last. Points are in the layout's space.
 """
 
 from __future__ import annotations
@@ -24,14 +23,14 @@ from topo_verify.world.rooted_map import Dart
 Span = tuple[int, int]
 
 LEAP = 0.0002
-"""The share of the whole time that a jump takes: keyframes are told apart by 0.01 %."""
+"""The share of the whole time that a jump takes: keyframes differ by at least 0.01 %."""
 
 PACE = 0.8
 """The share of a move's time in which the robot goes; the rest it stands."""
 
 
 class Face(NamedTuple):
-    """A badge from moment `first` to before `last`: of a class of the style, with these words."""
+    """A badge from moment `first` to before `last`: class and words."""
 
     first: int
     last: int
@@ -68,12 +67,12 @@ class Ghost:
 def timed(
     steps: Sequence[Leg], begins: Sequence[float]
 ) -> Iterator[tuple[float, tuple[Point, ...]]]:
-    """The times at which points are reached, each with the points of the same part up to there."""
+    """The times at which points are reached, each with the points of its part so far."""
     for step in steps:
         at, pause = begins[step.moment], begins[step.moment + 1]
         pace = PACE * (pause - at) / (sum(map(length, step.way)) or 1.0)
         for number, part in enumerate(step.way):
-            # Two keyframes of one time would be one: so a jump takes a moment.
+            # A jump takes a moment: keyframes of one time would be one.
             at += LEAP * begins[-1] if number else 0.0
             yield at, part[:1]
             for end in range(2, len(part) + 1):
@@ -87,7 +86,7 @@ def length(points: Sequence[Point]) -> float:
 
 
 class Tracks:
-    """What is to be seen of a run in a layout of its world."""
+    """What is seen of a run in a layout of its world."""
 
     def __init__(self, playback: Playback, layout: Layout) -> None:
         self.playback, self.layout = playback, layout
@@ -111,10 +110,7 @@ class Tracks:
     # ------------------------------------------------------------ what S knows
 
     def known_from(self) -> tuple[list[int], list[int]]:
-        """The moments from which on S has each vertex and each edge.
-
-        Of a mapper that never says how its map grows: those at which the robot first came there.
-        """
+        """The moments from which on S has (or the robot knows) each vertex and each edge."""
         end = len(self.moments)
         vertices, edges = [end] * len(self.world.vertices), [end] * len(self.world.edges)
         vertices[self.world.vertex_of[self.world.root] if self.world.root is not None else 0] = 0
@@ -152,7 +148,6 @@ class Tracks:
         return None if dart is None else self.edge_of[dart]
 
     def _image(self, dart: int, when: int) -> WorldDart | None:
-        """The dart of the world that a declared dart of S is, if S has it then."""
         drawn = self.playback.map
         known = KnownDart(dart)
         return drawn.phi[known] if drawn.born.get(known, when) < when else None
@@ -192,7 +187,7 @@ class Tracks:
         return x, y
 
     def clashes(self) -> dict[Point, list[Span]]:
-        """Where rings are: at a rejection, where the evidence was seen and where it is expected."""
+        """The rings at a rejection: where the evidence was seen and where it is expected."""
         rings: dict[Point, list[Span]] = {}
         for moment in self.moments:
             mismatch = moment.mismatch
@@ -228,7 +223,7 @@ class Tracks:
         return math.degrees(math.atan2(to_y - y, to_x - x))
 
     def ghosts(self) -> Iterator[Ghost]:
-        """Where the robot would be on S, while it tests a hypothesis by motion, to its decision."""
+        """Where the robot would be on S, while it tests a hypothesis by motion."""
         walk, tested = SupposedWalk(self.playback), tested_guesses(self.moments)
         steps = list[Leg]()
         for moment in self.moments:
@@ -238,7 +233,6 @@ class Tracks:
                 goal, decides = event.hypothesis, True
             at = walk.place(moment, goal)
             if at is not None:
-                # It was entered by this dart, so the other end was left.
                 way = reverse(self.way(self.playback.map.phi[at]))
                 if not steps:
                     steps.append(Leg(number, ((way[-1][-1] if decides else way[0][0],),)))
@@ -250,12 +244,12 @@ class Tracks:
 
 
 def reverse(way: Way) -> Way:
-    """The same track, walked from its end to its start."""
+    """The same track backwards."""
     return tuple(part[::-1] for part in way[::-1])
 
 
 def corners(points: Sequence[Point]) -> Iterator[Point]:
-    """The points, but for those that lie on the straight line between their neighbours."""
+    """The points without those on the straight line between their neighbours."""
     kept: list[Point] = []
     for point in points:
         while len(kept) > 1 and _is_between(kept[-2], kept[-1], point):
