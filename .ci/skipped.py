@@ -1,4 +1,4 @@
-"""Print which tests were skipped and why, from the JUnit files of the runs that are named.
+"""Print which tests were skipped and why, from the JUnit files of these runs.
 
 A test that one run skips and another passes is not listed.
 """

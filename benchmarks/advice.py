@@ -2,8 +2,8 @@
 
     .venv/bin/python benchmarks/advice.py
 
-100 random worlds each. In the second half the robot has strolled at random before it asks; its cost
-is all that it walks after that.
+100 random worlds each. In the second half the robot first strolls at random, which costs nothing
+here.
 """
 
 from __future__ import annotations
@@ -20,11 +20,10 @@ from topo_verify.studies.map_check import moves
 from topo_verify.world.resolve import resolve_world
 
 STROLL = 50
-"""Random moves before the robot asks."""
 
 
 def followed(world: tv.World, stroll: int, random: Random) -> tuple[int, int]:
-    """The moves after the stroll until the map is proved, and how often the robot asked."""
+    """The moves after the stroll until the map is proved, and the number of questions."""
     at = world.root or 0
     log: list[Event] = [Start(percept=first_percept(world))]
 

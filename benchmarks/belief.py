@@ -1,18 +1,15 @@
-"""How far belief could carry: `planner` with an oracle that confirms what it believes already.
+"""How far belief could carry: `planner` with an oracle that confirms what it already believes.
 
-While an edge e is unsettled, each hypothesis for it has odds: the rate of its kind, times what its
-coincidences say against chance (algorithms/homing.py, planner.py). What they leave is the belief
-that the place behind e is new. The oracle of column `p` says so, if it is true and believed with p
-or more; e is settled then for nothing. It never speaks where the belief is wrong, and nothing that
-it says must be proved later. So this is about the most that acting on such beliefs could save.
+Each hypothesis for an unsettled edge e has odds (algorithms/homing.py, planner.py); the rest is the
+belief that the place behind e is new. The oracle of column `p` settles e if that is true and
+believed with p or more. It never speaks where the belief is wrong, so this is about the most that
+acting on such beliefs could save.
 
     .venv/bin/python benchmarks/belief.py --families 'lattice(10' 'king(10,10,holes'
     .venv/bin/python benchmarks/belief.py --calibration --families 'lattice(10'
 
-`--calibration` prints, instead, how often a place was new that was believed to be so.
-
-    letter       what it is
-    e, h         as in algorithms/history.py
+`--calibration` prints how often a place believed to be new was new. e, h: as in
+algorithms/history.py.
 """
 
 from __future__ import annotations
@@ -39,10 +36,10 @@ from topo_verify.algorithms.steering import explore as steer
 from topo_verify.robot.events import MapDart, Robot
 
 SHARES = (2.0, 0.99, 0.95, 0.9, 0.8, 0.5, 0.0)
-"""The beliefs from which on the oracle speaks; never from 2, always from 0."""
+"""The beliefs from which on the oracle speaks; 2 is never, 0 is always."""
 
 LEAST_NEW = 0.02
-"""No place is believed to be new with less, before anything is seen behind e."""
+"""The least belief that a place is new."""
 
 
 class Believer:
@@ -62,7 +59,7 @@ class Believer:
         return ToldHistory(robot, world=self.world, oracle="-")
 
     def door(self, history: History, e: MapDart) -> NodeDart:
-        """The door of `planner`; or, where the oracle settles e, towards the next edge."""
+        """The door of `planner`, or towards the next edge where the oracle settles e."""
         assert isinstance(history, ToldHistory), "made by _history"
         chosen = self.habits.door(history, e)
         belief, is_new = self.belief(history, e), history.leads_to_new(e)
@@ -77,7 +74,7 @@ class Believer:
         return next(iter([*history.way(goal), goal]))
 
     def belief(self, history: History, e: MapDart) -> float:
-        """How likely the place behind e is new, by what `planner` goes by."""
+        """How likely the place behind e is new, by the odds of `planner`."""
         usual, asked = degree_shares(history), self.habits.asked[e]
         known = sum(
             self.habits.rate(asked.get(h, (FAR, FAR)))
@@ -89,10 +86,10 @@ class Believer:
 
 
 def believing(job: Job) -> Run:
-    """What a believer pays; `job.mapper` is the share from which on the oracle speaks.
+    """The cost of a believer; `job.mapper` is the share from which on the oracle speaks.
 
     Raises:
-        SystemExit: the map that was delivered is not that of the world.
+        SystemExit: the delivered map is wrong.
     """
     world = drawn(job.family, job.seed)
     began = time.process_time()
@@ -103,7 +100,7 @@ def believing(job: Job) -> Run:
 
 
 def calibration(families: list[str], seeds: int) -> None:
-    """Print how often what was believed to be new was new, by tenths of the belief."""
+    """Print by tenths of the belief how often a place was new."""
     print(head(["family", *(f"{ten * 10}-{ten * 10 + 9} %" for ten in range(10))]))
     for family in families:
         seen: Counter[tuple[int, bool]] = Counter()
@@ -123,7 +120,7 @@ def calibration(families: list[str], seeds: int) -> None:
 
 
 def main() -> None:
-    """Print the table, as Markdown."""
+    """Print the table."""
     ask = argparse.ArgumentParser(description="planner with an oracle for what it believes")
     ask.add_argument("--families", nargs="+", default=[""], help="those whose text begins so")
     ask.add_argument("--seeds", type=int, default=10, help="0 … N-1")

@@ -1,13 +1,9 @@
 """Mutation test of the bridge: every small change of the algorithms must change a trace.
 
-The mapper that Coq proves is extracted to OCaml, and the tests compare its traces with those of
-`topo_verify/algorithms/`. Here each mutant of the files in `MUTATED` (mutations.py) maps the same
-worlds, with the policies of the catalogue and with others, until its trace is another one than the
-program in OCaml wrote; if it never is, it has **survived**. Those that change nothing that a
-trace shows are listed in `SAME`, each with the reason.
-
-Each mutant runs in a fork, and its source stands in for the module at a new import of the
-algorithms. A fork that takes over 20 s of the processor comes to no end, and is seen.
+Each mutant of the files in `MUTATED` (mutations.py) maps the same worlds until its trace differs
+from that of the mapper that Coq proves, extracted to OCaml. If none differs, it has **survived**.
+`SAME` lists the mutants that no trace shows, with reasons. Each mutant runs in a fork; one that
+takes over 20 s of the processor counts as seen.
 
     .venv/bin/python benchmarks/bridge.py                     every mutant
     .venv/bin/python benchmarks/bridge.py --only motion.py    those of one file
@@ -45,7 +41,6 @@ from topo_verify.world.resolve import resolve_world  # noqa: E402
 
 FOLDER = ROOT / "topo_verify" / "algorithms"
 MUTATED = ("enhancement_i", "enhancement_ii", "enhancement_iii", "exploration", "motion")
-"""What the loop, the motions and the rules of the paper are made of."""
 
 SECONDS = 20
 MEMORY = 4 << 30
@@ -77,11 +72,11 @@ SAME: dict[str, str] = {
     "motion.py Pilot.__init__: 0 -> 1 (2)": "it is set when the robot crosses e, before it is read",
     "motion.py Pilot.forward: return percept -> return None": "its callers do not use it",
 }
-"""Mutants that change nothing that a trace shows, by their text; and why."""
+"""Mutants that change no trace, by their text, with the reason."""
 
 
 def jobs() -> Iterator[bridge.Job]:
-    """The runs; those first that see most mutants soonest."""
+    """The runs; those that expose most mutants come first."""
     drawn = [resolve_world(world) for world in (*bridge.FAMILIES, *bridge.TELLING_GENUS)]
     some = [*drawn, *worlds(range(4))]
     for name in bridge.PROVED:
@@ -101,7 +96,7 @@ class Planted(MetaPathFinder, SourceLoader):  # type: ignore[misc]  # typeshed's
         self.path, self.source = str(FOLDER / mutant.file), mutant.source
 
     def find_spec(self, fullname: str, *_: object) -> ModuleSpec | None:
-        """Where it is, if it is the one."""
+        """The spec, if it is this module."""
         if fullname != self.name:
             return None
         return spec_from_file_location(fullname, self.path, loader=self)
@@ -116,7 +111,7 @@ class Planted(MetaPathFinder, SourceLoader):  # type: ignore[misc]  # typeshed's
 
 
 def differs(mutant: Mutant, runs: Sequence[tuple[bridge.Job, str]], pipe: Connection) -> None:
-    """In a fork: send the run in which the mutant leaves another trace, "" if there is none."""
+    """In a fork: send the run in which the mutant leaves another trace, or ""."""
     setrlimit(RLIMIT_AS, (MEMORY, MEMORY))
     setrlimit(RLIMIT_CPU, (SECONDS, SECONDS))
     for name in [name for name in sys.modules if name.startswith("topo_verify.algorithms")]:
@@ -140,7 +135,7 @@ def differs(mutant: Mutant, runs: Sequence[tuple[bridge.Job, str]], pipe: Connec
 
 
 def seen(mutant: Mutant, runs: Sequence[tuple[bridge.Job, str]]) -> str:
-    """The run in which a mutant is seen, "" if there is none."""
+    """The run in which a mutant is seen, or ""."""
     fork = multiprocessing.get_context("fork")
     here, there = fork.Pipe(duplex=False)
     process = fork.Process(target=differs, args=(mutant, runs, there), daemon=True)
@@ -155,7 +150,7 @@ def seen(mutant: Mutant, runs: Sequence[tuple[bridge.Job, str]]) -> str:
 
 
 def report(wanted: Sequence[Mutant], runs: Sequence[tuple[bridge.Job, str]]) -> int:
-    """Print who survives; the exit code."""
+    """Print the survivors; the exit code."""
     holes, wrong, same = 0, 0, 0
     for mutant in wanted:
         where, reason = seen(mutant, runs), SAME.get(str(mutant))
@@ -172,7 +167,7 @@ def report(wanted: Sequence[Mutant], runs: Sequence[tuple[bridge.Job, str]]) -> 
 
 
 def main() -> int:
-    """Run it."""
+    """Run the test."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--only", default="", help="mutants whose file or text has this in it")
     parser.add_argument("--library", type=Path, help="a folder with the library in Coq, compiled")

@@ -1,17 +1,13 @@
-"""How fast the compiled engine is: every figure that is promised of it, beside the promise.
+"""The speed of the compiled engine beside what is promised.
 
     .venv/bin/python benchmarks/compiled.py                      # all rows, some minutes
     .venv/bin/python benchmarks/compiled.py --only enumeration basic
     .venv/bin/python benchmarks/compiled.py --only nine ten --whole   # all 31,579,824 worlds
 
-Seconds are processor time, but in the rows for two cores, where they stand beside the clock. All is
-compiled before anything is timed. `nine` and `ten` examine slices spread evenly over the worlds
-with 8 edges, one world in sixteen, and count the rest in proportion, unless `--whole` is given.
-
-The ratio to C is of `compiled_twin.c` (cc -O2 -march=native), which runs before and after the
-kernel in the same row; costs and numbers of worlds must be the same, or the row fails.
-
-What bounds the speed of an enumeration stands in topo_verify/compiled/enumeration.py.
+Seconds are processor time; rows for two cores also show the clock. Kernels are compiled before.
+`nine` and `ten` examine one of sixteen slices of the worlds with 8 edges and extrapolate, without
+`--whole`. The ratio to C compares with `compiled_twin.c` (cc -O2 -march=native), which runs before
+and after the kernel; equal costs and counts are required.
 """
 
 from __future__ import annotations
@@ -48,11 +44,11 @@ PAPER = [name for name in CATALOGUE if "folding" not in name]
 
 SLICE = 20_000
 PART = 16
-"""Of the slices of 8 edges, every sixteenth is examined unless all are asked for."""
+"""Every sixteenth slice of 8 edges is examined by default."""
 
 
 def seconds(work: Callable[[], object]) -> float:
-    """How long some work keeps the processor busy."""
+    """The processor seconds of some work."""
     start = process_time()
     work()
     return process_time() - start
@@ -67,7 +63,7 @@ def space() -> np.ndarray[tuple[int], np.dtype[np.int64]]:
 
 
 def listed(kind: str, edges: int) -> tuple[int, float]:
-    """How many worlds of a class there are, and how long the kernel takes to list them."""
+    """The number of worlds of a class, and the kernel's seconds to list them."""
     count, worlds = compiled(count_worlds, SMALL), WorldClass.parse(kind)
     count(space(), prepare(2, worlds))
     state = prepare(edges, worlds)
@@ -113,7 +109,7 @@ def built(folder: Path) -> Path | None:
 
 
 def in_c(program: Path, edges: int, mode: int, stop: int) -> tuple[int, int, float]:
-    """The total and the highest cost that the C twin finds, and its processor seconds."""
+    """Total and highest cost by the C twin, and its processor seconds."""
     command = [str(program), str(edges), str(mode), "0", str(stop)]
     text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     _, total, most, took = text.split()
@@ -170,7 +166,6 @@ def speedup(row: Row, _: bool) -> None:
 
 
 def _examined(claims: int, shard: tuple[int, int, int]) -> tuple[int, int, float, int]:
-    """Worlds, failing runs, processor seconds and memory (MB) of one shard in a worker."""
     edges, start, stop = shard
     begin = process_time()
     counts = examine_range(PAPER, edges, "any", start, stop, claims=claims)
@@ -180,7 +175,6 @@ def _examined(claims: int, shard: tuple[int, int, int]) -> tuple[int, int, float
 
 
 def _shards(whole: bool) -> Iterator[tuple[int, int, int]]:
-    """Slices of the worlds to 8 edges; of those with 8, every sixteenth unless all are asked."""
     for edges in range(1, 9):
         total = rank_order.count(edges)
         step = SLICE if whole or edges < 8 else SLICE * PART
@@ -189,7 +183,7 @@ def _shards(whole: bool) -> Iterator[tuple[int, int, int]]:
 
 
 def everything(row: Row, claims: int, required: str, whole: bool) -> None:
-    """All claims up to one, the paper's algorithms, every world to 8 edges, two processes."""
+    """Claims 1 to `claims`, the paper's algorithms, every world to 8 edges, two processes."""
     examine_range(PAPER, 1, claims=claims)
     shards = list(_shards(whole))
     expected = sum(rank_order.count(edges) for edges in range(1, 9))
@@ -231,7 +225,7 @@ def lattice(row: Row, _: bool) -> None:
 
 
 def start(row: Row, _: bool) -> None:
-    """A new process, up to its first result, the cache warm."""
+    """A new process up to its first result, with a warm cache."""
     code = "from topo_verify.compiled.shard import examine_range as e; e(['basic'], 4)"
     took: list[float] = []
     for _again in range(3):
@@ -242,7 +236,6 @@ def start(row: Row, _: bool) -> None:
 
 
 ROWS = {work.__name__: work for work in (enumeration, basic, speedup, nine, ten, lattice, start)}
-"""Every row by its name."""
 
 
 def table(row: Row, only: list[str] | None = None, *, whole: bool = False) -> None:
@@ -252,7 +245,7 @@ def table(row: Row, only: list[str] | None = None, *, whole: bool = False) -> No
 
 
 def main() -> None:
-    """Print them with no other benchmark."""
+    """Print these rows only."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--only", nargs="+", choices=list(ROWS), help="these rows alone")
     parser.add_argument("--whole", action="store_true", help="examine every world to 8 edges")

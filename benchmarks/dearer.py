@@ -3,9 +3,8 @@
     python benchmarks/dearer.py 6                 # every pair of the catalogue, by the reference
     python benchmarks/dearer.py 8 --compiled      # the enhancements against what they enhance
 
-Only costs are compared, so nothing is said of claims here; `topo-verify search --compare A,B` says
-the same of one pair and judges every run. `--compiled` needs the extra `fast`; its kernels ask
-claims 1 to 8 on the way, and the script stops if one fails.
+Only costs are compared; `topo-verify search --compare A,B` does it for one pair and judges every
+run. `--compiled` needs the extra `fast`; it stops if one of claims 1 to 8 fails.
 """
 
 from __future__ import annotations
@@ -23,17 +22,17 @@ NAMES = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is N
 """From the weakest to the strongest."""
 
 SHARD = 500_000
-"""So many worlds are compared in one task."""
+"""Worlds compared in one task."""
 
 Pair = tuple[str, str]
-"""The stronger algorithm, which may be dearer, and the weaker one."""
+"""The stronger algorithm, and the weaker one."""
 
 Row = tuple[int, int, str]
-"""In how many worlds it is dearer, by how much at most, and the first of them."""
+"""In how many worlds the first costs more, by how much at most, and the first such world."""
 
 
 def costs(world: World) -> dict[str, int]:
-    """What each algorithm costs in a world, in edge traversals."""
+    """The cost of each algorithm in a world, in edge traversals."""
     found: dict[str, int] = {}
     for name in NAMES:
         robot = SimulatedRobot(world, world.cost_bound)
@@ -43,7 +42,7 @@ def costs(world: World) -> dict[str, int]:
 
 
 def by_reference(largest: int) -> Iterator[tuple[Pair, Row]]:
-    """Every pair in which the stronger is dearer in some world up to this size."""
+    """Every pair in which the stronger costs more in some world up to this size."""
     rows: dict[Pair, Row] = {}
     for edges in range(1, largest + 1):
         for rank, table in enumerate(rank_order.tables(edges)):
@@ -56,14 +55,14 @@ def by_reference(largest: int) -> Iterator[tuple[Pair, Row]]:
 
 
 def enhanced() -> Iterator[Pair]:
-    """Each algorithm with `basic`, and each that walks on with the same one that goes back."""
+    """Each algorithm with `basic`, and each that walks on with the one that goes back."""
     names = [name for name in NAMES if name not in ("basic", "folding")]
     yield from ((name, "basic") for name in names)
     yield from ((name, name.removesuffix("+i")) for name in names if name.endswith("+i"))
 
 
 def compared(task: tuple[Pair, int, int]) -> tuple[int, int, int]:
-    """A pair in one range of ranks: in how many worlds dearer, by how much, and the first rank."""
+    """A pair in one range of ranks: worlds that cost more, the largest excess, the first rank."""
     from topo_verify.compiled.shard import examine_range
 
     pair, edges, start = task
@@ -75,7 +74,7 @@ def compared(task: tuple[Pair, int, int]) -> tuple[int, int, int]:
 
 
 def by_engine(largest: int) -> Iterator[tuple[Pair, Row]]:
-    """The pairs of `enhanced` in which the stronger is dearer in some world up to this size."""
+    """The pairs of `enhanced` in which the stronger costs more in some world up to this size."""
     sizes = range(1, largest + 1)
     shards = [(m, start) for m in sizes for start in range(0, rank_order.count(m), SHARD)]
     compared((("basic", "enhancement-i"), 1, 0))  # compiles the kernels once, for all processes
@@ -89,7 +88,7 @@ def by_engine(largest: int) -> Iterator[tuple[Pair, Row]]:
 
 
 def main() -> None:
-    """Print a row for each pair in which the stronger is dearer somewhere."""
+    """Print a row for each such pair."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("edges", type=int, nargs="?", default=5)
     parser.add_argument("--compiled", action="store_true", help="by the compiled engine")

@@ -1,8 +1,7 @@
-"""How heavy each core dependency is: `python benchmarks/dependencies.py` prints it.
+"""How heavy each core dependency is: `python benchmarks/dependencies.py` prints the table.
 
-Prints the table of docs/reference/dependencies.md, in Markdown: what each is for, the size of its
-installed files, the same with all that it needs itself, and the time of a first import in a fresh
-Python (processor time, the median of five). Compiled files of Python (.pyc) are not counted.
+The table of docs/reference/dependencies.md: purpose, size of the installed files without .pyc, the
+same with all that it needs, and the processor time of a first import, the median of five.
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ PURPOSES = {
 """What each core dependency is for; a test compares the names with pyproject.toml."""
 
 MODULES = {"z3-solver": "z3", "scipy": "scipy.sparse.linalg"}
-"""What is imported, where it is not the distribution's name."""
+"""The imported name where it is not the distribution's."""
 
 CLOCK = """
 import time
@@ -45,7 +44,7 @@ print(time.process_time() - begin)
 
 
 def core() -> list[str]:
-    """The names of the core dependencies, as pyproject.toml has them."""
+    """The core dependencies of pyproject.toml."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     return [Requirement(text).name for text in project["dependencies"]]
 
@@ -58,7 +57,7 @@ def size(name: str) -> int:
 
 
 def needs(name: str) -> set[str]:
-    """A distribution and all that it needs here, by their normal names."""
+    """A distribution and all that it needs, by their normal names."""
     found, todo = set[str](), [name]
     while todo:
         one = re.sub(r"[-_.]+", "-", todo.pop()).lower()
@@ -76,7 +75,7 @@ def _required(name: str) -> Iterator[str]:
 
 
 def import_time(name: str) -> float:
-    """The processor's seconds for the first import in a fresh Python: the median of five."""
+    """Processor seconds of the first import in a fresh Python: the median of five."""
     code = CLOCK.format(module=MODULES.get(name, name))
     line = [sys.executable, "-c", code]
     times = [

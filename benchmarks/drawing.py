@@ -1,8 +1,7 @@
 """How fast the strategies draw worlds of 30 edges, beside graphs from hypothesis-networkx.
 
-Both draw in the same process, one after the other, so the ratio holds on other machines too.
-hypothesis-networkx draws connected graphs of 25 vertices and 30 edges, with no embedding: it is the
-closest that there is. Only the draws are timed (Hypothesis's own work included), not the shrinking.
+Both draw in one process, so the ratio holds elsewhere. hypothesis-networkx draws connected graphs
+of 25 vertices and 30 edges, without embedding. Shrinking is not timed.
 """
 
 from __future__ import annotations

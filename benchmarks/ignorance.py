@@ -1,7 +1,7 @@
-"""The price of ignorance: what a mapper would pay if a truthful oracle told it a part of the truth.
+"""The price of ignorance: the cost of a mapper that a truthful oracle tells a part of the truth.
 
-An oracle answers when an edge e is crossed. `homing` and `planner` take its answers for proved, and
-prove the rest as ever. The columns are what it tells:
+The oracle answers when an edge e is crossed. `homing` and `planner` take its answers for proved,
+and prove the rest. The columns are what it tells:
 
     -          nothing
     new        that the place behind e is new, if it is: e is settled for nothing
@@ -9,9 +9,8 @@ prove the rest as ever. The columns are what it tells:
     new, 1     both
     new, k     `new`; and if the place is known, the true hypothesis and k-1 others are left
 
-No hypothesis is confirmed for nothing: the fold must prove it. Each cell is the mean cost over the
-mean least cost of a proof, with the standard error of this ratio. Every run delivers the right map,
-or the script stops. An oracle knows the world, so there is none in the package. Run it:
+A cell is the mean cost over the mean least cost of a proof, with the standard error of this ratio.
+Every run delivers the right map, or the script stops.
 
     .venv/bin/python benchmarks/ignorance.py --families 'lattice(10' 'king(10,10,holes'
     .venv/bin/python benchmarks/ignorance.py --mappers homing --seeds 4 --runs runs.csv
@@ -53,13 +52,13 @@ ORACLES: dict[str, tuple[bool, int | None]] = {
     "new, 2": (True, 2),
     "new, 8": (True, 8),
 }
-"""What each tells: that a place is new; how many hypotheses are left, if one is true."""
+"""Whether it tells that a place is new; how many hypotheses it leaves, if one is true."""
 
 TOLD = Refutation("folding", Evidence(0, contradiction="the oracle says so"))
 
 
 class ToldHistory(History):
-    """A History that is told the truth about each crossed edge, as far as the oracle tells it."""
+    """A History that the oracle tells the truth about each crossed edge."""
 
     def __init__(self, robot: Robot, *, world: World, oracle: str) -> None:
         super().__init__(robot)
@@ -73,30 +72,28 @@ class ToldHistory(History):
         self._add_vertex(world.root)
 
     def _add_vertex(self, entry: int) -> None:
-        """Take note which darts of the world those of the newest vertex of S are."""
         while entry not in self.map_dart_of:
             self.map_dart_of[entry] = len(self.phi)
             self.phi.append(entry)
             entry = self.world.sigma[entry]
 
     def leads_to_new(self, e: MapDart) -> bool:
-        """Whether e leads to a vertex that S does not have yet."""
+        """Whether e leads to a vertex that S lacks."""
         return self.world.alpha[self.phi[e]] not in self.map_dart_of
 
     def tell_new(self, e: MapDart) -> None:
-        """Settle a crossed e that leads to a new vertex, for nothing."""
+        """Settle a crossed e that leads to a new vertex."""
         self.told_new.add(e)
         self._settle()
 
     def suppose(self, e: MapDart, h: MapDart) -> Places | None:
-        """The places if a crossed e ends in h, or None if no world or not the oracle allows it."""
+        """The places if a crossed e ends in h; None if no world or the oracle forbids it."""
         if h in self._allowed(e):
             return super().suppose(e, h)
         self.crossed[e].refuted[h] = TOLD
         return None
 
     def _allowed(self, e: MapDart) -> Collection[MapDart]:
-        """The hypotheses for e that the oracle leaves."""
         true = self.map_dart_of.get(self.world.alpha[self.phi[e]])
         if true is None:
             return () if self.tells_new or e in self.told_new else self.chart.unexplored
@@ -116,10 +113,10 @@ class ToldHistory(History):
 
 
 def told(job: Job) -> Run:
-    """What a mapper pays that is told a part of the truth; `job.mapper` is `homing: new, 2`.
+    """The cost of a mapper with an oracle; `job.mapper` is `homing: new, 2`.
 
     Raises:
-        SystemExit: the map that was delivered is not that of the world.
+        SystemExit: the delivered map is wrong.
     """
     name, _, oracle = job.mapper.partition(": ")
     world = drawn(job.family, job.seed)
@@ -135,7 +132,7 @@ def told(job: Job) -> Run:
 
 
 def main() -> None:
-    """Print the table, as Markdown."""
+    """Print the table."""
     ask = argparse.ArgumentParser(description="mean cost / least cost with truthful oracles")
     ask.add_argument("--mappers", default="homing,planner", help="names, with commas")
     ask.add_argument("--families", nargs="+", default=[""], help="those whose text begins so")

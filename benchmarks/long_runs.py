@@ -4,8 +4,7 @@
     .venv/bin/python benchmarks/long_runs.py 32 50 71 # also 4,900 and 9,940 edges: an hour or so
     .venv/bin/python benchmarks/long_runs.py --growth # exponents of time and memory, some minutes
 
-Seconds are those of the processor. Each command runs in a process of its own, and memory is the
-most that this process took; Python and the modules take some 30 MB of it.
+Processor seconds and peak memory of separate processes; Python and the modules take some 30 MB.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ MOVES = 1_000_000
 
 
 class Used(NamedTuple):
-    """What a command took: seconds of the processor, and megabytes at most."""
+    """Processor seconds and peak megabytes of a command."""
 
     seconds: float
     megabytes: int
@@ -43,17 +42,16 @@ process = subprocess.Popen(sys.argv[1:], stdout=subprocess.DEVNULL)
 _, status, usage = os.wait4(process.pid, 0)
 print(os.waitstatus_to_exitcode(status), usage.ru_utime + usage.ru_stime, usage.ru_maxrss)
 """
-"""Between this process and the command: the memory of whoever starts a process counts as its own,
-so it must be small."""
+"""A small process between this one and the command: a parent's memory counts as the child's own."""
 
 
 def used(*words: str) -> Used:
-    """What a command of topo-verify takes, in a process of its own; it must not say REFUTED."""
+    """The use of a topo-verify command, which must not say REFUTED."""
     return measured("-m", "topo_verify", *words, "--quiet")
 
 
 def measured(*words: str) -> Used:
-    """What Python takes with these arguments, in a process of its own."""
+    """The use of a Python process with these arguments."""
     command = [sys.executable, "-c", MEASURE, sys.executable, *words]
     told = subprocess.run(command, capture_output=True, check=True, text=True).stdout  # noqa: S603  our own command
     code, seconds, kilobytes = told.split()
@@ -77,7 +75,7 @@ PATROLS: dict[str, Callable[[int], Door]] = {
 
 
 def algorithm_alone(name: str, world: World) -> float:
-    """Seconds of an algorithm and its simulated robot, with no trace judged."""
+    """Seconds of an algorithm and its simulated robot, with nothing judged."""
     robot = SimulatedRobot(world, world.cost_bound)
     begin = process_time()
     CATALOGUE[name](robot.handle)
@@ -112,11 +110,10 @@ from topo_verify import explore, families
 side = int(sys.argv[1])
 explore(families.lattice(side, side + 1), sys.argv[2], engine=sys.argv[3])
 """
-"""One run with its trace, which is not judged."""
 
 
 def growth(row: Row, small: int = 15, large: int = 50) -> None:
-    """Print what runs in two lattices take beyond a run in a tiny one, and the exponents."""
+    """Print what runs in two lattices take beyond a tiny one, and the exponents."""
     worlds = [families.lattice(side, side + 1) for side in (small, large)]
     edges = [len(world.edges) for world in worlds]
     for engine in ("reference", "compiled"):

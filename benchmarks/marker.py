@@ -1,14 +1,14 @@
 """Where to put the marker: how much a good place saves, and whether a rule of thumb predicts it.
 
-In each world the marker lies at every place and points in every direction, and every run is judged.
-Costs are shares of the mean over all darts of the same world; a row is the mean over the worlds of
-a family, ± its standard error. A rule of thumb is judged by the mean over the darts that fit it:
+In each world the marker lies at every dart, and every run is judged. Costs are shares of the mean
+over all darts of the world; a row is the mean over a family, ± its standard error. A rule is judged
+by the mean over the darts that fit it:
 
 - `centre`: darts at vertices of least eccentricity, the greatest distance to any other vertex;
 - `high degree`: darts at vertices of the greatest degree;
 - `dead end`: darts at vertices of degree 1, which point out of the dead end.
 
-`r` is the correlation (Spearman) of cost with eccentricity and with degree, over darts. Run it:
+`r` is the correlation (Spearman) of cost with eccentricity and with degree. Run it:
 `.venv/bin/python benchmarks/marker.py`, a few minutes in two processes.
 """
 
@@ -49,7 +49,7 @@ def eccentricities(world: World) -> list[int]:
 
 
 def costs(world: World, algorithm: str) -> list[int]:
-    """The cost of the marker at each dart; darts from which the world looks the same run once."""
+    """The cost with the marker at each dart; equal places run once."""
     known: dict[object, int] = {}
     for dart in range(len(world.alpha)):
         there = world.with_marker(dart)
@@ -62,7 +62,7 @@ def costs(world: World, algorithm: str) -> list[int]:
 
 
 def measured(family: str, algorithm: str, seed: int) -> dict[str, float | None]:
-    """One world: shares of the mean cost, and correlations; None where no dart fits a rule."""
+    """Shares of the mean cost, and correlations, in one world; None where no dart fits a rule."""
     world = resolve_world(f"family:{family.format(seed)}")
     found = costs(world, algorithm)
     average, far = mean(found), eccentricities(world)
@@ -88,7 +88,7 @@ def measured(family: str, algorithm: str, seed: int) -> dict[str, float | None]:
 
 
 def cell(values: Sequence[float | None], *, share: bool) -> str:
-    """The mean ± its standard error, over the worlds that have one."""
+    """The mean ± its standard error over the worlds that have a value."""
     known = [value for value in values if value is not None]
     if len(known) < 2:
         return "-"
@@ -116,7 +116,7 @@ def rows() -> Iterator[tuple[str, ...]]:
 
 
 def main() -> None:
-    """Print the table, as Markdown."""
+    """Print the table."""
     print("| family | algorithm | best | worst | centre | high degree | dead end |", end="")
     print(" r eccentricity | r degree |")
     print("| --- | --- |" + " ---: |" * 7)

@@ -1,23 +1,20 @@
 """Mutation test of the trusted core: every small change of the checkers must turn a test red.
 
-A **mutant** is a file with one small change (mutations.py). The tests of the checkers are run on it
-until one fails; if none does, it has **survived**: the tests have a hole, unless the change is no
-change. Those that are none are listed in `SAME`, each with the reason, and the list is tested, too:
-who is in it and is killed after all is an error.
+A **mutant** is a file with one small change (mutations.py). The tests of the checkers run on it
+until one fails; if none does, it has **survived**. `SAME` lists equivalent mutants with reasons,
+and is tested, too: a mutant of it that is killed is an error.
 
-Each mutant has a process of its own, forked when everything that takes long is imported, and its
-source stands in for the file at the import. The tests that are fast or have killed before run
-first. A test that takes over twenty times its time (and five seconds) of the processor comes to no
-end, and has killed.
+Each mutant has a process, forked after all slow imports; its source replaces the file at import.
+Tests that are fast or have killed before run first. A test that takes over twenty times its time
+(and five seconds) of the processor has killed.
 
-Why no library, tried on these files: mutmut 3.8 leaves every decorated function alone, so
-every property; cosmic-ray 8.7 starts pytest anew for each mutant, the tests in
-the order of the files, and a third of its mutants of entailment.py change the `|` of an annotation.
-Neither has a list of equivalent mutants with reasons, which fails when one of them is killed.
+Why no library? mutmut 3.8 leaves decorated functions alone, so every property; cosmic-ray 8.7
+starts pytest anew for each mutant and changes annotations. Neither tests its list of equivalent
+mutants.
 
     .venv/bin/python benchmarks/mutants.py                       every mutant of the checkers
     .venv/bin/python benchmarks/mutants.py --only entailment.py  those of one file
-    .venv/bin/python benchmarks/mutants.py --list                only say which there are
+    .venv/bin/python benchmarks/mutants.py --list                only list them
 
 Exit code 1 if a mutant survives that is not in `SAME`, or one that is there was killed.
 """
@@ -68,7 +65,7 @@ SECONDS = 30
 """Of the processor, until the first test begins."""
 
 MEMORY = 4 << 30
-"""Bytes: a mutant that asks for more gets a MemoryError, and a test fails."""
+"""Bytes; a mutant that asks for more gets a MemoryError, and a test fails."""
 
 ENDLESS = "nobody, it comes to no end"
 
@@ -120,7 +117,7 @@ SAME = {
     "map_on_fold.py MapOnFold._add_vertex: door + 1 -> door - 1": BACKWARDS,
     "replayed_trace.py ReplayedTrace._walk: self.world.root or 0 -> self.world.root": NO_DART,
 }
-"""Mutants that change nothing that anybody can see, by their text; and why."""
+"""Equivalent mutants by their text, with the reason."""
 
 
 # ---------------------------------------------------------------- who survives
@@ -135,7 +132,7 @@ class Planted(MetaPathFinder, SourceLoader):  # type: ignore[misc]  # typeshed's
         self.source = mutant.source
 
     def find_spec(self, fullname: str, *_: object) -> ModuleSpec | None:
-        """Where it is, if it is the one."""
+        """The spec, if it is this module."""
         if fullname != self.name:
             return None
         return spec_from_file_location(fullname, self.path, loader=self)
@@ -151,25 +148,25 @@ class Planted(MetaPathFinder, SourceLoader):  # type: ignore[misc]  # typeshed's
 
 @dataclass(slots=True)
 class Tests:
-    """What is known of the tests: seconds (of the processor) and mutants killed, of each.
+    """Processor seconds, and mutants killed, of each test.
 
-    They run in the order of seconds a kill: who is fast, or has killed before, comes first.
+    Tests run in the order of seconds a kill.
     """
 
     seconds: dict[str, float] = field(default_factory=dict[str, float])
     kills: Counter[str] = field(default_factory=Counter[str])
 
     def cost(self, test: str) -> float:
-        """What a kill by this test may be expected to take."""
+        """The expected time of a kill by this test."""
         return max(self.seconds.get(test, 0.0), 0.001) / (self.kills[test] + 0.1)
 
     def limit(self, test: str) -> float:
-        """Seconds after which it is said to come to no end; as long as it likes the first time."""
+        """Seconds after which it counts as endless; no limit the first time."""
         return 5 + 20 * self.seconds[test] if test in self.seconds else 0.0
 
 
 class Watch:
-    """Plugin of pytest: orders the tests, stops the endless ones, notes what they do."""
+    """Pytest plugin: orders the tests, stops endless ones, records results."""
 
     def __init__(self, tests: Tests) -> None:
         self.tests, self.failed = tests, ""
@@ -177,12 +174,12 @@ class Watch:
 
     @pytest.hookimpl(trylast=True)
     def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
-        """Those first that may kill soonest."""
+        """Put the tests first that may kill soonest."""
         items.sort(key=lambda item: self.tests.cost(item.nodeid))
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_protocol(self, item: pytest.Item) -> Generator[None, object, object]:
-        """Wind the alarm, and note the time."""
+        """Set the alarm, and record the time."""
         setitimer(ITIMER_VIRTUAL, self.tests.limit(item.nodeid))
         begin = process_time()
         done = yield
@@ -190,7 +187,7 @@ class Watch:
         return done
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """Note the first that fails."""
+        """Record the first failure."""
         if report.failed:
             self.failed = self.failed or report.nodeid
 
@@ -200,7 +197,7 @@ Outcome = tuple[int, str, dict[str, float]]
 
 
 def run_tests(mutant: Mutant | None, tests: Tests, pipe: Connection) -> None:
-    """In a forked process: run the tests until one fails, and send what came out."""
+    """In a fork: run the tests until one fails, and send the outcome."""
     setrlimit(RLIMIT_AS, (MEMORY, MEMORY))
     setitimer(ITIMER_VIRTUAL, SECONDS)
     watch = Watch(tests)
@@ -221,14 +218,11 @@ def run_tests(mutant: Mutant | None, tests: Tests, pipe: Connection) -> None:
 
 
 Judged = tuple[Mutant | None, str, dict[str, float]]
-"""A mutant, who killed it ("": nobody), and the seconds of the tests."""
+"""A mutant, the test that killed it or "", and the seconds of the tests."""
 
 
 def outcomes(wanted: Sequence[Mutant | None], tests: Tests, workers: int) -> Iterator[Judged]:
-    """Run the tests on each mutant, a few at a time, each in a process of its own.
-
-    What takes long to import is imported before the processes fork; the project itself is not.
-    """
+    """Run the tests on each mutant, each in a fork made after all slow imports."""
     fork = multiprocessing.get_context("fork")
     waiting, running = list(reversed(wanted)), dict[Connection, tuple[Mutant | None, ForkProcess]]()
     while waiting or running:
@@ -246,7 +240,6 @@ def outcomes(wanted: Sequence[Mutant | None], tests: Tests, workers: int) -> Ite
 
 
 def _outcome(pipe: Connection, process: ForkProcess) -> tuple[str, dict[str, float]]:
-    """Who killed a mutant ("": nobody), and the seconds of the tests."""
     try:
         code, failed, seconds = pipe.recv()
     except EOFError:
@@ -265,7 +258,7 @@ def _outcome(pipe: Connection, process: ForkProcess) -> tuple[str, dict[str, flo
 
 
 def judged(wanted: Sequence[Mutant], workers: int) -> Iterator[tuple[Mutant, str]]:
-    """Each mutant, and who killed it. A run on the source as it is tells the times before."""
+    """Each mutant, and the test that killed it or ""; a run without a mutant gives the times."""
     tests = Tests()
     ((_, killer, tests.seconds),) = outcomes([None], tests, 1)
     if killer:
@@ -281,7 +274,7 @@ def judged(wanted: Sequence[Mutant], workers: int) -> Iterator[tuple[Mutant, str
 
 
 def report(verdicts: Iterable[tuple[Mutant, str]]) -> int:
-    """Print who survives; the exit code."""
+    """Print the survivors; the exit code."""
     killed = same = holes = endless = 0
     wrong: list[str] = []
     for mutant, killer in verdicts:
@@ -302,7 +295,7 @@ def report(verdicts: Iterable[tuple[Mutant, str]]) -> int:
 
 
 def main() -> int:
-    """Run it."""
+    """Run the test."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--only", default="", help="mutants whose file or text has this in it")
     parser.add_argument("--list", action="store_true", help="list them, and do no more")

@@ -20,11 +20,8 @@ class Mutant:
     """A file with one change.
 
     Attributes:
-        file: its name in the folder.
-        line: where.
-        text: function, what stood there, what stands there now, and (2) if it is the second such
-            change of the function.
-        source: the whole file, changed.
+        text: function, the old code, the new code, and (2) for the second such change there.
+        source: the whole changed file.
     """
 
     file: str
@@ -59,7 +56,7 @@ QUANTIFIERS = {"any": "all", "all": "any"}
 def changes(  # noqa: C901, PLR0912  one case a kind of node
     node: ast.AST,
 ) -> Iterator[ast.AST]:
-    """The nodes that may stand in the place of this one."""
+    """The nodes that may replace this one."""
     match node:
         case ast.Compare():
             for place, op in enumerate(node.ops):
@@ -105,7 +102,6 @@ def changes(  # noqa: C901, PLR0912  one case a kind of node
 
 
 def _has_its_opposite(test: ast.AST) -> bool:
-    """Is the opposite of this condition among its own changes?"""
     match test:
         case ast.Compare(
             _, [ast.Eq() | ast.NotEq() | ast.In() | ast.NotIn() | ast.Is() | ast.IsNot()]
@@ -133,11 +129,11 @@ def mutants(path: Path) -> Iterator[Mutant]:
 
 
 Place = tuple[str, ast.AST, str, int | None, ast.AST]
-"""Function, and where in its parent a node hangs."""
+"""Function, parent, field and index of a node, and the node."""
 
 
 def places(parent: ast.AST, scope: str) -> Iterator[Place]:
-    """Every node that may be changed: not what is a type, and no message."""
+    """Every node that may be changed; no types, no messages."""
     for field, value in ast.iter_fields(parent):
         if field in ("annotation", "returns", "decorator_list", "bases") or _is_type(parent):
             continue
@@ -154,7 +150,6 @@ def places(parent: ast.AST, scope: str) -> Iterator[Place]:
 
 
 def _is_type(node: ast.AST) -> bool:
-    """Is this the definition of a type's name, such as `Wrong = tuple[...]`?"""
     return (
         isinstance(node, ast.Assign)
         and isinstance(node.value, ast.Subscript)
@@ -172,6 +167,5 @@ def _put(parent: ast.AST, field: str, index: int | None, node: ast.AST) -> None:
 
 
 def _short(node: ast.AST) -> str:
-    """A node on one line: of a statement with a body, its head."""
     text = ast.unparse(ast.fix_missing_locations(node))
     return text.splitlines()[0]

@@ -1,10 +1,9 @@
 """How fast the oracle is: through the pipe, in batch mode, and in a search with a child.
 
-The program is the one in C of `examples/`, compiled here, in a lattice of 20 x 20 with holes.
-Through the pipe the clock on the wall counts, for two processes take turns; a busy machine is
-slower. A wake-up is one time that the harness slept and was woken: one a move where the two share a
-processor. The replay is timed alone, without judging, in processor time. The search compares a file
-that re-exports `basic` with and without `--in-process`, the best of three each, in turns.
+The program is the C example, in a lattice of 20 x 20 with holes. The pipe is timed by the clock,
+since two processes take turns. A wake-up is one sleep of the harness. The replay is processor time
+without judging. The search compares a file that re-exports `basic` with and without `--in-process`,
+the best of three each.
 """
 
 from __future__ import annotations
@@ -65,7 +64,7 @@ def _wake_ups() -> int:
 
 
 def apart(edges: int) -> float:
-    """How many times as long a search takes with the mapper in a process of its own."""
+    """The ratio of a search with the mapper in another process to one in this process."""
     best = {True: inf, False: inf}
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "mine.py"
@@ -83,7 +82,7 @@ def apart(edges: int) -> float:
 
 
 def replayed() -> float:
-    """Moves a second that a run of the batch is replayed with."""
+    """Replayed moves a second in batch mode."""
     doors = [event.door for event in explore(WORLD, "basic").trace if isinstance(event, Move)]
     player = BatchReplay(BatchRun("lattice", tuple(doors), map=explore(WORLD, "basic").map))
     robot = SimulatedRobot(WORLD, len(doors))
@@ -93,7 +92,7 @@ def replayed() -> float:
 
 
 def table(row: Callable[[str, str, str], None]) -> None:
-    """Four lines."""
+    """Print the rows."""
     found = piped()
     rate, woken = found or (0.0, 0.0)
     shown = "no C compiler" if found is None else f"{rate:,.0f} /s"

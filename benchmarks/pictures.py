@@ -1,9 +1,8 @@
 """How long pictures of worlds take, and how readable they are, beside what is required.
 
-Seconds are processor time on one core (run it with OPENBLAS_NUM_THREADS=1: idle threads of the
-numerical library spin, and their time would count). Each picture is read back: `angle` is the
+Processor seconds on one core (idle threads of the numerical library would count). `angle` is the
 smallest angle between two darts of a vertex in degrees, `radius` that of a vertex in thousandths of
-the picture's longer side. Run it: `OPENBLAS_NUM_THREADS=1 .venv/bin/python benchmarks/pictures.py`.
+the picture's longer side. `OPENBLAS_NUM_THREADS=1 .venv/bin/python benchmarks/pictures.py`
 """
 
 from __future__ import annotations
@@ -57,11 +56,11 @@ REQUIRED: dict[str, tuple[float, tuple[str, ...]]] = {
         ("complete(7,seed=1)", "complete(9,seed=1)", "regular(50,3,seed=1)", "dense(20,0.3)"),
     ),
 }
-"""Groups of worlds, each with the seconds that a picture may take."""
+"""Groups of worlds, each with the seconds allowed for a picture."""
 
 
 def main() -> None:
-    """Print the slowest and the mean of each group, as Markdown."""
+    """Print the slowest and the mean of each group."""
     lay_out(World.from_id("m5/17"))  # what is imported late
     lay_out(resolve_world("family:random_planar(100)"))
     print("| worlds | number | required s | slowest s | mean s | slowest is | angle | radius |")

@@ -1,12 +1,10 @@
-"""The player's figures: how large a page is, how soon it opens, how many steps a second it plays.
+"""The player's figures: the size of a page, how soon it opens, and how fast it plays.
 
     OPENBLAS_NUM_THREADS=1 .venv/bin/python benchmarks/player.py
 
-`drawn s` and `made s`: processor time of the world's picture alone and of the whole page, which
-holds that picture. (Idle threads of the numerical library spin, and their time would count.)
-Chromium is the distribution's, without a screen. `opens`: from the start of the navigation to the
-first step that is shown. `steps/s`: at the highest speed, one step a frame, each drawn whole.
-`seeks`: the median of jumps to steps all over the run.
+`drawn s`, `made s`: processor time of the world's picture, and of the whole page. In headless
+Chromium: `opens`, from navigation to the first step; `steps/s`, at the highest speed, each step
+drawn whole; `seeks`, the median of jumps all over the run.
 """
 
 from __future__ import annotations

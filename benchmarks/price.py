@@ -1,20 +1,17 @@
 """The price of not knowing the map: mean costs over seeded worlds, as a ratio to the least cost.
 
-`least` is the least cost of a proof with the map in hand. Each other column is the mean cost of one
-mapper divided by the mean least cost, with the standard error of this ratio; every run delivered
-the right map, or the script stops. Run it:
+`least` is the least cost of a proof with the map in hand. Other columns are a mapper's mean cost
+over the mean least cost, with the standard error of this ratio. Every run delivers the right map,
+or the script stops.
 
     .venv/bin/python benchmarks/price.py
     .venv/bin/python benchmarks/price.py --mappers homing,planner --families torus --seeds 5 --ms
     .venv/bin/python benchmarks/price.py --mappers folding,homing --against folding --runs runs.csv
     .venv/bin/python benchmarks/price.py --gap
 
-In the same worlds mappers can be compared more closely. So `--against M` prints a second table, of
-the differences there: cost minus the cost of M, over the mean least cost, with the standard error
-of this ratio; and the mean cost as a multiple of that of M.
-
-A run takes up to minutes. `--runs FILE` keeps every finished run in a CSV file, and makes none anew
-that stands there. It does not know when a mapper has changed: take its lines out then.
+`--against M` prints a second table of differences in the same worlds: cost minus the cost of M,
+over the mean least cost, with the standard error; and the mean cost as a multiple of that of M.
+`--runs FILE` keeps finished runs in a CSV file, and does not see that a mapper has changed.
 """
 
 from __future__ import annotations
@@ -61,7 +58,7 @@ class Job(NamedTuple):
 
 
 class Run(NamedTuple):
-    """What one job found: the world's m and least cost, the run's cost and processor time."""
+    """The world's m and least cost, the run's cost and processor time."""
 
     m: int
     least: int
@@ -70,16 +67,16 @@ class Run(NamedTuple):
 
 
 def drawn(family: str, seed: int) -> World:
-    """The world of a family with this seed; tori are drawn with none."""
+    """The world of a family with this seed, which tori ignore."""
     seeded = "" if family.startswith("torus") else f",seed={seed}"
     return resolve_world(f"family:{family[:-1]}{seeded})")
 
 
 def priced(job: Job) -> Run:
-    """What the mapper pays in its world.
+    """The run of the mapper in its world.
 
     Raises:
-        SystemExit: the map that was delivered is not that of the world.
+        SystemExit: the delivered map is wrong.
     """
     world = drawn(job.family, job.seed)
     began = time.process_time()
@@ -90,7 +87,7 @@ def priced(job: Job) -> Run:
 
 
 def require_right(run: Exploration, job: Job) -> None:
-    """Stop unless the delivered map is the world."""
+    """Exit unless the delivered map is the world."""
     found = run.map
     right = found is not None and run.world.is_isomorphic(
         World.from_rotations(found.vertices, found.edges, found.marker)
@@ -100,7 +97,7 @@ def require_right(run: Exploration, job: Job) -> None:
 
 
 class Store:
-    """The finished runs, kept in a CSV file if there is one."""
+    """The finished runs, in a CSV file if one is named."""
 
     def __init__(self, path: Path | None) -> None:
         self.path = path
@@ -115,7 +112,7 @@ class Store:
     def make(
         self, jobs: Sequence[Job], pool: ProcessPoolExecutor, play: Callable[[Job], Run] = priced
     ) -> list[Run]:
-        """The runs of these jobs; those that are not there yet are made."""
+        """The runs of these jobs; missing ones are made."""
         missing = [job for job in jobs if job not in self.runs]
         for job, run in zip(missing, pool.map(play, missing), strict=True):
             self.runs[job] = run
@@ -136,8 +133,7 @@ class Store:
 def with_error(costs: Sequence[float], least: Sequence[int], *, sign: str = "") -> str:
     """The ratio of two means with its standard error; of one world there is no error.
 
-    Costs and least costs rise together. So the error is that of the ratio estimator: from the
-    residuals of the costs, as if each were its least cost times the ratio.
+    Costs and least costs rise together, so it is the error of the ratio estimator.
     """
     n, ratio = len(costs), sum(costs) / sum(least)
     if n < 2:
@@ -147,28 +143,25 @@ def with_error(costs: Sequence[float], least: Sequence[int], *, sign: str = "") 
 
 
 def ratio(runs: Sequence[Run]) -> str:
-    """The mean cost as a ratio to the mean least cost, with its standard error."""
+    """The mean cost over the mean least cost, with its standard error."""
     return with_error([run.cost for run in runs], [run.least for run in runs])
 
 
 def difference(runs: Sequence[Run], base: Sequence[Run]) -> str:
-    """The mean difference in the same worlds over the mean least cost; and how many times.
-
-    Both in the same order of worlds.
-    """
+    """The mean difference in the same worlds over the mean least cost; and the multiple."""
     paired = [one.cost - other.cost for one, other in zip(runs, base, strict=True)]
     times = sum(run.cost for run in runs) / sum(run.cost for run in base)
     return f"{with_error(paired, [run.least for run in runs], sign='+')}, {times:.3f} ×"
 
 
 def head(columns: Sequence[str], *, texts: int = 1) -> str:
-    """The head of a table in Markdown: so many columns of text, then numbers."""
+    """The head of a Markdown table: `texts` columns of text, then numbers."""
     rule = "| --- " * texts + "| ---: " * (len(columns) - texts)
     return f"| {' | '.join(columns)} |\n{rule}|"
 
 
 def gaps(seeds: int) -> None:
-    """Print which share of the false hypotheses was walked although the history refuted them."""
+    """Print the share of false hypotheses walked although the history refuted them."""
     names = ("basic", "enhancement-i", "enhancement-ii", "enhancement-iii-all+i", "folding")
     family = FAMILIES[0]
     worlds = [drawn(family, seed) for seed in range(seeds)]
@@ -178,7 +171,7 @@ def gaps(seeds: int) -> None:
 
 
 def asked() -> argparse.Namespace:
-    """What the command line asks for."""
+    """The options of the command line."""
     ask = argparse.ArgumentParser(description="mean cost / least cost, mappers x families")
     ask.add_argument("--mappers", default=MAPPERS, help="names, with commas")
     ask.add_argument("--families", nargs="+", default=[""], help="those whose text begins so")
@@ -195,7 +188,7 @@ def asked() -> argparse.Namespace:
 
 
 def main() -> None:
-    """Print the tables, as Markdown."""
+    """Print the tables."""
     args = asked()
     if args.gap:
         gaps(args.seeds)

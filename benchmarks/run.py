@@ -1,8 +1,7 @@
-"""The speeds that the project promises, measured here and now: `make bench`.
+"""The speeds that the project promises, beside what is required: `make bench`.
 
-Each beside what is required of it: listing worlds; all small worlds through all algorithms, bare,
-with traces and claims 1 to 8, and with all ten claims; drawing worlds with Hypothesis; one large
-lattice. All on one core, in processor time, so that other work on the machine counts for little.
+Listing worlds; all small worlds through all algorithms, bare, with claims 1 to 8, and with ten
+claims; drawing worlds; one large lattice. One core, processor time.
 """
 
 from __future__ import annotations
@@ -26,18 +25,18 @@ from topo_verify.world.enumeration import rank_order
 EDGES = range(1, 6)
 
 PAPER = [name for name in CATALOGUE if "folding" not in name]
-"""The paper's algorithms: what is required of them was written before there were others."""
+"""The paper's algorithms; the requirements are about these."""
 
 
 def seconds(work: Callable[[], object]) -> float:
-    """How long some work keeps the processor busy."""
+    """The processor seconds of some work."""
     start = process_time()
     work()
     return process_time() - start
 
 
 def enumeration(edges: int) -> float:
-    """Worlds a second, as bare tables; the completions that are tabulated once are made before."""
+    """Worlds a second, as bare tables, after the completions are tabulated."""
     for _ in rank_order.tables(edges - 1):
         pass
     took = seconds(lambda: sum(1 for _ in rank_order.tables(edges)))
@@ -51,7 +50,7 @@ def small_worlds() -> Iterator[World]:
 
 
 def explore_all() -> None:
-    """All of them through every algorithm of the paper, and nothing else."""
+    """All of them through every algorithm of the paper."""
     for world in small_worlds():
         budget = world.cost_bound
         for name in PAPER:
@@ -59,7 +58,7 @@ def explore_all() -> None:
 
 
 def examine_all() -> None:
-    """The same with traces, limits, and the claims that there are."""
+    """The same with traces, limits and claims."""
     for world in small_worlds():
         for name in PAPER:
             report = examine(name, world)

@@ -2,9 +2,8 @@
 
     .venv/bin/python benchmarks/scale.py [--worlds N]
 
-A slice of N worlds from the middle of each size is examined by the compiled engine, with 8, 9 and
-10 claims, and searched as `search --engine compiled` does it, with a part judged by the checkers.
-Times are processor time of one process; a loaded machine makes them longer.
+A slice of N worlds from the middle of each size is examined by the compiled engine with 8, 9 and 10
+claims, and searched as `search --engine compiled` does it. Processor time of one process.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """How fast the exhaustive search is, and that its memory does not grow with the worlds.
 
-`.venv/bin/python benchmarks/search.py` alone, or with everything else: `make bench`. Seconds are
-those on the clock, for two processes share the work; the processor seconds of both stand beside
-them, for a machine that does other work. Memory is the most that any process took.
+`.venv/bin/python benchmarks/search.py` alone, or `make bench`. Seconds on the clock of two
+processes, beside their processor seconds; the peak memory of any process.
 """
 
 from __future__ import annotations
@@ -19,7 +18,6 @@ WORKERS = 2
 
 
 def _processor() -> float:
-    """Processor seconds so far, with the processes that have ended."""
     mine, theirs = (resource.getrusage(who) for who in _WHO)
     return mine.ru_utime + mine.ru_stime + theirs.ru_utime + theirs.ru_stime
 
@@ -41,7 +39,7 @@ def table(row: Row) -> None:
 
 
 def main() -> None:
-    """Print them with no other benchmark."""
+    """Print these rows only."""
     table(lambda what, measured, required: print(f"{what:<58}{measured:>18}{required:>18}"))
 
 

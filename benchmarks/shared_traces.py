@@ -1,6 +1,6 @@
-"""What it saves to check each distinct trace once: nine mappers in 800 worlds of 5 edges.
+"""The saving of checking each distinct trace once: nine mappers in 800 worlds of 5 edges.
 
-Each way is timed three times in turn, in this process; the least processor time is printed.
+Each way is timed three times in turn; the least processor time is printed.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ EDGES, EVERY, SHARDS = 5, 6, 2
 
 
 def seconds(*, shared: bool) -> tuple[float, list[Tally]]:
-    """The processor time of all mappers in these worlds, and what was counted."""
+    """The processor time of all mappers in these worlds, and the tallies."""
     ranks = Ranks(EDGES)
     names = tuple(target.text for target in MAPPERS)
     campaign = Campaign(worlds=ranks, mappers=names, keep="notable")

@@ -1,10 +1,9 @@
-"""How large the house is: lines of code and words by room, and words of documentation by page.
+"""Lines of code and words by room, and words of documentation by page.
 
     .venv/bin/python benchmarks/size.py
 
-A line of code is one that holds a token and no docstring, comment or blank. A chain of imports is
-counted at load time, circles excluded; the longest one is printed with its modules. A word holds a
-letter or a digit: bars of tables and rules are none. The generated page is counted apart.
+A line of code holds a token and no docstring, comment or blank. Imports are counted at load time,
+circles excluded. A word holds a letter or a digit.
 """
 
 from __future__ import annotations
@@ -68,7 +67,7 @@ def words(source: str) -> int:
 
 
 def longest_chain() -> list[str]:
-    """The longest chain of modules of the package that import each other when they are loaded."""
+    """The longest chain of modules that import each other at load time."""
     files = {
         ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): path
         for path in (ROOT / "topo_verify").rglob("*.py")
@@ -93,11 +92,11 @@ GENERATED = "docs/reference/commands.md"
 """The page that docs/reference.py writes."""
 
 BLOCKS = re.compile(r"^```.*?^```$|^    [^\n]*$", re.MULTILINE | re.DOTALL)
-"""What a page shows of code, commands and output."""
+"""Code, commands and output on a page."""
 
 
 def pages() -> dict[str, tuple[int, int]]:
-    """The words of each page of the documentation: all, and those outside of blocks."""
+    """The words of each page: all, and those outside of blocks."""
     paths = [*(ROOT / "docs").rglob("*.md"), *ROOT.glob("*.md")]
     texts = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in paths}
     return {

@@ -1,12 +1,11 @@
-"""The totals of large searches in one small table, kept in docs/data/totals.csv.
+r"""The totals of large searches in one small table, kept in docs/data/totals.csv.
 
     topo-verify search basic --edges 9 --engine compiled --keep-going --worst \
         --ledger basic9.ledger --format json > basic9.json
     python benchmarks/totals.py basic9.json > docs/data/totals.csv
 
-A row is one algorithm in all worlds with so many edges, class `any`: how many they are, in how many
-a claim fails or is undecided, the highest cost, in how many worlds it occurs and the first of them,
-and the sum of all costs. Of one algorithm and size that stands in several files the first is taken.
+A row is one algorithm in all worlds of one size: worlds, failing, undecided, the highest cost, in
+how many worlds it occurs, the first of them, the sum of costs. Of equal rows the first file counts.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Torture: what must hold whatever is fed to topo-verify, and whoever kills it.
+"""Torture: what must hold for any input, and after any kill.
 
     make torture                                                  minutes on two cores
     .venv/bin/python benchmarks/torture --only readers --scale 20     more of one part
@@ -10,20 +10,17 @@
     caches.py       damaged machine code: the result of our sources, or refused
     programs.py     programs that misbehave in several ways: one report, nothing left over
     resumed.py      resumed runs with other options: refused, or as from the start
-    forged.py       mappers that write messages of the protocol: a finding, whatever and whenever
+    forged.py       mappers that write messages of the protocol: always a finding
     intrusion.py    a mapper that attacks the processes that judge it
     kills.py        signals at random moments: nothing lost, nothing wrong afterwards
-    trial.py        a command line in a forked process, and what is wrong with its end
+    trial.py        a command line in a forked process, and objections to its end
     mutations.py    changes of bytes, lines, JSON, XML and numbers
     planted.py      commands with one fault each, which the torture must see before it begins
-    processes.py    what a command left over
+    processes.py    processes that a command left over
     hostile.py, replies.py, forger.py    the programs, and the mapper
 
-This is a measurement with a seed and figures, not a list of cases, so it stands beside the
-benchmarks and not among the tests: `make test` stays short and does the same each time. What the
-torture ever finds becomes a test among the others, in the folder of the file that was wrong.
-
-Files that convict a reader are kept in `torture-failures/`. Exit code 1 if anything was wrong.
+It is a measurement with a seed, not a list of cases; a failure becomes a test in the suite. Files
+that convict a reader are kept in `torture-failures/`. Exit code 1 if anything was wrong.
 """
 
 from __future__ import annotations
@@ -57,16 +54,16 @@ from readers import Count
 KEEP = Path("torture-failures").resolve()
 TRIALS = {"readers": 400, "bit flips": 3000, "programs": 40, "messages": 40}
 TRIALS |= {"intrusion": 8, "kills": 9, "resumed": 30, "caches": 100}
-"""How many trials each row of a part has with --scale 1."""
+"""The trials of each row of a part with --scale 1."""
 
 PIECE = {"readers": 50, "bit flips": 100, "programs": 2, "messages": 2}
 PIECE |= {"intrusion": 2, "kills": 3, "resumed": 3, "caches": 25}
-"""How many trials a worker does at a time. (Every third trial of a piece kills a helper.)"""
+"""Trials of a worker at a time; every third of a piece kills a helper."""
 
 
 @dataclass(frozen=True)
 class Row:
-    """A row of the table: a part, what is tried, and the trials in pieces."""
+    """A part, what is tried, and the trials in pieces."""
 
     part: str
     what: str
@@ -112,7 +109,7 @@ def rows(seed: int, scale: float) -> Iterator[Row]:
 
 
 def main() -> int:
-    """Run the parts that are asked for and print a line for each row."""
+    """Run the chosen parts and print a line for each row."""
     parser = argparse.ArgumentParser(prog="torture", description=__doc__.splitlines()[0])
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--scale", type=float, default=1.0, help="times as many trials")

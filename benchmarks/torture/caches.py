@@ -1,13 +1,13 @@
 """Damaged caches of machine code: the kernel gives its own result, or one sentence is printed.
 
-A trial damages one to three files in a cache that holds the machine code of a kernel and that of
-another version of it, which has another result. Then a process of its own runs the kernel:
+A trial damages one to three files in a cache with the machine code of a kernel and of another
+version, which has another result. Then a process runs the kernel:
 
-- the result is that of this version's sources; no bit of other code is run;
-- or, where a folder stands in place of a file, the cache is refused with a sentence that names it;
+- the result is that of this version's sources;
+- or, where a folder replaces a file, the cache is refused with a sentence that names it;
 - no partial file stays behind.
 
-The whole suite needs numba; without it there is no trial.
+Without numba there is no trial.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from topo_verify.errors import InputError
 
 
 def result(folder: Path) -> int:
-    """The result of the kernel, as a fresh process gives it with the cache in this folder."""
+    """The kernel's result in a fresh process with the cache in this folder."""
     import numpy as np
 
     os.environ["TOPO_VERIFY_CACHE"] = str(folder)
@@ -46,7 +46,7 @@ def result(folder: Path) -> int:
 
 
 def fill_both(folder: Path) -> int:
-    """Fill a cache with both versions: the result of this one."""
+    """Fill a cache with both versions; this one's result."""
     true = result(folder)
     other = module_source(SMALL).replace("return h", "return h + 1")
     with patch.object(kernel, "module_source", lambda *_layout, **_checked: other):
@@ -71,13 +71,13 @@ def command(words: list[str]) -> None:
 
 
 def flip(draw: Random, file: Path, _others: list[Path]) -> None:
-    """One bit is another one."""
+    """Flip one bit."""
     data = file.read_bytes()
     file.write_bytes(flipped(data, draw.randrange(8 * len(data))) if data else b"\0")
 
 
 def cut(draw: Random, file: Path, _others: list[Path]) -> None:
-    """The end is missing."""
+    """Cut off the end."""
     file.write_bytes(file.read_bytes()[: draw.randrange(file.stat().st_size or 1)])
 
 
@@ -87,18 +87,18 @@ def fill(draw: Random, file: Path, _others: list[Path]) -> None:
 
 
 def swap(draw: Random, file: Path, others: list[Path]) -> None:
-    """The bytes of a file of either version, if possible of one of the same name."""
+    """Swap in a file of either version, if possible of the same name."""
     alike = [other for other in others if other.name == file.name] or others
     file.write_bytes(draw.choice(alike).read_bytes())
 
 
 def remove(_draw: Random, file: Path, _others: list[Path]) -> None:
-    """The file is not there."""
+    """Remove the file."""
     file.unlink()
 
 
 def make_folder(_draw: Random, file: Path, _others: list[Path]) -> None:
-    """A folder stands in its place."""
+    """Put a folder in its place."""
     file.unlink()
     file.mkdir()
 
@@ -109,7 +109,7 @@ DAMAGES: tuple[Callable[[Random, Path, list[Path]], None], ...] = (
 
 
 def trial(folder: Path, true: int, seed: str, count: Count) -> str | None:
-    """Damage a cache and run the kernel; what is wrong, or None."""
+    """Damage a cache and run the kernel; an objection, or None."""
     draw = Random(seed)
     done = list[str]()
     for _ in range(draw.randint(1, 3)):

@@ -1,12 +1,12 @@
-"""Single bits turned round in a ledger and in a baseline.
+"""Single flipped bits in a ledger and in a baseline.
 
-A flipped file is refused with one sentence and exit code 2, or the results are those of the file
-before the flip: the bit stood in padding, or in a field that nothing reads.
+The file is refused with one sentence and exit code 2, or the results are those of the whole file:
+the bit was padding, or in a field that nothing reads.
 
-    trials      the whole command, in a process of its own: a tenth of a second each
+    trials      the whole command in a process: a tenth of a second each
     openings    a ledger is opened as a search opens it, and every row read: a millisecond each
 
-What a search makes of a ledger are its rows and nothing else; so `openings` can try every bit.
+A search reads only the rows of a ledger, so `openings` can try every bit.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ from topo_verify.studies.search.search import search_campaign
 
 
 def bits(name: str) -> int:
-    """How many bits the file of this format has."""
+    """The number of bits in the file of this format."""
     (data,) = FORMATS[name].seeds()
     return 8 * len(data)
 
 
 def chosen(name: str, number: int, seed: int) -> list[int]:
-    """The bits to flip: all, or this many, drawn and in order."""
+    """The bits to flip: all, or this many at random, in order."""
     total = bits(name)
     if number >= total:
         return list(range(total))
@@ -43,7 +43,7 @@ def chosen(name: str, number: int, seed: int) -> list[int]:
 
 
 def trials(name: str, places: list[int], keep: Path) -> Count:
-    """Flip each of these bits by itself."""
+    """Flip each of these bits separately."""
     (data,) = FORMATS[name].seeds()
     count = Count()
     for bit in places:
@@ -57,7 +57,7 @@ def trials(name: str, places: list[int], keep: Path) -> Count:
 
 
 def openings(places: list[int], keep: Path) -> Count:
-    """Flip each of these bits of a ledger by itself, open it, and read every row."""
+    """Flip each of these bits of a ledger separately, open it, and read every row."""
     (data,) = FORMATS["ledger"].seeds()
     count = Count()
     with TemporaryDirectory() as folder:
@@ -81,7 +81,6 @@ def openings(places: list[int], keep: Path) -> Count:
 
 
 def _rows(path: Path, data: bytes) -> object:
-    """What a search reads in a store of these bytes."""
     path.write_bytes(data)
     mappers = targets("basic")
     campaign = search_campaign(mappers, edges=3)

@@ -1,8 +1,8 @@
-"""Forged messages: each seed is a mapper (forger.py) that writes into the pipe of its own process.
+"""Forged messages: each seed is a mapper (forger.py) that writes into its process's pipe.
 
 `conform`, and `search` with a ledger, try it in both worlds of one edge, twice. They must end with
 0, 1 or 3, leave no process over, and say the same both times. Where it writes outside of a world,
-one sentence and exit code 2 will do, too.
+exit code 2 with one sentence is allowed, too.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ COMMANDS = (
 
 
 def trials(seeds: list[str]) -> Count:
-    """Try the mappers of these seeds."""
+    """Try these mappers."""
     count = Count()
     for number, seed in enumerate(seeds):
         os.environ["FORGER"] = seed

@@ -1,7 +1,7 @@
-"""A mapper that writes messages of the protocol itself, into the pipe of its process.
+"""A mapper that writes messages of the protocol into the pipe of its process.
 
-Its seed, in the environment variable `FORGER`, and the first percept decide which messages it
-writes at which moments, and whether its map is right.
+Its seed (environment variable `FORGER`) and the first percept decide the messages, the moments, and
+whether its map is right.
 """
 
 import fcntl
@@ -20,10 +20,8 @@ from topo_verify.programs import loaded
 from topo_verify.robot.events import Robot
 
 WORLDS = ("before a move", "after a move", "after a decision", "after the end")
-"""The moments in a world."""
 
 MOMENTS = (*WORLDS * 3, "while it is loaded", "when it is asked what it has loaded")
-"""The moments of which a seed chooses some."""
 
 
 def moments(seed: str) -> set[str]:
@@ -33,7 +31,7 @@ def moments(seed: str) -> set[str]:
 
 
 def write(draw: Random) -> None:
-    """Write one to three lines into the pipe to topo-verify, wherever this process keeps it."""
+    """Write one to three lines into the pipe to topo-verify."""
     for place in range(3, 64):
         try:
             found, flags = os.fstat(place), fcntl.fcntl(place, fcntl.F_GETFL)
@@ -67,7 +65,7 @@ def explore(robot: Robot) -> object:
 
 
 def _flushed(event: str, function: object, draw: Random) -> None:
-    """Write once the message that ends the world is on its way."""
+    """Write once the message that ends the world is sent."""
     if event == "c_return" and "flush of _io.BufferedWriter" in repr(function):
         sys.setprofile(None)
         write(draw)

@@ -34,9 +34,9 @@ class Format:
     Attributes:
         suffix: how its files end.
         seeds: the files to begin with.
-        words: the command lines that read a file; each is as likely as the next.
-        mutations: what may happen to a file, each as likely as the next.
-        codes: how the command line may end.
+        words: the command lines that read a file, equally likely.
+        mutations: equally likely, too.
+        codes: the allowed exit codes.
         sealed: it carries checksums.
     """
 
@@ -110,7 +110,7 @@ def _traces() -> Sequence[bytes]:
 
 
 def _logs() -> Sequence[bytes]:
-    """Logs with no decision: a whole one, one that is cut short, and the traces."""
+    """Logs without decisions: a whole one, one cut short, and the traces."""
     trace = tv.explore(tv.World.from_id("m4/17"), "basic").trace
     bare = [event for event in trace if isinstance(event, Start | Move)]
     return [write_trace(bare), write_trace(bare[: len(bare) // 2]), *_traces()]
@@ -138,7 +138,7 @@ def baseline() -> bytes:
 
 
 def search_words(path: str) -> Sequence[str]:
-    """The command line that goes on with the ledger."""
+    """The command line that resumes the ledger."""
     return ("search", "basic", "--edges", "3", "--workers", "0", "--ledger", path)
 
 
@@ -148,7 +148,6 @@ def compare_words(path: str) -> Sequence[str]:
 
 
 def _readings(path: str) -> Sequence[Sequence[str]]:
-    """The command lines that read a world."""
     return [
         ("world", "show", path),
         ("world", "show", path, "--format", "markdown"),
@@ -158,7 +157,6 @@ def _readings(path: str) -> Sequence[Sequence[str]]:
 
 
 def _replies() -> Sequence[bytes]:
-    """What a program answers in m2/5, line by line."""
     run = tv.explore(tv.World.from_id("m2/5"), "enhancement-i")
     lines: list[object] = []
     for event in run.trace[1:]:
@@ -174,7 +172,6 @@ def _replies() -> Sequence[bytes]:
 
 
 def _batch() -> Sequence[bytes]:
-    """What a program answers in batch mode in m1/0 and m1/1."""
     leaf = {"vertices": [[0], [1]], "edges": [[0, 1]], "marker": 0}
     loop = {"vertices": [[0, 1]], "edges": [[0, 1]], "marker": 0}
     runs = [
@@ -188,7 +185,7 @@ def _batch() -> Sequence[bytes]:
 
 
 def of_gzip(draw: Random, data: bytes) -> bytes:
-    """One change of a baseline: of its packed bytes, or of a line without a new sum."""
+    """One change of a baseline's packed bytes, or of a line without a new checksum."""
     lines = _unpacked(data)
     if lines is None or draw.random() < 0.5:
         return of_bytes(draw, data)
@@ -202,7 +199,7 @@ def _unpacked(data: bytes) -> bytes | None:
 
 
 def of_sums(draw: Random, data: bytes) -> bytes:
-    """One change of a line of a baseline, with the sums of the whole made anew."""
+    """One change of a line of a baseline, with new checksums."""
     lines = of_lines(draw, re.sub(rb',"sum":"\w+"}', b"}", _unpacked(data) or b"")).splitlines()
     total, made = "", b""
     for line in lines:
@@ -213,7 +210,7 @@ def of_sums(draw: Random, data: bytes) -> bytes:
 
 
 def as_is(_draw: Random, data: bytes) -> bytes:
-    """The file as it was written."""
+    """The unchanged file."""
     return data
 
 

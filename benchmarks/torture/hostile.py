@@ -2,9 +2,8 @@
 
     python hostile.py SEED
 
-The seed and the world decide what it does: one to three ways, one after the other. It knows the two
-worlds of one edge, and sometimes maps them rightly. The same seed does the same in each world,
-whatever happened before.
+The seed and the world decide one to three ways, one after the other. It knows the two worlds of one
+edge, and sometimes maps them rightly.
 """
 
 import os
@@ -27,7 +26,7 @@ def stop_itself() -> None:
 
 
 def become_another() -> None:
-    """Go on as a program that knows no protocol."""
+    """Become a program that knows no protocol."""
     os.execvp("sleep", ["sleep", "60"])  # noqa: S606, S607  that is the point
 
 
@@ -38,7 +37,7 @@ def move(door: int) -> None:
 
 
 def loosely() -> None:
-    """Leave a child in a session of its own."""
+    """Leave a child in another session."""
     misbehaving.LOOSE = True
     misbehaving.linger()
 
@@ -61,7 +60,7 @@ MORE = {
 
 
 def main() -> None:
-    """Answer each world as the seed says."""
+    """Answer each world by the seed."""
     while (message := hear()).get("type") == "start":
         degree = message["percept"]["degree"]
         draw = Random(f"{SEED} {degree}")

@@ -1,9 +1,8 @@
 """A mapper that attacks the processes that judge it: it may get hold of none.
 
-tests/campaign/intruder.py is searched with one to three workers. From its first line on, a thread
-of the mapper tries to open the memory and the files of the search, of what starts workers, and of
-each worker, while these start, run and are replaced. Each trial must end with exit code 1, since
-the mapper delivers no map to workers, and leave nothing over.
+A thread of tests/campaign/intruder.py tries to open the memory and the files of the search, of the
+process that starts workers, and of each of one to three workers. Each trial must end with exit code
+1, since the mapper delivers no map to workers, and leave nothing over.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ from trial import objection, run
 INTRUDER = Path(__file__).resolve().parents[2] / "tests" / "campaign" / "intruder.py"
 
 LIMITS = ("--move-timeout", "60", "--world-timeout", "120")
-"""Each worker waits until it was tried."""
+"""Each worker waits until it was attacked."""
 
 SECONDS = 60.0
 
@@ -54,7 +53,7 @@ def trials(seeds: list[str]) -> Count:
 
 
 def _hold() -> str | None:
-    """What the mapper got hold of in the current folder; None: it tried in vain."""
+    """What the mapper got hold of in the current folder, or None."""
     if (opened := Path("opened")).exists():
         return f"processes and how many of their files it opened: {opened.read_text()[:200]!r}"
     # The search, what starts workers, the worker that it kills, and the one behind it.
@@ -63,7 +62,7 @@ def _hold() -> str | None:
 
 
 def unseen() -> list[str]:
-    """Whether the mapper gets hold of a process that is not hidden, its parent; none if it does."""
+    """The planted fault, if it is not seen: a process that is not hidden, its parent."""
     with TemporaryDirectory() as folder:
         shutil.copy(INTRUDER, folder)
         load = f"import sys, time; sys.path.insert(0, {folder!r}); import intruder; time.sleep(99)"

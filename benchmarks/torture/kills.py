@@ -1,15 +1,14 @@
 """Signals at random moments: to a command, or to one of its helpers.
 
-Each trial starts a command in a process of its own, as a user does, and sends it SIGKILL, SIGTERM
-or SIGINT once or several times, starting it again after each. Then:
+Each trial starts a command in a process and sends it SIGKILL, SIGTERM or SIGINT one or more times,
+restarting it after each. Then:
 
 - it ended with the signal itself (SIGKILL) or with exit code 3 and a sentence (the other two), or
   had ended before with 0;
 - no process is left over, and no file besides those that it keeps;
-- when it is let finish, its results are those of a run that nobody disturbed.
+- when it may finish, its results are those of an undisturbed run.
 
-A helper that is killed from outside is no fault of the mapper's: the command ends with 0 or 3, and
-never convicts.
+If a helper is killed from outside, the command ends with 0 or 3, and never convicts.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ from readers import Count
 from trial import difference
 
 SECONDS = 120
-"""On the clock: the most that a command may take, on a machine that has more to do."""
+"""Most seconds of a command on the clock."""
 
 OURS = {"out", "err", "begun"}
 
@@ -59,7 +58,7 @@ COMMANDS = {
 
 @dataclass
 class Ended:
-    """How a command ended that was started in a folder."""
+    """How a command in a folder ended."""
 
     code: int
     stdout: str
@@ -75,11 +74,11 @@ START = (
     "Path('begun').touch()\n"
     "main()\n"
 )
-"""The program `topo-verify`; it says when Python has imported everything and the command begins."""
+"""The program `topo-verify`, which reports when the imports are done."""
 
 
 def start(name: str) -> subprocess.Popen[str]:
-    """Start a command in the current folder; it has begun when this returns."""
+    """A command in the current folder that has begun."""
     Path("begun").unlink(missing_ok=True)
     words = (sys.executable, "-c", START, *COMMANDS[name].words, "--format", "json")
     with Path("out").open("w") as out, Path("err").open("w") as err:
@@ -92,7 +91,7 @@ def start(name: str) -> subprocess.Popen[str]:
 
 
 def finish(process: subprocess.Popen[str], before: list[int]) -> Ended:
-    """Wait for a command's end, and for that of its helpers."""
+    """Wait until a command and its helpers end."""
     try:
         code = process.wait(SECONDS)
     except subprocess.TimeoutExpired:
@@ -106,7 +105,7 @@ def finish(process: subprocess.Popen[str], before: list[int]) -> Ended:
 
 @cache
 def undisturbed(name: str) -> tuple[str, float]:
-    """The results of a command that nobody disturbs, and how long it takes."""
+    """The results of a command, and its time."""
     with TemporaryDirectory() as folder:
         os.chdir(folder)
         before = children()
@@ -117,7 +116,7 @@ def undisturbed(name: str) -> tuple[str, float]:
 
 
 def results(text: str) -> str:
-    """The results as text, without what is measured on the clock or was done before."""
+    """The results as text, without clock figures and counts of earlier work."""
     document = json.loads(text)
     document.pop("timing", None)
     for entry in document["results"]:
@@ -133,7 +132,7 @@ def _first_difference(text: str, true: str) -> str:
 
 
 def trial(name: str, seed: str) -> str | None:
-    """Disturb a command one to three times, then let it finish; what is wrong, or None."""
+    """Disturb a command one to three times, then let it finish; an objection, or None."""
     true, seconds = undisturbed(name)
     draw = Random(seed)
     with TemporaryDirectory() as folder:
@@ -180,7 +179,7 @@ def _let_finish(name: str, true: str) -> str | None:
 
 
 def helper_killed(name: str, seed: str) -> str | None:
-    """Kill one helper of a command at a random moment; what is wrong with what follows, or None."""
+    """Kill one helper of a command at a random moment; an objection, or None."""
     true, seconds = undisturbed(name)
     draw = Random(seed)
     with TemporaryDirectory() as folder:

@@ -1,7 +1,7 @@
 """Mutations of files: of their bytes, their lines, and of the JSON, XML or numbers in them.
 
-Each takes a random number generator and data and returns other data. They know the syntax of what
-they change, because a parser refuses most random bytes at once and never gets to the code behind.
+They respect the syntax, because a parser refuses most random bytes at once and never gets to the
+code behind.
 """
 
 from __future__ import annotations
@@ -18,14 +18,12 @@ ODD: tuple[Any, ...] = (
     *("", "0", "x", "\x00", "\x1b[31m", "\u202e", "\ud800", "é" * 99, "y" * 5000, "m5/17", "nyc"),
     *([], {}, [[]], [0], [None], {"a": 0}, [0] * 2000, "-", "../../etc/passwd", "m9/1e9"),
 )
-"""Values that have no business where they are put."""
 
 WORDS = (
     *(b"\x00", b"\xff\xfe", b"\xef\xbb\xbf", b"\n", b"\r\n", b"\r", b"\x1b[31m", b"[" * 200_000),
     *(b'{"a":' * 2000, b"9" * 5000, b"1e999", b"NaN", b"\\ud800", b'"', b"\\", b"/*", b"\xf4\x90"),
     *(b"&lt;", b"&#0;", b"&x;", b"]]>", b"<!--", b"<![CDATA[", b" " * 100_000, b"\x80", b"-"),
 )
-"""Bytes to put anywhere."""
 
 Mutation = Callable[[Random, bytes], bytes]
 
@@ -56,7 +54,7 @@ def of_bytes(draw: Random, data: bytes) -> bytes:  # noqa: PLR0911  a case a mut
 
 
 def flipped(data: bytes, bit: int) -> bytes:
-    """The data with one bit turned round."""
+    """The data with one bit flipped."""
     changed = bytearray(data)
     changed[bit // 8] ^= 1 << bit % 8
     return bytes(changed)
@@ -86,7 +84,7 @@ def of_lines(draw: Random, data: bytes) -> bytes:
 
 
 def of_json(draw: Random, data: bytes) -> bytes:
-    """One to three changes of a JSON text, somewhere in it; of the bytes, if it is none."""
+    """One to three changes of a JSON text; of the bytes, if it is not JSON."""
     try:
         document = json.loads(data)
     except (ValueError, RecursionError):
@@ -102,7 +100,6 @@ def of_json(draw: Random, data: bytes) -> bytes:
 
 
 def _places(root: Any) -> list[tuple[Any, Any]]:
-    """Every place of a document: what holds it, and its key or number there."""
     found: list[tuple[Any, Any]] = []
     todo = [root]
     for holder in todo:  # grows as it goes
@@ -177,7 +174,7 @@ def of_xml(draw: Random, data: bytes) -> bytes:
 
 
 def of_numbers(draw: Random, data: bytes) -> bytes:
-    """One change of a file of planar_code: of its head, or of one of its bytes."""
+    """One change of a planar_code file: of its head, or of one of its bytes."""
     if draw.random() < 0.2:
         heads = (b"", b">>planar_code<<", b">>planar_code le<<", b">>planar_code be <<", b">>x<<")
         return draw.choice(heads) + data.partition(b"<<")[2]

@@ -1,4 +1,4 @@
-"""Commands with one fault each: the torture must convict every one of them, or it shows nothing."""
+"""Commands with one fault each: the torture must convict every one, or it shows nothing."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from trial import MEMORY, Outcome, difference, objection, run
 
 
 def refuses(words: list[str]) -> None:
-    """What every command may do."""
+    """A refusal that every command may make."""
     print(f"topo-verify: expected a world, got {words[0]!r}", file=sys.stderr)
     sys.exit(2)
 
 
 def raises(words: list[str]) -> None:
-    """An exception that nobody expected."""
+    """An unexpected exception."""
     raise ValueError(words)
 
 
@@ -66,7 +66,7 @@ def leaves(_words: list[str]) -> None:
 
 
 def prints(words: list[str]) -> None:
-    """A refusal, and results all the same."""
+    """A refusal, and results as well."""
     print("[]")
     refuses(words)
 
@@ -82,7 +82,7 @@ FAULTS: tuple[Callable[[list[str]], None], ...] = (
 
 
 def unseen() -> list[str]:
-    """The faults that the torture does not see; none, if it is worth anything."""
+    """The faults that the torture does not see."""
     seconds, trial.SECONDS = trial.SECONDS, 1
     try:
         found = [fault.__name__ for fault in FAULTS if not _wrong(fault)]

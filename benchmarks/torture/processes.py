@@ -1,7 +1,7 @@
-"""Processes that a command left over: all that still live after it ended.
+"""Processes that still live after a command ended.
 
-The torture adopts orphans (`PR_SET_CHILD_SUBREAPER`), so whatever a command leaves behind becomes a
-child of this process, in whatever session or group it is.
+The torture adopts orphans (`PR_SET_CHILD_SUBREAPER`): what a command leaves behind becomes a child
+of this process, in any session or group.
 """
 
 from __future__ import annotations
@@ -15,19 +15,19 @@ from pathlib import Path
 from time import monotonic, sleep
 
 PATIENCE = 5.0
-"""Seconds that a command's helpers have to end after it did, also on a busy machine."""
+"""Seconds that helpers have to end after their command."""
 
 _SUBREAPER = 36
 
 
 def adopt() -> None:
-    """From now on orphans become children of this process."""
+    """Let orphans become children of this process."""
     if ctypes.CDLL(None, use_errno=True).prctl(_SUBREAPER, 1, 0, 0, 0):
         raise OSError(ctypes.get_errno(), "prctl(PR_SET_CHILD_SUBREAPER) is refused")
 
 
 def children(of: int | None = None) -> list[int]:
-    """The living children of a process, by default of this one; zombies are reaped or left out."""
+    """The living children of a process, by default of this one; zombies are reaped."""
     found: list[int] = []
     with suppress(OSError):
         for task in Path(f"/proc/{of or os.getpid()}/task").iterdir():
@@ -51,10 +51,10 @@ def descendants(of: int) -> list[int]:
 
 
 def left_over(before: Collection[int]) -> int:
-    """How many processes live on although they had `PATIENCE`; they are ended and reaped.
+    """The number of processes that outlive `PATIENCE`; they are ended and reaped.
 
     Args:
-        before: the children that this process had before the command began.
+        before: the children of this process before the command began.
     """
     until = monotonic() + PATIENCE
     while (left := [one for one in children() if one not in before]) and monotonic() < until:
@@ -69,7 +69,6 @@ def left_over(before: Collection[int]) -> int:
 
 
 def _reap(before: Collection[int]) -> None:
-    """Take the exit status of every orphan that ended."""
     with suppress(OSError):
         for task in Path(f"/proc/{os.getpid()}/task").iterdir():
             for process in map(int, (task / "children").read_text(encoding="ascii").split()):

@@ -1,7 +1,7 @@
 """Hostile programs: each seed is a program (hostile.py) that misbehaves in one to three ways.
 
 `conform` tries it in both worlds of one edge, twice. It must end with 0, 1 or 3, leave no process
-over, and say the same both times: what a program did may not depend on who was faster.
+over, and say the same both times.
 """
 
 from __future__ import annotations

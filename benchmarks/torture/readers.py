@@ -1,7 +1,6 @@
 """The trials of readers: a mutated file is read, or refused with one sentence and exit code 2.
 
-Where a file carries checksums (`sealed`), it may not be read differently from what was written: the
-results must be those of the file before it was changed.
+A file with checksums (`sealed`) must give the results of the unchanged file, or be refused.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ from trial import Outcome, difference, objection, run
 
 @dataclass
 class Count:
-    """What became of the trials of one format."""
+    """The trials of one format."""
 
     trials: int = 0
     refused: int = 0
@@ -39,14 +38,14 @@ class Count:
         self.most_seconds = max(self.most_seconds, outcome.seconds)
 
     def convict(self, name: str, data: bytes, wrong: str, keep: Path) -> None:
-        """Keep a file that convicts a reader, under this name."""
+        """Keep a file that convicts a reader."""
         keep.mkdir(exist_ok=True)
         path = keep / re.sub(r"[^\w.]+", "-", name)
         path.write_bytes(data)
         self.wrong.append(f"{path}: {wrong}"[:400])
 
     def add(self, other: Count) -> None:
-        """Take over what another process counted."""
+        """Add the count of another process."""
         self.trials += other.trials
         self.refused += other.refused
         self.most_memory = max(self.most_memory, other.most_memory)
@@ -64,7 +63,7 @@ def mutant(name: str, seed: str) -> bytes:
 
 
 def attempt(name: str, data: bytes) -> tuple[Outcome, str | None]:
-    """What the reader makes of the data, and what is wrong with that."""
+    """How the reader ends on the data, and an objection or None."""
     kind = FORMATS[name]
     with TemporaryDirectory() as folder:
         path = Path(folder) / f"file{kind.suffix}"
@@ -80,7 +79,6 @@ def attempt(name: str, data: bytes) -> tuple[Outcome, str | None]:
 
 @cache
 def _untouched(name: str) -> Outcome:
-    """What the reader makes of the file as it was written."""
     (data,) = FORMATS[name].seeds()
     with TemporaryDirectory() as folder:
         path = Path(folder) / f"file{FORMATS[name].suffix}"
@@ -89,7 +87,7 @@ def _untouched(name: str) -> Outcome:
 
 
 def altered(outcome: Outcome, true: Outcome) -> str | None:
-    """What is wrong if the results are not those of the file that was not touched."""
+    """An objection if the results are not those of the unchanged file."""
     told, expected = (_results(one.stdout) for one in (outcome, true))
     return None if told == expected else f"changed in silence: {difference(told, expected)}"
 

@@ -1,6 +1,6 @@
-"""A program that answers each line it hears with the next piece of a file, whatever it says.
+"""A program that answers each line with the next piece of a file; its imports are fast.
 
-python replies.py FILE; standard library alone, and none of its slow parts.
+python replies.py FILE
 """
 
 import sys

@@ -1,12 +1,10 @@
 """Resumed runs with other options: refused, or with the results of a run from the start.
 
-A trial runs a command that keeps its work in a file, then the same command with another value of
-one to three options on that file. Either the file is refused, with exit code 2 and a sentence, or
-the results are those of the second command on a new file. So no option that changes a result is
-forgotten, and none need be listed here as one that does.
+A trial runs a command that keeps its work in a file, then runs it again with one to three options
+changed. Either the file is refused, with exit code 2 and a sentence, or the results are those of
+the second command on a new file. So no option that changes a result is forgotten.
 
-The mapper `HERE` is right only where it shares the process of the checkers: the worst of what an
-option can hide.
+The mapper `HERE` is right only in the checkers' process: the worst that an option can hide.
 """
 
 # This may look inside.
@@ -46,9 +44,9 @@ class Resumable:
     """A command that keeps its work.
 
     Attributes:
-        words: what is the same each time, the file that it keeps among them.
-        options: of each option the words that it may be given by.
-        apart: fields of an entry that say how much of the work was done before.
+        words: the constant words, the kept file among them.
+        options: for each option its variants.
+        apart: fields of an entry that report earlier work.
     """
 
     words: tuple[str, ...]
@@ -95,7 +93,7 @@ COMMANDS = {
 
 
 def trial(name: str, seed: str) -> tuple[str | None, bool]:
-    """What is wrong with a run that is resumed, or None; and whether it was refused."""
+    """An objection to a resumed run, or None; and whether it was refused."""
     options, draw = COMMANDS[name].options, Random(seed)
     first = [draw.choice(values) for values in options]
     second = list(first)
@@ -107,7 +105,7 @@ def trial(name: str, seed: str) -> tuple[str | None, bool]:
 def resumed_after(
     command: Resumable, first: Sequence[Sequence[str]], second: Sequence[Sequence[str]]
 ) -> tuple[str | None, bool]:
-    """The same of a run with the second options on the file of one with the first options."""
+    """The same for a run with the second options on the file of the first."""
     with TemporaryDirectory() as one, TemporaryDirectory() as other, _unexamined():
         _played(one, command, first)
         resumed, new = _played(one, command, second), _played(other, command, second)
@@ -127,7 +125,7 @@ def _played(folder: str, command: Resumable, options: Sequence[Sequence[str]]) -
 
 @contextmanager
 def _unexamined() -> Generator[None]:
-    """A ledger is believed without running some of its worlds again, as rare worlds would be."""
+    """A ledger is believed without running some of its worlds again."""
     with _replaced(_Order, "_drawn_again", lambda _order, _store: iter(())):
         yield
 
@@ -157,7 +155,7 @@ def forgets() -> bool:
 
 
 def unlike(resumed: Outcome, new: Outcome, apart: Sequence[str]) -> str | None:
-    """Where the results of a resumed run and of one from the start differ, or None."""
+    """Where the results of a resumed run and of a new one differ, or None."""
     one, other = _results(resumed, apart), _results(new, apart)
     return None if one == other else difference(one, other)
 

@@ -1,8 +1,7 @@
-"""One trial: a command line in a forked process, within limits, and what is wrong with its end.
+"""One trial: a command line in a forked process, within limits, and objections to its end.
 
-The process is forked when everything that takes long is imported, so a trial takes milliseconds and
-has memory, files and limits of its own. What every command promises whatever it is given
-(docs/semantics.md, section 16) is what a trial is held to:
+The process is forked after all slow imports, so a trial takes milliseconds and has its own memory,
+files and limits. It must keep the promises of every command (docs/semantics.md, section 16):
 
 - it ends with exit code 0, 1, 2 or 3, by itself, within `SECONDS` of the processor;
 - with 2, one printable sentence stands on standard error, and nothing on standard output;
@@ -30,13 +29,13 @@ from processes import children, left_over
 from topo_verify.cli import main
 
 SECONDS = 20
-"""Of the processor: what a trial may take. On the clock it may take three times as long."""
+"""Processor seconds of a trial; three times as many on the clock."""
 
 MEMORY = 256 << 20
-"""Bytes: what a trial may take beyond what the process had before."""
+"""Bytes of a trial beyond what the process had."""
 
 GUARD = 4 << 30
-"""Bytes of address space beyond what there was: who asks for more gets a MemoryError."""
+"""Bytes of address space beyond what there was; more gives a MemoryError."""
 
 _PAGE = resource.getpagesize()
 
@@ -46,10 +45,10 @@ class Outcome:
     """How a command line ended.
 
     Attributes:
-        code: its exit code; negative: the signal that ended it; None: it was ended by us.
-        memory: the most bytes that it had at once beyond what it began with.
+        code: its exit code; negative: the signal that ended it; None: we ended it.
+        memory: peak bytes beyond those at the start.
         seconds: of the processor.
-        left: how many processes it left over.
+        left: the number of processes left over.
     """
 
     code: int | None
@@ -63,7 +62,7 @@ class Outcome:
 def run(
     words: Sequence[str], *, stdin: bytes = b"", program: Callable[[list[str]], object] = main
 ) -> Outcome:
-    """Run a program, by default `topo-verify`, with these words in a process of its own."""
+    """Run a program, by default `topo-verify`, in a process with these words."""
     with TemporaryFile() as given, TemporaryFile() as out, TemporaryFile() as err:
         given.write(stdin)
         given.seek(0)
@@ -83,7 +82,6 @@ def run(
 
 
 def _play(program: Callable[[], object], given: IO[bytes], out: IO[bytes], err: IO[bytes]) -> None:
-    """What the forked process does; it never returns."""
     code = 70
     try:
         os.setsid()
@@ -110,7 +108,7 @@ def _play(program: Callable[[], object], given: IO[bytes], out: IO[bytes], err: 
 
 
 def _await(child: int) -> tuple[int | None, resource.struct_rusage]:
-    """The status and the usage of a process; its whole session is ended after its time."""
+    """The status and the usage of a process; its session is ended after its time."""
     watch = os.pidfd_open(child)
     try:
         ready, _, _ = select.select([watch], [], [], 3 * SECONDS)
@@ -123,7 +121,7 @@ def _await(child: int) -> tuple[int | None, resource.struct_rusage]:
 
 
 def _pages(place: int) -> int:
-    """The bytes of this process: 0 its address space, 1 what of it is in memory."""
+    """Bytes of this process: 0 its address space, 1 its resident memory."""
     with open("/proc/self/statm", encoding="ascii") as file:  # noqa: PTH123  once a trial
         return int(file.read().split()[place]) * _PAGE
 
@@ -137,7 +135,7 @@ def _read(file: IO[bytes]) -> str:
 
 
 def objection(outcome: Outcome, codes: Sequence[int]) -> str | None:  # noqa: PLR0911  a promise each
-    """What is wrong with the end of a trial that may end with these codes; None: nothing."""
+    """An objection to the end of a trial that may end with these codes, or None."""
     if outcome.code is None:
         return f"hung: not at its end after {3 * SECONDS} s on the clock"
     if -outcome.code in {signal.SIGXCPU, signal.SIGKILL}:
@@ -154,7 +152,6 @@ def objection(outcome: Outcome, codes: Sequence[int]) -> str | None:  # noqa: PL
 
 
 def _unfit_refusal(outcome: Outcome) -> str | None:
-    """What is wrong with how a command refused its input."""
     lines = outcome.stderr.splitlines()
     if len(lines) != 1 or not lines[0].isprintable():
         return f"refused with {len(lines)} lines, or with control characters: {outcome.stderr!r}"
