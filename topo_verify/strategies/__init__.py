@@ -1,16 +1,11 @@
 """Hypothesis strategies: worlds of many kinds, mappers, door words.
 
-The files::
-
-    general.py     worlds, planar_, nonplanar_,     shapes.py     bounds, what is possible
-                   tree_, dense_, uniform_worlds    growth.py     makes a world of bytes
-    grids.py       lattices                         draws.py      draws the bytes, prints a strategy
-    symmetric.py   symmetric_worlds                 notes.py      notes and features
-    mappers.py     mappers, policies, door_words    sample.py     STRATEGY by its name, and worlds
-                                                                  drawn outside of any test
-
-The entry point `hypothesis` calls registration.py. docs/property-tests.md begins with a
-first test and shows the simplest world of each strategy.
+general.py     worlds, planar_, nonplanar_,     shapes.py        bounds, and what is possible
+               tree_, dense_, uniform_worlds    growth.py        makes a world of bytes
+grids.py       lattices                         draws.py         draws the bytes
+symmetric.py   symmetric_worlds                 notes.py         notes and features
+mappers.py     mappers, policies, door_words    sample.py        STRATEGY by its name
+registration.py   called by Hypothesis
 """
 
 from __future__ import annotations

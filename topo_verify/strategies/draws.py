@@ -1,15 +1,13 @@
 """Draws what a grown world is made of: one byte an edge, and the place of the marker.
 
 Drawing costs more than growing, and its cost is the number of choices, not their size. So all edges
-are one string of bytes, whose length is the number of edges. Hypothesis draws short strings unless
-it must draw long ones, so the first choice raises the least length. In its simplest case every
-length is possible: it can shrink to that while nothing else changes.
+are one string of bytes. Hypothesis draws short strings unless it must draw long ones, so the first
+choice raises the least length; in its simplest case it does not.
 
-No two choices come from the same strategy, such as two of `integers` or two of `binary`. Hypothesis
-likes to copy a value to another choice of the same strategy; here that would make no new worlds.
+No two choices come from the same strategy: Hypothesis likes to copy values between them, which here
+would make no new worlds.
 
-A strategy prints as the call that made it, `worlds(max_edges=6)`: Hypothesis prints strategies in
-its errors, and a prompt prints them, too.
+A strategy prints as the call that made it, `worlds(max_edges=6)`.
 """
 
 from __future__ import annotations
@@ -40,12 +38,12 @@ def shown_as_called(make: Callable[P, SearchStrategy[T]]) -> Callable[P, SearchS
 
     @wraps(make)
     def made(*args: P.args, **kwargs: P.kwargs) -> SearchStrategy[T]:
-        strategy = make(*args, **kwargs)  # here, so that wrong arguments are refused at once
+        strategy = make(*args, **kwargs)  # refuses wrong arguments at once
 
         def call(draw: st.DrawFn, /, *_: P.args, **__: P.kwargs) -> T:
             return draw(strategy)
 
-        # Hypothesis prints a composite by its function's name, and by the arguments of the call.
+        # Hypothesis prints a composite by its function's name and arguments
         call.__name__ = make.__name__
         vars(call)["__signature__"] = shown
         return st.composite(call)(*args, **kwargs)
@@ -53,13 +51,11 @@ def shown_as_called(make: Callable[P, SearchStrategy[T]]) -> Callable[P, SearchS
     return made
 
 
-# ---------------------------------------------------------------- drawing worlds
-
 _AT_LEAST = (0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 16)
-"""By how much the least number of edges is raised; one of these is drawn."""
+"""Raises of the least number of edges; one is drawn."""
 
 _FURTHER = 8
-"""The least length of the second string; after its last byte it is read from the first again."""
+"""The least length of the second string, which is read in a circle."""
 
 AT_MOST = (0, 6, 8, 8, 10, 10, 12, 12, 14, 16, 16, 20, 20, 24, 30, 40)
 """Bounds on the number of edges, for strategies that draw sizes as numbers; 0 is no bound."""
@@ -97,11 +93,11 @@ def _grown(
     steps = draw_bytes(draw, least, most)
     if not steps:
         return World((), (), None)
-    # A leaf is dart 0 by construction (growth.py). The range of the place does not depend on the
-    # length drawn, so that shrinking the string does not change what the place means.
+    # A leaf is dart 0 (growth.py). The range does not depend on the length drawn, so that shrinking
+    # the string keeps the meaning of the place.
     place = 0 if marker == "leaf" else draw(st.integers(0, 2 * most - 1))
     further = b"\0"
-    if len(steps) > ONE_STRING:  # drawn last, so that shrinking to fewer edges drops it
+    if len(steps) > ONE_STRING:  # last, so that shrinking drops it
         further = draw(st.binary(min_size=_FURTHER, max_size=most))
     grown = grow(shape, kinds, steps, further)
     if grown is None:  # rare: tight bounds on degrees, loops or parallel edges
@@ -111,28 +107,28 @@ def _grown(
 
 
 def draw_bytes(draw: st.DrawFn, least: int, most: int) -> bytes:
-    """A string of bytes with a length from `least` to `most`; long ones are drawn as well."""
-    if least < most:  # a choice that cannot matter would only slow shrinking down
+    """A string of `least` to `most` bytes; long ones are drawn as well."""
+    if least < most:  # an empty choice would slow shrinking down
         least = min(least + draw(st.sampled_from(_AT_LEAST)), most)
     return draw(st.binary(min_size=least, max_size=most))
 
 
 def at_most(most: int, bound: int) -> int:
-    """The least of the two, where a bound is set: see `AT_MOST`."""
+    """The lesser of the two, if `bound` is set: see `AT_MOST`."""
     return min(most, bound) if bound else most
 
 
 def one_of(row: list[int]) -> SearchStrategy[int]:
-    """One of these numbers; a choice is drawn even where there is one number.
+    """One of these numbers, by a choice even if there is only one.
 
-    Hypothesis takes an example with fewer choices for a simpler one.
+    Hypothesis takes an example with fewer choices for simpler.
     """
     return st.sampled_from(row if len(row) > 1 else 2 * row)
 
 
 def scaled(length: int, *drawn: int) -> int:
     """The number below `length` that these bytes stand for; it grows with them."""
-    # The bytes are a fraction of 256^n: that part of `length`, rounded down.
+    # `length` times a fraction of 256^n, rounded down
     return int.from_bytes(drawn) * length >> 8 * len(drawn)
 
 
@@ -151,7 +147,6 @@ def draw_dart(draw: st.DrawFn, darts: Sequence[Dart], bound: int) -> Dart:
     """One of these darts.
 
     Args:
-        bound: the most darts that there can be, whatever was drawn before: Hypothesis keeps the
-            choice while the number of darts changes.
+        bound: the most darts possible: Hypothesis keeps the choice while their number changes.
     """
     return darts[nth(draw(st.integers(0, bound - 1)), len(darts))]

@@ -1,26 +1,12 @@
 """Worlds of every kind: all rooted maps, or those of given genus, degree, simplicity, density.
 
-    strategy           draws                                      its simplest world
-    worlds             every world within the bounds              m1/0: a single edge
-    planar_worlds      those of genus 0                           m1/0
-    nonplanar_worlds   those of genus 1 or more                   m2/8: two loops that cross
-    tree_worlds        every plane tree within the bounds         m1/0
-    dense_worlds       every world with at least half as many     m1/0
-                       edges as there are pairs of vertices:
-                       2m >= n(n-1)/2
-    uniform_worlds     all worlds of one size, evenly             m<edges>/0: a path, the marker at
-                                                                  its end
+Every world within the bounds can be drawn: `growth.py` says why. Dense worlds, 2m >= n(n-1)/2, pose
+many hypotheses for each edge. In a tree no hypothesis is ever true.
 
-Every world within the bounds can be drawn: `growth.py` says why. Dense worlds have many edges on
-few vertices, so that many hypotheses are posed for each edge. In a tree no hypothesis is ever true:
-whatever a mapper confirms there is false.
-
-**Uniform worlds.** Hypothesis does not draw large integers evenly: it prefers small ones, and those
-near the bounds. It does draw bytes evenly. So a rank is drawn as bytes, 8 more than its own length,
-and scaled down: rank = ⌊bytes · number of worlds / 256^length⌋. The bytes of two ranks differ in
-number by one at most, so no world is more likely than another by more than one part in 2^64. (What
-Hypothesis does besides is its own: it begins with the simplest, varies what it has seen, and
-repeats nothing.)
+**Uniform worlds.** Hypothesis prefers small integers, but draws bytes evenly. So a rank is drawn as
+bytes, 8 more than its own length, and scaled down: rank = ⌊bytes · number of worlds / 256^length⌋.
+The bytes of two ranks differ in number by one at most, so the likelihoods of two worlds differ by
+at most one part in 2^64.
 """
 
 from __future__ import annotations
@@ -37,7 +23,7 @@ from topo_verify.world.rooted_map import World
 
 
 @shown_as_called
-def worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
+def worlds(  # noqa: PLR0913  bounds are optional
     *,
     min_edges: int = 1,
     max_edges: int = WIDEST,
@@ -134,9 +120,6 @@ def nonplanar_worlds(
     )
 
 
-# ---------------------------------------------------------------- trees
-
-
 @shown_as_called
 def tree_worlds(
     *,
@@ -147,9 +130,7 @@ def tree_worlds(
 ) -> SearchStrategy[World]:
     """Every plane tree within the bounds. Shrinks to few edges, and stars.
 
-    Args: see `topo_verify.strategies.shapes`.
-    Raises:
-        InputError: no tree keeps all the bounds.
+    Args, Raises: as for `worlds`.
     """
     return worlds_of(
         "tree_worlds",
@@ -161,11 +142,8 @@ def tree_worlds(
     )
 
 
-# ---------------------------------------------------------------- dense worlds
-
-
 @shown_as_called
-def dense_worlds(  # noqa: PLR0913  one argument a bound, and every one is optional
+def dense_worlds(  # noqa: PLR0913  bounds are optional
     *,
     min_edges: int = 1,
     max_edges: int = WIDEST,
@@ -177,8 +155,6 @@ def dense_worlds(  # noqa: PLR0913  one argument a bound, and every one is optio
     marker: MarkerPlace = "any",
 ) -> SearchStrategy[World]:
     """Every world within the bounds with 2m >= n(n-1)/2. Shrinks to few edges, then few handles.
-
-    With `simple` these are the graphs in which every other pair of vertices, or more, is joined.
 
     Args, Raises: as for `worlds`.
     """
@@ -197,18 +173,14 @@ def dense_worlds(  # noqa: PLR0913  one argument a bound, and every one is optio
     )
 
 
-# ---------------------------------------------------------------- uniform worlds
-
 _SPARE = 8
-"""How many more bytes are drawn than the rank needs."""
+"""Bytes beyond those of the rank."""
 
 
 @shown_as_called
 def uniform_worlds(*, edges: int) -> SearchStrategy[World]:
-    """Every world with this many edges, each as likely as any other. Shrinks towards rank 0.
+    """Every world with this many edges, each equally likely. Shrinks towards rank 0.
 
-    Args:
-        edges: how many; 200 at most, as for ids.
     Raises:
         InputError: `edges` is not an integer from 0 to 200.
     """
@@ -216,7 +188,7 @@ def uniform_worlds(*, edges: int) -> SearchStrategy[World]:
     if edges > WIDEST:
         raise InputError(f"uniform_worlds: expected at most {WIDEST} edges, got {edges}")
     total = rank_order.count(edges)
-    # Bytes of a fixed length: Hypothesis draws these evenly, and 0 bytes are rank 0.
+    # Hypothesis draws bytes of a fixed length evenly
     length = (total.bit_length() + 7) // 8 + _SPARE
 
     def world(drawn: bytes) -> World:

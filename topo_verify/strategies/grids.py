@@ -1,12 +1,8 @@
 """Lattices: rectangles of a grid without some nodes, like the paper's street networks.
 
-    strategy   draws                                              its simplest world
-    lattices   rectangles of the grid, with holes, connected      m1/0: a single edge
-
-A rectangle is drawn that may have too many edges. Then nodes are taken out, unless the rest would
-fall apart. If there are still too many edges, single edges are taken out as well (closed streets).
-All lattices are planar and simple, with degrees of 4 at most, and carry their positions.
-`topo_verify.world.families.lattice` makes those of the paper's figures.
+From a rectangle nodes are removed, unless the rest would fall apart; then single edges (closed
+streets) if there are still too many. All lattices are planar and simple, with degrees of 4 at most,
+and carry their positions.
 """
 
 from __future__ import annotations
@@ -32,7 +28,7 @@ from topo_verify.strategies.shapes import WIDEST, edge_bounds, require_marker
 from topo_verify.world.rooted_map import Dart, World
 
 LatticeMarker = Literal["any", "hub"]
-"""As in the other strategies, but without "leaf": a lattice need not have a dead end."""
+"""No "leaf": a lattice need not have a dead end."""
 
 Node = tuple[int, int]
 """Row and column."""
@@ -63,12 +59,12 @@ def lattices(
 
 @st.composite
 def _lattices(draw: st.DrawFn, least: int, most: int, marker: LatticeMarker) -> World:
-    # Most worlds are small; the bound is drawn first, so that a failure shrinks its size first.
+    # first, so that failures shrink their size first
     bound = max(least, at_most(most, draw(st.sampled_from(AT_MOST))))
     sizes = _sizes(least, bound)
     columns = draw(sizes.columns)
     rows = draw(sizes.rows[columns])
-    # One string for all holes: Hypothesis shrinks it to none, which is a whole rectangle.
+    # one string, which shrinks to no holes
     turn, *holes = draw(st.binary(min_size=1, max_size=1 + most // _HOLES))
     grid = _rectangle(rows, columns)
     for hole in holes:
@@ -83,21 +79,21 @@ class _RectangleSizes:
     """How large a rectangle may be.
 
     Attributes:
-        columns: draws the longer side; ascending, each as often as shorter sides go with it.
-        rows: for each longer side, draws a shorter one.
+        columns: the longer side; ascending, once for each shorter side.
+        rows: for each longer side, a shorter one.
     """
 
     columns: SearchStrategy[int]
     rows: dict[int, SearchStrategy[int]]
 
 
-# Called for each example with few different arguments.
+# called for each example with few different arguments
 @lru_cache(maxsize=256)
 def _sizes(least: int, bound: int) -> _RectangleSizes:
     """The rectangles with at least `least` edges and about `bound` at most.
 
-    A rectangle may have a quarter and one column more than the bound, because nodes and edges are
-    taken out. So every number of edges occurs in several widths, with room for holes.
+    They may exceed the bound by a quarter and one column, for holes; so every number of edges
+    occurs in several widths.
     """
     rows = {
         c: [r for r in range(1, c + 1) if least <= 2 * r * c - r - c <= bound * 5 // 4 + 2 * r]
@@ -124,7 +120,7 @@ def _edges(grid: Grid) -> int:
 
 
 def _take_out(grid: Grid, node: Node, least: int) -> None:
-    """Take a node out if enough edges are left and the rest stays connected."""
+    """Remove a node if enough edges remain and the rest stays connected."""
     exits = grid.get(node, [])
     if exits and _edges(grid) - len(exits) >= least and _are_joined(grid, exits, without=node):
         del grid[node]
@@ -133,36 +129,36 @@ def _take_out(grid: Grid, node: Node, least: int) -> None:
 
 
 def _are_joined(grid: Grid, nodes: list[Node], *, without: Node) -> bool:
-    """Do paths lead from the first of these nodes to the others, none through `without`?"""
-    seen = {nodes[0], without}
+    """Whether paths lead from the first of these nodes to the others, none through `without`."""
+    reached = {nodes[0], without}
     queue = [nodes[0]]
-    for node in queue:  # grows as it goes
-        fresh = [other for other in grid[node] if other not in seen]
-        seen.update(fresh)
+    for node in queue:
+        fresh = [other for other in grid[node] if other not in reached]
+        reached.update(fresh)
         queue += fresh
-    return seen.issuperset(nodes)
+    return reached.issuperset(nodes)
 
 
 def _thin(grid: Grid, bound: int, turn: int) -> None:
-    """Take single edges out, from the one that `turn` picks on, until at most `bound` are left."""
+    """Remove single edges, from the one that `turn` picks on, until at most `bound` remain."""
     streets = [(u, v) for u, exits in grid.items() for v in exits if u < v]
     spare = len(streets) - bound
     turn = scaled(len(streets), turn)
     streets = streets[turn:] + streets[:turn]
-    # An edge is a bridge when its turn comes exactly if the later edges do not join its ends.
+    # an edge is a bridge in its turn iff the later edges do not join its ends
     part = {node: {node} for node in grid}
-    spared: list[tuple[Node, Node]] = []
+    removable: list[tuple[Node, Node]] = []
     for u, v in reversed(streets):
         if part[u] is part[v]:
-            spared.append((u, v))
+            removable.append((u, v))
         else:
             part[u] |= part[v]
             part |= dict.fromkeys(part[v], part[u])
-    for u, v in spared[::-1][: max(0, spare)]:
+    for u, v in removable[::-1][: max(0, spare)]:
         grid[u].remove(v)
         grid[v].remove(u)
         spare -= 1
-    for _ in range(spare):  # a tree by now: take out its last dead end
+    for _ in range(spare):  # by now a tree: take out its last dead end
         _take_out(grid, next(u for u in reversed(grid) if len(grid[u]) == 1), 0)
 
 

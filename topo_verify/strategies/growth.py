@@ -1,32 +1,30 @@
 """Makes a world of a string of bytes, one byte an edge.
 
-    letter         what it is                                                          e.g.
+    letter         meaning                                                             e.g.
     edge k         darts 2k and 2k+1; alpha(d) is d ^ 1                                 4, 5
     corner d       the place between dart d and the next one clockwise, sigma(d)        5
     newest corner  that of the highest dart                                            2k-1
 
 A byte is two bits of kind (leaf, split or cross: see `shapes.py`) and six bits of place, counted
 from the newest edge back. A leaf grows at that corner: at place 0 it is the newest leaf's sister,
-at place 1 its daughter. A closing leads from the newest corner to that corner among those that it
-may lead to; if it may lead to none, it starts from the next newest. If the requested kind is
-impossible here or would make the bounds unsatisfiable, the next kind is used.
+at place 1 its daughter. A closing leads from the newest corner to the place's corner among those
+that it may reach; if none, it starts from the next newest. If the requested kind is impossible here
+or would make the bounds unsatisfiable, the next kind is used.
 
 Places are relative, so that a world stays similar when Hypothesis removes a byte. Zeros make a
-star, ones a path. Hypothesis tries zeros first and keeps them if the test still fails. In a star no
-hypothesis is ever posed, so the test seldom fails there, and Hypothesis goes on to something
-smaller. (Paths at zero were tried: planted faults then ended in paths, at twice the edges of their
-smallest worlds.)
+star, ones a path. Hypothesis tries zeros first and keeps them if the test still fails; in a star no
+hypothesis is posed, so the test seldom fails, and Hypothesis shrinks further. (Rejected: paths at
+zero. Planted faults ended in paths of twice the edges of their smallest worlds.)
 
-Above 32 edges there are more than 64 corners. Then a second string of bytes says how many times 64
-are added to the place.
+Above 32 edges, a second string of bytes says how many times 64 are added to the place.
 
 Every map within the bounds is reached. Take a spanning tree and its vertices in an order that
 grows it; let each vertex grow as a leaf, then close its edges to itself and to earlier vertices in
-the order in which they lie clockwise from the edge by which it grew, a loop at its second end: each
-leads from the newest corner. The marker cannot stay at dart 0, where growth began, so it is drawn
-on its own. Only if it must lie at a leaf is it dart 0: the first edge is then in every tree.
+clockwise order from the edge by which it grew, a loop at its second end: each leads from the newest
+corner. The marker is drawn apart, except at a leaf, which is dart 0: the first edge is in every
+tree.
 
-Cost: O(m) a byte, and there are m bytes.
+Cost: O(m) a byte.
 """
 
 from __future__ import annotations
@@ -49,10 +47,10 @@ BALANCED: EdgeKinds = ("leaf", "leaf", "split", "cross")
 CROWDED: EdgeKinds = ("leaf", "split", "split", "cross")
 
 PLACES = 64
-"""How many places a byte can tell apart."""
+"""Places of one byte."""
 
 ONE_STRING = PLACES // 2
-"""The most edges at which a byte can tell all corners apart."""
+"""The most edges with places of one byte."""
 
 _INSTEAD: dict[EdgeKind, tuple[EdgeKind, EdgeKind, EdgeKind]] = {
     "leaf": ("leaf", "split", "cross"),
@@ -61,7 +59,7 @@ _INSTEAD: dict[EdgeKind, tuple[EdgeKind, EdgeKind, EdgeKind]] = {
 }
 
 _TRIALS = 32
-"""How many attempts are made at bytes that lead into a dead end."""
+"""Attempts at bytes that lead into a dead end."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,8 +68,8 @@ class Grown:
 
     Attributes:
         sigma: the next dart clockwise.
-        vertex: the vertex of each dart, in the order in which they grew.
-        closings: the edges outside the tree, in the order in which they came.
+        vertex: the vertex of each dart, in the order of growth.
+        closings: the edges outside the tree, in the order of growth.
     """
 
     sigma: tuple[Dart, ...]
@@ -87,12 +85,12 @@ class Grown:
 def grow(shape: Shape, kinds: EdgeKinds, steps: bytes, further: bytes = b"\0") -> Grown | None:
     """The map that these bytes stand for; None if they and all replacements end in a dead end.
 
-    Guarantees that the map has len(steps) edges and keeps the bounds, and that None can happen only
-    where `max_degree`, `simple` or `loopless` leave hardly any map.
+    The map has len(steps) edges and keeps the bounds. None is possible only if `max_degree`,
+    `simple` or `loopless` leave hardly any map.
     """
     shape = shape.at(len(steps))
-    shuffle = Random(steps)  # seeded with the bytes, so that the same bytes give the same map
-    # Trial 0 takes the bytes as they are, trial 1 the same with handles first, all others new ones.
+    shuffle = Random(steps)  # the same bytes give the same map
+    # trial 0 takes the bytes, trial 1 tries handles first, the others take new bytes
     for trial in range(_TRIALS):
         sapling = _Sapling(shape, len(steps), genus_first=trial > 0)
         grown = sapling.grow(kinds, steps, further)
@@ -104,7 +102,7 @@ def grow(shape: Shape, kinds: EdgeKinds, steps: bytes, further: bytes = b"\0") -
 
 
 class _Sapling:
-    """A map that grows. It lives for one call of `grow`."""
+    """A map that grows, during one call of `grow`."""
 
     def __init__(self, shape: Shape, edges: int, *, genus_first: bool = False) -> None:
         self._shape = shape
@@ -114,33 +112,32 @@ class _Sapling:
         self._vertex: list[int] = []
         self._face: list[int] = []
         self._closings: list[int] = []
-        self._room = [shape.first_room]  # per vertex: how many darts more it may have
+        self._room = [shape.first_room]  # how many more darts each vertex may have
         self._total_room = shape.first_room
-        self._joins: dict[tuple[int, int], int] = {}  # edges between two vertices, where it matters
+        self._joins: dict[tuple[int, int], int] = {}  # edges by their two vertices
         self._counts_joins = shape.max_parallel < MANY or shape.max_loops < MANY
         self._bounded = shape.max_degree < MANY or shape.leaf
         self._genus = 0
         self._faces = 1
-        # The next label of a face. `_faces` is smaller: a cross leaves a label without a face.
+        # not `_faces`: a cross leaves a label unused
         self._labels = 1
 
     def grow(self, kinds: EdgeKinds, steps: bytes, further: bytes) -> Grown | None:
-        """Grow all the edges, one a byte. Returns None at a dead end."""
+        """Grow all the edges; None at a dead end."""
         for step, more in zip(steps, cycle(further), strict=False):
             place = step % PLACES + PLACES * more
             kind = kinds[step // PLACES]
-            # After a dead end, handles come before all other closings: the bounds leave least room
-            # for them.
+            # after a dead end handles come first, since they have least room
             if self._genus_first and self._genus < self._shape.min_genus and kind != "leaf":
                 kind = "split" if self._faces == 1 else "cross"
-            # `any` stops at the first kind that is possible.
+            # `any` stops at the first possible kind
             if not any(self._add(kind, place) for kind in _INSTEAD[kind]):
                 return None
         return Grown(tuple(self._sigma), tuple(self._vertex), tuple(self._closings))
 
     def _add(self, kind: EdgeKind, place: int) -> bool:
-        """Add an edge of this kind, unless the map could not be finished then. Was one added?"""
-        # What the edge adds: vertices, faces, genus, room.
+        """Add an edge of this kind, if the map can be finished then. Returns whether it did."""
+        # what the edge adds: vertices, faces, genus, room
         if kind == "leaf":
             possible = self._can_finish(1, 0, 0, self._shape.max_degree - 2)
         elif kind == "split":
@@ -149,7 +146,7 @@ class _Sapling:
             possible = self._faces > 1 and self._can_finish(0, -1, 1, -2)
         if not possible:
             return False
-        # A split that prepares a missing handle is taken back if no cross is possible after it.
+        # taken back if no cross can follow, which a missing handle needs
         careful = self._genus_first and kind == "split" and self._genus < self._shape.min_genus
         for near, far in self._moves(kind, place):
             before = self._state() if careful else None
@@ -165,19 +162,17 @@ class _Sapling:
     def _can_finish(self, vertices: int, faces: int, genus: int, room: int) -> bool:
         return self._shape.can_finish(
             edges=self._edges,
-            left=self._edges - len(self._sigma) // 2 - 1,
+            to_come=self._edges - len(self._sigma) // 2 - 1,
             vertices=len(self._room) + vertices,
             faces=self._faces + faces,
             genus=self._genus + genus,
             room=self._total_room + room,
         )
 
-    # ------------------------------------------------------------ where an edge may go
-
     def _moves(self, kind: EdgeKind, place: int) -> Iterator[tuple[Dart, Dart]]:
         """The pairs of corners that an edge of this kind may join, from this place on."""
         darts = len(self._sigma)
-        if not darts:  # the first edge has no corner to grow from: -1 stands for the lone vertex
+        if not darts:  # -1: the lone vertex has no corner
             if kind == "leaf" or self._may_join(0, 0):
                 yield -1, -1
         elif kind != "leaf":
@@ -185,26 +180,26 @@ class _Sapling:
                 for far in _from_place(self._far_ends(near, across=kind == "cross"), place):
                     yield near, far
         elif self._bounded:
-            # d ^ 1 puts the far end of each edge first: place 0 is the newest leaf's sister.
+            # the far end first: place 0 is the newest leaf's sister
             corners = (d ^ 1 for d in range(darts - 1, -1, -1))
             free = [d for d in corners if self._room[self._vertex[d]] > 0]
             for near in _from_place(free, place):
                 yield near, near
         else:
-            # `^` binds last: count back from the newest dart, then take the other end of its edge.
+            # `^` binds last: the other end of the edge that the place names
             near = darts - 1 - nth(place, darts) ^ 1
             yield near, near
 
     def _far_ends(self, near: Dart, *, across: bool) -> list[Dart]:
         """The corners, newest first, to which an edge may lead from this one."""
-        # Corner d lies on the face of dart d ^ 1, which a walk along the face crosses to get there.
+        # corner d lies on the face of dart d ^ 1
         face, vertex, here = self._face, self._vertex, self._face[near ^ 1]
         corners = range(len(face) - 1, -1, -1)
         if across:
             ends = [d for d in corners if face[d ^ 1] != here]
         else:
             ends = [d for d in corners if face[d ^ 1] == here]
-        if not (self._bounded or self._counts_joins):  # nothing can forbid an end: save the check
+        if not (self._bounded or self._counts_joins):  # nothing can forbid an end
             return ends
         u = vertex[near]
         fit = [self._may_join(u, v) for v in range(len(self._room))]
@@ -219,10 +214,7 @@ class _Sapling:
             and self._joins.get((min(u, v), max(u, v)), 0) < self._shape.max_parallel
         )
 
-    # ------------------------------------------------------------ growth
-
     def _insert(self, corner: Dart, dart: Dart) -> None:
-        """Put a new dart, the next in number, into the corner."""
         self._sigma.append(self._sigma[corner])
         self._sigma[corner] = dart
 
@@ -250,14 +242,14 @@ class _Sapling:
             self._sigma += [b, a]
         else:
             u, v, face = self._vertex[far], self._vertex[near], self._face[near ^ 1]
-            # Order matters where both ends share a corner: the second goes behind the first.
+            # in one corner the second goes behind the first
             self._insert(far, a)
             self._insert(a if near == far else near, b)
         self._vertex += [u, v]
         self._face += [face, face]
         self._faces += -1 if across else 1
         self._genus += across
-        # A split gives b's side a new label, and a's side keeps the old one.
+        # b's side of a split gets a new label
         if not across:
             face = self._labels
             self._labels += 1
@@ -269,8 +261,8 @@ class _Sapling:
         self._count_join(u, v)
 
     def _label(self, dart: Dart, face: int) -> None:
-        """Label the darts along the face of this dart, which a split or a cross has changed."""
-        first = dart  # cross, then turn, until the walk along the face comes round
+        """Label the darts along the face of this dart."""
+        first = dart  # around the face
         while True:
             self._face[dart] = face
             dart = self._sigma[dart ^ 1]
@@ -282,16 +274,13 @@ class _Sapling:
             ends = (min(u, v), max(u, v))
             self._joins[ends] = self._joins.get(ends, 0) + 1
 
-    # ------------------------------------------------------------ trying an edge out
-
     def _state(self) -> dict[str, Any]:
         """A copy of everything that changes."""
-        # Shallow copies are enough, because the lists and the dict hold nothing that changes.
+        # shallow: their values do not change
         return {name: copy(value) for name, value in vars(self).items() if name != "_shape"}
 
 
 def _from_place(corners: list[Dart], place: int) -> list[Dart]:
-    """The corners from this place on, then those before it."""
     if not corners:
         return []
     start = nth(place, len(corners))
@@ -299,11 +288,11 @@ def _from_place(corners: list[Dart], place: int) -> list[Dart]:
 
 
 def nth(place: int, corners: int) -> int:
-    """The index below `corners` that the place means: as many of its low bits as fit.
+    """The index below `corners` that the place means: the low bits that fit.
 
-    The answer stays the same while later corners disappear, as they do when Hypothesis shrinks.
+    It stays the same while later corners disappear, as they do when Hypothesis shrinks.
     """
     bits = (corners - 1).bit_length()
     number = place & ((1 << bits) - 1)
-    # Without its top bit the number is below 2^(bits-1), and that is below `corners`.
+    # without its top bit it is below 2^(bits-1), which is below `corners`
     return number if number < corners else number - (1 << bits >> 1)

@@ -1,14 +1,7 @@
 """Draws algorithms of the catalogue with all policies that the paper leaves open, and door words.
 
-    strategy    draws                                         its simplest value
-    policies    which edge next, which hypothesis first        nearest, shortest: the reference
-    mappers     an algorithm of the catalogue with policies    basic with the reference policies
-    door_words  doors that a robot can take one after the      (): it stays where it is
-                other, beginning at the marker
-
-Every claim holds for every mapper drawn, so a test of a claim may draw any. (Those that assume a
-planar world are drawn on request only.) Door words are for tests of robots, charts and traces that
-need a walk but no mapper.
+The simplest policies are the reference's, nearest and shortest; the simplest mapper is basic with
+these; the simplest door word is (). Every claim holds for every mapper drawn.
 """
 
 from __future__ import annotations
@@ -51,8 +44,8 @@ def mappers(
     """An algorithm of the catalogue with its policies. Shrinks to the first, then to the reference.
 
     Args:
-        algorithms: names; all of the catalogue if None.
-        policies: which ones; all if None. `st.just(Policies())` for the reference policies.
+        algorithms: names; default: all of the catalogue.
+        policies: default: all; `st.just(Policies())` for the reference policies.
         planar: if no algorithms are named, also draw those that are right in planar worlds only.
     Raises:
         InputError: no such algorithm, or none at all.
@@ -77,12 +70,9 @@ def _with_policies(name: str, chosen: Policies) -> Algorithm:
     return CATALOGUE[name].with_policies(pick=chosen.pick, order=chosen.order)
 
 
-def _named(names: Iterable[str], random: bool) -> SearchStrategy[str]:  # noqa: FBT001  private
+def _named(names: Iterable[str], random: bool) -> SearchStrategy[str]:  # noqa: FBT001
     known = st.sampled_from(list(names))
     return known | st.integers(0, _MAX_SEED).map("random({})".format) if random else known
-
-
-# ---------------------------------------------------------------- door words
 
 
 @shown_as_called
@@ -91,11 +81,11 @@ def door_words(
 ) -> SearchStrategy[tuple[Door, ...]]:
     """Sequences of doors, each less than the degree of the vertex that it leads out of.
 
-    Shrinks to few doors, then to low ones: door 0 goes back. (At a vertex of degree above 256 only
-    the first 256 doors are drawn.)
+    Shrinks to few doors, then to low ones. At a vertex of degree above 256 only the first 256 doors
+    are drawn.
 
     Args:
-        world: where the robot walks; it begins at the marker.
+        world: where the robot walks, from the marker on.
         min_length, max_length: the number of doors.
     Raises:
         InputError: a length is out of range, or the world has no door and `min_length` is above 0.
@@ -125,7 +115,7 @@ def _door_words(draw: st.DrawFn, world: World, least: int, most: int) -> tuple[D
     doors: list[Door] = []
     at = world.root or 0
     for byte in draw_bytes(draw, least, most):
-        # Modulo the degree of the vertex at hand, so every string of bytes is a walk.
+        # so every string of bytes is a walk
         doors.append(byte % world.degrees[world.vertex_of[at]])
         at = world.alpha[exit_dart(world, at, doors[-1])]
     return tuple(doors)

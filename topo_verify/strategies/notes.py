@@ -10,9 +10,8 @@ Hypothesis then prints this line for the failing example:
 
     enhancement-ii (pick nearest, order shortest) in m4/17: 12 edge traversals
 
-With Hypothesis's own observability switch on (`HYPOTHESIS_EXPERIMENTAL_OBSERVABILITY=1`), every run
-carries the features `edges`, `genus`, `cost` and `loop closings` into the files that Hypothesis
-writes under `.hypothesis/observed`. Without it they are not computed.
+With `HYPOTHESIS_EXPERIMENTAL_OBSERVABILITY=1` Hypothesis writes the features of every run under
+`.hypothesis/observed`.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ class ObservedRun(Protocol):
 
     @property
     def world(self) -> World:
-        """The world that was explored."""
+        """The explored world."""
         ...
 
     @property
@@ -43,35 +42,32 @@ class ObservedRun(Protocol):
 
     @property
     def policies(self) -> Policies | None:
-        """The mapper's policies; None if it has none."""
+        """The mapper's policies, if any."""
         ...
 
     @property
     def cost(self) -> int:
-        """The number of edge traversals."""
+        """In edge traversals."""
         ...
 
     @property
     def trace(self) -> Trace:
-        """All events of the run."""
+        """All events."""
         ...
 
 
 def observe(run: ObservedRun) -> None:
-    """Note the run in Hypothesis. Does nothing outside of a test of Hypothesis."""
+    """Note the run in Hypothesis. Does nothing outside of its tests."""
     if not currently_in_test_context():
         return
-    note(describe(run))  # Hypothesis prints the notes of the failing example alone
+    note(describe(run))  # printed for the failing example only
     if observability_enabled():
         for feature, value in features(run).items():
             event(feature, value)
 
 
 def describe(run: ObservedRun) -> str:
-    """Algorithm, policies, world and cost in one line.
-
-    The world is named by its id; a world too large for an id by its JSON (`World.from_json`).
-    """
+    """Algorithm, policies, world (its id, or its JSON) and cost in one line."""
     world = run.world.id if len(run.world.edges) <= MAX_ID_EDGES else run.world.to_json()
     chosen = run.policies
     how = "" if chosen is None else f" (pick {chosen.pick}, order {chosen.order})"
@@ -79,7 +75,7 @@ def describe(run: ObservedRun) -> str:
 
 
 def features(run: ObservedRun) -> dict[str, int]:
-    """The numbers by which viewers of Hypothesis's observations can sort runs."""
+    """Numbers by which viewers of Hypothesis's observations sort runs."""
     loops = sum(isinstance(event, Augment) and event.kind == "loop" for event in run.trace)
     return {
         "edges": len(run.world.edges),

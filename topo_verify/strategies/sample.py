@@ -1,15 +1,13 @@
 """Draws worlds from a strategy outside of any test: the same ones for the same seed, everywhere.
 
-Hypothesis draws no two equal examples in one run and stops when a strategy has no more. If one run
-yields too few, another follows under the next seed, and worlds occur twice.
+Hypothesis draws no two equal examples in one run. If a run yields too few, another follows under
+the next seed, and worlds repeat.
 
-What this does not show: the worlds are not evenly spread. Hypothesis draws simple ones first and
-then variants of those it has drawn; draw `uniform_worlds` for an even spread. Another version of
-Hypothesis may draw other worlds.
+What this does not show: the worlds are not evenly spread, except those of `uniform_worlds`. Another
+version of Hypothesis may draw other worlds.
 
-A strategy on a command line is named by a call, as `planar_worlds(max_edges=20, simple=True)`. A
-name alone is the strategy with its widest arguments; only `uniform_worlds` needs an argument, the
-number of edges. `topo_verify.world.resolve` parses the text; it is never run as Python.
+A strategy on a command line is a call, as `planar_worlds(max_edges=20, simple=True)`; a name alone
+has the widest arguments.
 """
 
 from __future__ import annotations
@@ -71,9 +69,6 @@ def resolve_strategy(text: str) -> SearchStrategy[World]:
     return resolve.call(text, WORLDS, _KIND, bare=True)
 
 
-# ---------------------------------------------------------------- worlds outside of any test
-
-
 def sample(strategy: SearchStrategy[World], number: int, *, start: int = 0) -> list[World]:
     """This many worlds of the strategy.
 
@@ -92,14 +87,13 @@ def sample(strategy: SearchStrategy[World], number: int, *, start: int = 0) -> l
 
 @contextmanager
 def drawing_no_literals() -> Generator[None]:
-    """Within the block Hypothesis draws no literals of the modules that are loaded.
+    """Within the block Hypothesis draws no literals of the loaded modules.
 
-    Now and then it draws one from the sources of the project, and keeps those it has read in a
-    folder `.hypothesis`. Then what is drawn would depend on the folder that topo-verify is called
-    in, and on what else is loaded. Hypothesis has no setting for this.
+    Otherwise draws would depend on what else is loaded and on a folder `.hypothesis` where it is
+    called. Hypothesis has no setting for this.
     """
     module: dict[str, Any] = providers.__dict__
-    # The cache remembers the literals, too. A Hypothesis without these names is left as it is.
+    # the cache holds literals, too; other versions of Hypothesis lack these names
     exchanged: dict[str, Any] = {
         "_get_local_constants": Constants,
         "CONSTANTS_CACHE": LRUCache(1024),
@@ -120,7 +114,7 @@ def _one_run(strategy: SearchStrategy[World], number: int, start: int) -> list[W
     @settings(
         max_examples=number,
         phases=[Phase.generate],
-        database=None,  # or examples of earlier runs would come first
+        database=None,  # earlier examples would come first
         deadline=None,
         suppress_health_check=[
             HealthCheck.too_slow,

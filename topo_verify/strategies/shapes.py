@@ -1,32 +1,28 @@
 """Bounds on the worlds of a strategy, and whether any world keeps them.
 
-These arguments mean the same in every strategy:
-
-    min_edges, max_edges   the number of edges m; default: 1 to 200. A world with 200 edges still
-                           has a one-line id, so every failing example prints one. min_edges=0
-                           also draws m0/0, the world with no edge, which no command ever tries
-    min_genus, max_genus   the genus g of the surface; from 0 up
+    min_edges, max_edges   the number of edges m; default: 1 to 200, the worlds with an id.
+                           min_edges=0 also draws m0/0, the world with no edge
+    min_genus, max_genus   the genus g of the surface
     simple                 neither loops nor parallel edges
     loopless               no loops
     max_degree             no vertex has more exits than this
-    marker                 where the marker lies: "any" exit; "leaf", at a dead end, where its
-                           direction says nothing; "hub", at a vertex of the greatest degree, where
-                           it says most. m0/0 has no marker, so "leaf" excludes it
+    marker                 "any" exit; "leaf", at a dead end, where its direction says nothing;
+                           "hub", at a vertex of the greatest degree, where it says most. m0/0 has
+                           no marker, so "leaf" excludes it
 
 Worlds are grown edge by edge: a **leaf** is a new vertex on a new edge; a **split** joins two
 corners of one face (one face more); a **cross** joins corners of two faces (one face less, the
-genus one more). Splits and crosses together are **closings**: they close cycles. `can_finish` tells
-whether a half-grown map may still be finished within the bounds. The condition is necessary and
-uses counts alone:
+genus one more). Splits and crosses are **closings**. `can_finish` tells whether a half-grown map
+may still be finished within the bounds. Its condition is necessary and uses counts alone:
 
     closings  each missing handle takes a cross, and a split before it if there is one face
-    leaves    all edges to come that need not be closings are counted as leaves: that is best
+    leaves    all edges to come that need not be closings count as leaves, which is best
     room      the free places at vertices: a leaf takes one and brings max_degree - 1, a closing two
     capacity  the edges that the vertices can carry, if loops or parallels are forbidden
 
-What this does not show: that a world exists wherever the answer is yes. Without `max_degree` one
-does (one-faced graphs of diameter two: M. Škoviera, "The maximum genus of graphs of diameter two",
-Discrete Math. 87 (1991)); with it, the tests compare with all worlds up to 6 edges.
+What this does not show: that a world exists if it holds. Without `max_degree` one does (one-faced
+graphs of diameter two: M. Škoviera, "The maximum genus of graphs of diameter two", Discrete Math.
+87 (1991)); with it, the tests compare with all worlds up to 6 edges.
 """
 
 from __future__ import annotations
@@ -45,19 +41,19 @@ WIDEST = MAX_ID_EDGES
 """The default of max_edges."""
 
 LARGEST = 2000
-"""The greatest max_edges: Hypothesis allows 8 KiB of choices an example, this takes half."""
+"""The greatest max_edges: half of Hypothesis's 8 KiB of choices an example."""
 
 MANY = 10**9
-"""Stands for no bound."""
+"""No bound."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Shape:
-    """Bounds that a grown map keeps. The number of edges is not among them: it is drawn first.
+    """Bounds that a grown map keeps, without the number of edges, which is drawn first.
 
     Attributes:
         max_parallel, max_loops: edges between two vertices, and from one vertex to itself.
-        min_cycles, max_cycles: closings, that is edges outside a spanning tree.
+        min_cycles, max_cycles: edges outside a spanning tree.
         dense: at least half as many edges as there are pairs of vertices.
         leaf: the first vertex, which dart 0 leaves, has degree 1.
     """
@@ -75,60 +71,59 @@ class Shape:
 
     @property
     def first_room(self) -> int:
-        """How many darts the first vertex may have."""
+        """The most darts of the first vertex."""
         return min(1, self.max_degree) if self.leaf else self.max_degree
 
     def at(self, edges: int) -> Shape:
         """The same bounds for this number of edges: if dense, with the most vertices it allows."""
         if not self.dense:
             return self
-        # The largest n with n(n-1)/2 <= 2m.
+        # the largest n with n(n-1)/2 <= 2m
         return replace(self, max_vertices=(1 + isqrt(1 + 16 * edges)) // 2)
 
     def capacity(self, vertices: int) -> int:
         """The most edges that this number of vertices can carry."""
-        # The leaf with the marker has one edge; all others lie between the other vertices.
+        # the leaf with the marker has one edge; the others lie between the other vertices
         inner = vertices - 1 if self.leaf and vertices > 1 else vertices
         pairs = inner * (inner - 1) // 2
         return pairs * self.max_parallel + inner * self.max_loops + vertices - inner
 
     def can_finish(
-        self, *, edges: int, left: int, vertices: int, faces: int, genus: int, room: int
+        self, *, edges: int, to_come: int, vertices: int, faces: int, genus: int, room: int
     ) -> bool:
-        """Can a map keep all the bounds if `left` of its `edges` are still to come?
+        """Whether a map may keep all the bounds if `to_come` of its `edges` are missing.
 
-        The answer uses counts alone: no is always right, yes may be wrong.
+        It uses counts alone: no is always right, yes may be wrong.
         """
-        # As in the table above: the closings that must come, and the most leaves besides them.
         missing = max(0, self.min_genus - genus)
-        cycles = edges - left - vertices + 1
-        # A cross takes a face away and one must be left: faces - 1 of them need no split.
+        cycles = edges - to_come - vertices + 1
+        # one face must remain: faces - 1 crosses need no split
         closings = max(missing + max(0, missing - faces + 1), self.min_cycles - cycles)
-        leaves = min(left - closings, self.max_vertices - vertices)
+        leaves = min(to_come - closings, self.max_vertices - vertices)
         return (
             leaves >= 0
             and genus <= self.max_genus
-            and cycles + left - leaves <= self.max_cycles
-            and room >= (left > 0)
-            and room + leaves * (self.max_degree - 2) >= 2 * (left - leaves)
+            and cycles + to_come - leaves <= self.max_cycles
+            and room >= (to_come > 0)
+            and room + leaves * (self.max_degree - 2) >= 2 * (to_come - leaves)
             and edges <= self.capacity(vertices + leaves)
         )
 
     def is_possible(self, edges: int) -> bool:
-        """Can a world have this many edges? No is always right, yes may be wrong."""
+        """Whether a world may have this many edges; yes may be wrong."""
         if self.leaf and not edges:
             return False
         return self.at(edges).can_finish(
-            edges=edges, left=edges, vertices=1, faces=1, genus=0, room=self.first_room
+            edges=edges, to_come=edges, vertices=1, faces=1, genus=0, room=self.first_room
         )
 
     def edges_between(self, strategy: str, min_edges: int, max_edges: int) -> tuple[int, int]:
-        """The least and the greatest number of edges within these bounds that is possible.
+        """The least and the greatest possible number of edges within these bounds.
 
         Raises:
-            InputError: none is possible; the sentence says how many edges it takes.
+            InputError: none is possible; says how many edges it takes.
         """
-        # Possible numbers of edges have no gaps, and go on for ever unless degrees end them.
+        # possible numbers have no gaps, and only degrees end them
         for least in range(min_edges, max_edges + 1):
             if self.is_possible(least):
                 break
@@ -151,12 +146,11 @@ class Shape:
     def __repr__(self) -> str:
         return f"<{self}>"
 
-    def _repr_pretty_(self, printer: Any, _cycle: bool) -> None:  # noqa: FBT001  IPython's protocol
-        """The text that Hypothesis prints in the name of a strategy."""
+    def _repr_pretty_(self, printer: Any, _cycle: bool) -> None:  # noqa: FBT001
         printer.text(repr(self))
 
     def __str__(self) -> str:
-        """The bounds in words, without those that are not set."""
+        """The bounds that are set, in words."""
         words = [f"genus {_range(self.min_genus, self.max_genus)}"] * (
             self.min_genus > 0 or self.max_genus < MANY
         )
@@ -176,11 +170,8 @@ def _range(least: int, most: int) -> str:
     return f"{least} or more" if most >= MANY else f"{least} to {most}"
 
 
-# ---------------------------------------------------------------- checks of arguments
-
-
 def edge_bounds(strategy: str, min_edges: object, max_edges: object) -> tuple[int, int]:
-    """The bounds as plain integers in order.
+    """The bounds as plain integers.
 
     Raises:
         InputError: one is not a number of edges, or the least is above the greatest.
@@ -234,7 +225,7 @@ def degree_bound(strategy: str, max_degree: object) -> int:
 
 
 def integer(strategy: str, name: str, value: object) -> int:
-    """The value as a plain integer; refuses what is not one, or is negative."""
+    """The value as a plain integer of 0 or more."""
     if isinstance(value, SupportsIndex) and not isinstance(value, bool) and index(value) >= 0:
         return index(value)
     raise InputError(f"{strategy}: {name}={value!r}, expected an integer of 0 or more")
@@ -247,8 +238,10 @@ def require_marker(strategy: str, marker: str, known: tuple[str, ...]) -> None:
         raise InputError(f"{strategy}: marker={marker!r}, expected one of {places}")
 
 
-def _in_order(strategy: str, what: str, least: int, most: int) -> None:
+def _in_order(strategy: str, quantity: str, least: int, most: int) -> None:
     if least > most:
-        # min_edges=1 is the default, so the caller may not have written it.
-        mend = "min_edges=0 draws m0/0, too" if (what, most) == ("edges", 0) else "swap them"
-        raise InputError(f"{strategy}: min_{what}={least} is above max_{what}={most}: {mend}")
+        # min_edges=1 is the default
+        mend = "min_edges=0 draws m0/0, too" if (quantity, most) == ("edges", 0) else "swap them"
+        raise InputError(
+            f"{strategy}: min_{quantity}={least} is above max_{quantity}={most}: {mend}"
+        )

@@ -1,9 +1,5 @@
 """Worlds in which many places look alike, so that the marker alone tells them apart.
 
-    strategy           draws                                     its simplest world
-    symmetric_worlds   covers of small maps, all places of       m1/0: a single edge
-                       which look alike `sheets` times over
-
 A **cover** is made of copies of a small map, its *sheets*, numbered round a circle 0 … n-1. Each
 edge of the small map has a *shift* s: in sheet i it leads to sheet i + s. Turning the circle maps
 the cover onto itself, so without the marker no place differs from its n - 1 copies. Two kinds:
@@ -18,8 +14,8 @@ edge that is its own other half, which must shift by n/2: half an edge a sheet. 
     aAbB, 1                2 loops (a bouquet)          abA, n, b: n/2         Möbius ladder
 
 **Necklaces**: the small map is any map with a cycle; a bead with one closing edge to the next makes
-a ring of equal beads, a bead with loops of shift 1 a prism or a torus. Source of the construction
-(voltage graphs): J. L. Gross and T. W. Tucker, "Topological Graph Theory" (1987), chapter 2.
+a ring of equal beads, a bead with loops of shift 1 a prism or a torus. Source (voltage graphs): J.
+L. Gross and T. W. Tucker, "Topological Graph Theory" (1987), chapter 2.
 """
 
 from __future__ import annotations
@@ -58,7 +54,7 @@ _FIRST = st.sampled_from(
 )
 
 _NUMBERS = 8
-"""The least number of bytes that place the edges; after the last, the first is read again."""
+"""The least number of bytes that place the edges; they are read in a circle."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,8 +62,7 @@ class _CoverSizes:
     """How large rosettes or necklaces may be.
 
     Attributes:
-        smalls: how many darts a rosette has, or edges a bead. Ascending; a number stands there once
-            for each number of sheets that it can have.
+        smalls: darts of a rosette, or edges of a bead; ascending, once for each number of sheets.
         sheets: the number of sheets that goes with each of `smalls`.
     """
 
@@ -82,7 +77,7 @@ class Small:
     Attributes:
         alpha: the other dart of each dart's edge; itself, if it is half an edge.
         sigma: the next dart clockwise.
-        shift: by how many sheets an edge leads on, seen from each of its darts.
+        shift: of the edge, seen from each of its darts.
         vertex: the vertex of each dart.
     """
 
@@ -106,7 +101,7 @@ def symmetric_worlds(
 
     Shrinks to few edges, then to rosettes, then to few sheets.
 
-    Args: see `topo_verify.strategies.shapes`. The genus cannot be chosen: filter for it.
+    Args: see `topo_verify.strategies.shapes`. For a genus, filter.
     Raises:
         InputError: no rosette and no necklace keeps all the bounds.
     """
@@ -124,10 +119,10 @@ def symmetric_worlds(
 
 @st.composite
 def _symmetric(draw: st.DrawFn, shape: Shape, least: int, most: int, marker: MarkerPlace) -> World:
-    # Rosettes at index 0 of `kinds`, necklaces at 1.
+    # 0: rosettes, 1: necklaces
     bound, is_necklace = draw(_FIRST)
     kinds = _kinds(shape, least, max(least, at_most(most, bound)))
-    if not any(kinds):  # the bound drawn is too tight: use the bounds that were asked for
+    if not any(kinds):  # the bound drawn is too tight
         kinds = _kinds(shape, least, most)
     sizes = kinds[is_necklace] or kinds[not is_necklace]
     assert sizes is not None
@@ -141,7 +136,7 @@ def _symmetric(draw: st.DrawFn, shape: Shape, least: int, most: int, marker: Mar
         small = reject() if bead is None else necklace(shape, sheets, bead, numbers)
     if not small.alpha:
         return World((), (), None)
-    if marker == "leaf":  # dart 0 of a bead grown with `leaf` leaves a vertex of degree 1
+    if marker == "leaf":  # dart 0 leaves a leaf
         return cover(small, sheets, 0)
     return cover(small, sheets, draw_dart(draw, marked_darts(small.vertex, marker), 2 * most))
 
@@ -149,7 +144,7 @@ def _symmetric(draw: st.DrawFn, shape: Shape, least: int, most: int, marker: Mar
 def cover(small: Small, sheets: int, root: Dart) -> World:
     """The world of these sheets, joined by the shifts, with the marker on sheet 0."""
     darts = len(small.alpha)
-    # Dart d of sheet i has the number i·darts + d.
+    # dart d of sheet i is i·darts + d
     alpha = [
         (sheet + small.shift[dart]) % sheets * darts + small.alpha[dart]
         for sheet in range(sheets)
@@ -159,13 +154,10 @@ def cover(small: Small, sheets: int, root: Dart) -> World:
     return World(tuple(alpha), tuple(sigma), root)
 
 
-# ---------------------------------------------------------------- sizes
-
-
 @lru_cache(maxsize=256)
 def _kinds(shape: Shape, least: int, most: int) -> tuple[_CoverSizes | None, _CoverSizes | None]:
-    """The sizes of rosettes and of necklaces within the bounds; None where there are none."""
-    # n sheets make n·darts/2 edges of a rosette, n·edges of a bead; -(-a // b) rounds up.
+    """The sizes of rosettes and of necklaces within the bounds; None if there are none."""
+    # n sheets make n·darts/2 edges of a rosette, n·edges of a bead; -(-a // b) rounds up
     rosettes = {0: [1] * (least == 0 and not shape.leaf)}
     for darts in range(1, min(2 * most, shape.max_degree) + 1):
         sheets = range(max(1, -(-2 * least // darts)), 2 * most // darts + 1)
@@ -185,12 +177,12 @@ def _drawn(sheets: dict[int, list[int]]) -> _CoverSizes | None:
 
 
 def _is_rosette(shape: Shape, sheets: int, darts: int) -> bool:
-    """Is there a connected rosette with this number of darts, 1 or more, within the bounds?"""
-    if darts == 1:  # half an edge at each vertex: two sheets and one edge
+    """Whether a connected rosette has this number of darts, 1 or more, within the bounds."""
+    if darts == 1:  # two sheets, joined by one edge
         return sheets == 2
     if shape.leaf or sheets * darts % 2:
         return False
-    if shape.max_parallel == 1:  # darts lead to different other vertices
+    if shape.max_parallel == 1:  # all darts lead to different vertices
         return darts < sheets
     return shape.max_loops > 0 or sheets > 1
 
@@ -205,22 +197,19 @@ def _bead(shape: Shape, sheets: int) -> Shape:
     return replace(shape, min_cycles=1, max_loops=MANY)
 
 
-# ---------------------------------------------------------------- small maps
-
-
 def rosette(shape: Shape, sheets: int, darts: int, drawn: Iterator[int]) -> Small:
     """One vertex with `darts` darts: half edges, then whole ones, placed by the numbers drawn.
 
     The first whole edge shifts by 1, which joins all sheets.
     """
     halves = darts % 2
-    # Half edges all shift by sheets/2, so in a simple graph there is one at most.
+    # all half edges shift by sheets/2: at most one in a simple graph
     if sheets % 2 == 0 and shape.max_parallel > 1:
-        # Above 2 sheets a whole edge must be left: half edges only join opposite sheets.
+        # half edges only join opposite sheets, so above 2 sheets a whole edge must remain
         spare = darts - halves - 2 * (sheets > 2 and darts > 1)
         halves += 2 * (next(drawn) % (spare // 2 + 1))
-    # s and -s make the same edges, and sheets/2 makes each of them twice.
-    pool = list(range(1, (sheets + 1) // 2))  # all shifts of whole edges in a simple graph
+    # s and -s make the same edges, sheets/2 each of them twice
+    pool = list(range(1, (sheets + 1) // 2))
     alpha: list[Dart] = []
     shift: list[int] = []
     row: list[Dart] = []
@@ -238,7 +227,7 @@ def rosette(shape: Shape, sheets: int, darts: int, drawn: Iterator[int]) -> Smal
                 s = _free_shift(shape, sheets, next(drawn))
             alpha += [dart + 1, dart]
             shift += [s, -s]
-        # Byte 0 appends, so zeros keep the two darts of an edge side by side.
+        # byte 0 keeps the two darts of an edge side by side
         for new in range(dart, len(alpha)):
             row.insert(new - next(drawn) % (new + 1), new)
     after = dict(zip(row, row[1:] + row[:1], strict=True))
@@ -265,7 +254,7 @@ def necklace(shape: Shape, sheets: int, bead: Grown, drawn: Iterator[int]) -> Sm
             s = _free_shift(shape, sheets, next(drawn))
         else:
             s = next(drawn) % sheets
-        # Counted from the lesser vertex on: only so can shifts between two vertices be compared.
+        # from the lesser vertex on, so that shifts compare
         before.add(s)
         shift += [s, -s] if ends == (u, v) else [-s, s]
     return Small(bead.alpha, bead.sigma, tuple(shift), bead.vertex)

@@ -1,22 +1,19 @@
 """Families of worlds: well-known graphs, lattices, random graphs and maps, named by arguments.
 
-The name of each world is the call that made it without its defaults, such as
-`lattice(10,10,holes=0.2,seed=7)`; behind `family:` that text makes the same world again. All random
-draws come from `random.Random(seed)`, so a world is the same on every machine whose Python draws
-alike (3.11 to 3.13 do).
+A world's name is the call that makes it again, without defaults, such as
+`lattice(10,10,holes=0.2,seed=7)`. All draws come from `random.Random(seed)`, the same on every
+machine with Python 3.11 to 3.13.
 
-**Holes** are `round(holes·nodes)` nodes taken out at random. The largest component of the rest is
-kept (of equally large ones, that with the lowest node), as in every family that may fall apart.
+**Holes** are `round(holes·nodes)` nodes removed at random. The largest component of the rest is
+kept (of equally large ones, that with the lowest node).
 
-**The marker** is drawn from the same seed after everything else: a vertex, then one of its exits.
-So an average over seeds is one over starting places too, and a lattice does not always start in
-its corner. Random maps have the marker at their root (random_maps.py), families without a seed at
-dart 0. `marker=DART` puts it elsewhere and changes nothing else.
+**The marker** is drawn last: a vertex, then one of its exits, so an average over seeds is one over
+starting places too. Random maps have it at their root, families without a seed at dart 0.
+`marker=DART` changes nothing else.
 
-**Rotations** follow the drawing if there is one (`lattice`, `king`: node 0 at the top left, exits
-clockwise from the north, positions with y upwards; the tori, shapes and solids likewise, but
-without positions). Random maps are drawn with their rotations. In the other families each vertex's
-rotation is drawn uniformly.
+**Rotations** follow the drawing if there is one (node 0 at the top left, exits clockwise from the
+north, positions with y upwards; tori, shapes and solids without positions). Other families draw
+each vertex's rotation uniformly.
 """
 
 from collections.abc import Callable, Mapping
@@ -46,13 +43,6 @@ from topo_verify.world.families.shapes import (
 )
 from topo_verify.world.rooted_map import World
 
-# lattices.py       lattice, king, king_torus, torus, triangular_torus, hexagonal_torus
-# random_graphs.py  regular, dense, complete, complete_bipartite
-# random_maps.py    random_tree, random_planar, random_genus
-# shapes.py         path, cycle, star, wheel, prism; the five Platonic solids
-# _rotated_graph.py graphs with exits in clockwise order, and their worlds
-# _arguments.py     checks and limits of arguments, names of worlds
-
 FAMILIES: Mapping[str, Callable[..., World]] = {
     make.__name__: make
     for make in (
@@ -63,7 +53,7 @@ FAMILIES: Mapping[str, Callable[..., World]] = {
         *(tetrahedron, cube, octahedron, dodecahedron, icosahedron),
     )
 }
-"""All families by name, as it may follow `family:`."""
+"""All families by name."""
 
 __all__ = [
     "FAMILIES", "MAX_DARTS", "complete", "complete_bipartite", "cube", "cycle", "dense",

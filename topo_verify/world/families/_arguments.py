@@ -1,4 +1,4 @@
-"""Checks the arguments of families, and names the worlds that they make."""
+"""Checks the arguments of families, and names their worlds."""
 
 from __future__ import annotations
 
@@ -10,25 +10,25 @@ from topo_verify.errors import InputError
 from topo_verify.world.rooted_map import Dart
 
 MAX_DARTS = 10**6
-"""Larger worlds are refused: they take minutes and gigabytes, and are asked for by accident."""
+"""Larger worlds take minutes and gigabytes, and are usually a mistake."""
 
 
 def integer(family: str, name: str, value: object, least: int) -> int:
-    """The value as a plain int (NumPy has others); refuses what is not one, or is too small."""
+    """The value as a plain int (NumPy has others), at least `least`."""
     if isinstance(value, SupportsIndex) and not isinstance(value, bool) and index(value) >= least:
         return index(value)
     raise InputError(f"{family}: {name} is {value!r}, expected an integer of {least} or more")
 
 
 def marker(family: str, value: object) -> Dart | None:
-    """The value as a dart, or None for one to be drawn. `World` refuses unknown darts."""
+    """The value as a dart, or None for one to be drawn."""
     return None if value is None else integer(family, "marker", value, 0)
 
 
 def share(family: str, name: str, value: object, *, whole: bool) -> float:
-    """The value as a plain float; refuses what is not in 0 … 1 (1 only if `whole`)."""
+    """The value as a plain float in 0 … 1 (1 only if `whole`)."""
     if isinstance(value, SupportsFloat):
-        # A NaN fails the comparison and a huge integer overflows, so both are refused below.
+        # NaN fails the comparison, a huge integer overflows
         with suppress(OverflowError):
             share = float(value)
             if 0 <= share < 1 or (whole and share == 1):
@@ -45,7 +45,7 @@ def size(family: str, size: tuple[int, int], *, darts_each: int) -> tuple[int, i
 
 
 def require_darts(family: str, darts: int) -> None:
-    """Refuse a world that might get too large, before any of it is made."""
+    """Refuse a world that might get too large."""
     if darts > MAX_DARTS:
         raise InputError(
             f"{family}: so large a world might have more than {MAX_DARTS} darts (two an edge): ask"
@@ -54,7 +54,7 @@ def require_darts(family: str, darts: int) -> None:
 
 
 def name(family: str, *places: float, marker: Dart | None, **options: float) -> str:
-    """The call that makes the world again, without a drawn marker and without options of 0."""
+    """The call that makes the world again, without a drawn marker and options of 0."""
     given = [f"{key}={value!r}" for key, value in options.items() if value]
     if marker is not None:
         given.append(f"marker={marker}")

@@ -1,4 +1,4 @@
-"""Graphs whose exits are in clockwise order, and the worlds that they make."""
+"""Graphs whose exits are in clockwise order, and their worlds."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from topo_verify.world.rooted_map import Dart, World
 class EdgeEnd(NamedTuple):
     """One end of an edge, as seen from its node."""
 
-    to: int  # the node at the other end
+    to: int  # the other node
     edge: tuple[int, int]
-    side: int  # 0 or 1: which end of the edge; a loop has both at one node
+    side: int  # the end of the edge, 0 or 1
 
 
 Graph = dict[int, list[EdgeEnd]]
@@ -31,7 +31,7 @@ def from_neighbours(rows: Iterable[Sequence[int]]) -> Graph:
 
 
 def with_holes(name: str, graph: Graph, holes: float, random: Random) -> Graph:
-    """The largest component that is left when `round(holes·nodes)` nodes are taken out."""
+    """The largest component without `round(holes·nodes)` random nodes."""
     removed = set(random.sample(range(len(graph)), round(holes * len(graph))))
     if len(removed) == len(graph):
         raise InputError(f"{name}: no node is left among so many holes: take out fewer")
@@ -47,17 +47,17 @@ def with_holes(name: str, graph: Graph, holes: float, random: Random) -> Graph:
 def largest_component(graph: Graph) -> Graph:
     """The largest component; of several, that with the lowest node."""
     largest: list[int] = []
-    seen: set[int] = set()
+    known: set[int] = set()
     for node in graph:
-        if node not in seen:
-            seen.add(node)
+        if node not in known:
+            known.add(node)
             component = [node]
-            for reached in component:  # grows as it goes: a queue
-                # The order of this set does not show, because the component is sorted at the end.
-                fresh = {end.to for end in graph[reached]} - seen
-                seen |= fresh
+            for reached in component:
+                # the order of this set does not show: the component is sorted
+                fresh = {end.to for end in graph[reached]} - known
+                known |= fresh
                 component += fresh
-            # Of two that are as large, `max` keeps the earlier, which has the lower node.
+            # `max` keeps the earlier of equals
             largest = max(largest, component, key=len)
     return {node: graph[node] for node in sorted(largest)}
 
@@ -70,7 +70,7 @@ def as_world(
     positions: tuple[tuple[float, float], ...] = (),
 ) -> World:
     """The world of a connected graph: darts numbered node by node, clockwise."""
-    # The side is needed for loops, both ends of which are at one node.
+    # the side tells the ends of a loop apart
     number = {
         (end.edge, end.side): dart
         for dart, end in enumerate(end for ends in graph.values() for end in ends)
@@ -78,7 +78,7 @@ def as_world(
     rotations = [[number[end.edge, end.side] for end in ends] for ends in graph.values()]
     pairs = [(dart, number[edge, 1]) for (edge, side), dart in number.items() if side == 0]
     if marker is None and number and random:
-        # Not a choice among all darts: every vertex is to be as likely as any other.
+        # all vertices are equally likely, not all darts
         marker = random.choice(random.choice(rotations))
     try:
         return World.from_rotations(rotations, pairs, marker, name=name, positions=positions)

@@ -22,7 +22,7 @@ def lattice(
 
     Args:
         rows, columns: 1 or more; one row is a path.
-        holes: the share of the nodes that is taken out, 0 <= holes < 1.
+        holes: the share of removed nodes, 0 <= holes < 1.
         seed: 0 or more.
         marker: a dart; default: drawn.
     Raises:
@@ -36,8 +36,7 @@ def king(
 ) -> World:
     """A grid, each node joined with its eight neighbours, as a king moves in chess.
 
-    The diagonals cross in the drawing: by its angles it is a map of high genus. Arguments and
-    errors as for `lattice`.
+    Diagonals cross: a map of high genus. Arguments and errors as for `lattice`.
     """
     return _drawn("king", _KING, (rows, columns), holes, seed, marker)
 
@@ -45,19 +44,19 @@ def king(
 def king_torus(
     rows: int, columns: int, *, holes: float = 0.0, seed: int = 0, marker: Dart | None = None
 ) -> World:
-    """A `king` whose borders are joined, top with bottom and left with right: degrees 8, no holes.
+    """A `king` with joined opposite borders: degrees 8; simple from 3 by 3 on.
 
-    Arguments and errors as for `lattice`; without holes it is simple from 3 rows and 3 columns on.
+    Arguments and errors as for `lattice`.
     """
     return _drawn("king_torus", _KING, (rows, columns), holes, seed, marker, wrapped=True)
 
 
 def torus(rows: int, columns: int, *, marker: Dart | None = None) -> World:
-    """A grid whose borders are joined, top with bottom and left with right. Genus 1, degrees 4.
+    """A grid with joined opposite borders. Genus 1, degrees 4.
 
     Args:
-        rows, columns: 1 or more; where one is 1 there are loops, where one is 2 parallel edges.
-        marker: a dart; default: 0 (all places of a torus look alike, but for the direction).
+        rows, columns: 1 or more; 1 makes loops, 2 parallel edges.
+        marker: a dart; default: 0 (places look alike, but for the direction).
     Raises:
         InputError: an argument is out of range, or more than `MAX_DARTS` darts.
     """
@@ -65,19 +64,19 @@ def torus(rows: int, columns: int, *, marker: Dart | None = None) -> World:
 
 
 def triangular_torus(rows: int, columns: int, *, marker: Dart | None = None) -> World:
-    """A torus with one diagonal in each square: all faces triangles. Genus 1, degrees 6.
+    """A torus with one diagonal in each square. Genus 1, degrees 6; simple from 3 by 3 on.
 
-    Arguments and errors as for `torus`; it is simple from 3 rows and 3 columns on.
+    Arguments and errors as for `torus`.
     """
     return _wrapped("triangular_torus", (_NORTH, _NORTH_EAST, _EAST), (rows, columns), marker)
 
 
 def hexagonal_torus(rows: int, columns: int, *, marker: Dart | None = None) -> World:
-    """A honeycomb whose borders are joined: all faces hexagons. Genus 1, degrees 3.
+    """A honeycomb with joined opposite borders, two nodes a cell. Genus 1, degrees 3.
 
-    There are two nodes a cell. Arguments and errors as for `torus`; it is simple from 2 rows and 2
-    columns on. It is the dual of the triangular torus of the same size, faces taken as rotations:
-    drawn with north upwards, the exits of a node are listed anticlockwise.
+    Arguments and errors as for `torus`; simple from 2 by 2 on. It is the dual of the triangular
+    torus of the same size, faces taken as rotations: with north upwards, exits are listed
+    anticlockwise.
     """
     family = "hexagonal_torus"
     rows, columns = arguments.size(family, (rows, columns), darts_each=6)
@@ -85,7 +84,7 @@ def hexagonal_torus(rows: int, columns: int, *, marker: Dart | None = None) -> W
     graph: Graph = {}
     for cell in range(rows * columns):
         row, column = divmod(cell, columns)
-        for side in (0, 1):  # the three edges are named by the cell's west node and its exits
+        for side in (0, 1):  # edges are named by the cell's west node and its exits
             step = (-1, 1)[side]
             others = (
                 cell,
@@ -130,7 +129,7 @@ def _drawn(
     name = arguments.name(family, rows, columns, holes=holes, seed=seed, marker=marker)
     random = Random(seed)
     graph = with_holes(name, _grid(rows, columns, steps, wrapped=wrapped), holes, random)
-    if wrapped:  # a torus has no drawing in the plane
+    if wrapped:  # no drawing in the plane
         return as_world(name, graph, marker, random)
     positions = tuple((float(node % columns), float(rows - 1 - node // columns)) for node in graph)
     return as_world(name, graph, marker, random, positions)
@@ -145,7 +144,7 @@ def _grid(rows: int, columns: int, steps: Sequence[tuple[int, int]], *, wrapped:
     graph: Graph = {}
     for node in range(rows * columns):
         exits = graph[node] = []
-        # First along the steps, then against them: once around, clockwise.
+        # along the steps, then against them: clockwise
         for side in (0, 1):
             for way, (down, right) in enumerate(steps):
                 row = node // columns + (down, -down)[side]

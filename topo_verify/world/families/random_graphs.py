@@ -40,8 +40,7 @@ def regular(
     marker = arguments.marker(family, marker)
     name = arguments.name(family, nodes, degree, holes=holes, seed=seed, marker=marker)
     random = Random(seed)
-    # The order of the draws is a promise, because the name makes the world again: edges, holes,
-    # rotations, marker.
+    # The order of the draws is a promise: edges, holes, rotations, marker.
     graph = _graph(nodes, _regular_edges(nodes, degree, random))
     return _rotated(name, graphs.with_holes(name, graph, holes, random), marker, random)
 
@@ -102,26 +101,26 @@ def complete_bipartite(
 
 
 def _regular_edges(nodes: int, degree: int, random: Random) -> Iterable[tuple[int, int]]:
-    """The edges of a random regular graph, in an order that depends on the draws alone."""
-    if 2 * degree >= nodes:  # draw the complement: in a nearly full graph hardly a pair fits
+    """The edges of a random regular graph, in an order that the draws decide."""
+    if 2 * degree >= nodes:  # draw the complement, because few pairs fit in a nearly full graph
         missing = set(_regular_edges(nodes, nodes - 1 - degree, random))
         return [pair for pair in combinations(range(nodes), 2) if pair not in missing]
     while True:
-        edges: dict[tuple[int, int], None] = {}  # a dict keeps its order, a set does not
+        edges: dict[tuple[int, int], None] = {}  # ordered, unlike a set
         ends = [node for node in range(nodes) for _ in range(degree)]
         while ends:
             random.shuffle(ends)
-            left: list[int] = []
+            unpaired: list[int] = []
             for a, b in zip(ends[::2], ends[1::2], strict=True):
                 pair = (min(a, b), max(a, b))
                 if a == b or pair in edges:
-                    left += pair
+                    unpaired += pair
                 else:
                     edges[pair] = None
-            # `_some_fit` is slow, so it is asked only when a whole round has fitted nothing.
-            if len(left) == len(ends) and not _some_fit(left, edges):
-                break  # no pair of free ends fits: start again, as the paper does
-            ends = left
+            # rarely: `_some_fit` is slow
+            if len(unpaired) == len(ends) and not _some_fit(unpaired, edges):
+                break  # start again, as the paper does
+            ends = unpaired
         if not ends:
             return edges
 

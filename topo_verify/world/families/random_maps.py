@@ -2,23 +2,22 @@
 
 **Trees.** A rooted plane tree with m edges is a word of m ups and m downs that never sinks below
 its start. By the cycle lemma, m ups and m+1 downs, shuffled and read from behind their first lowest
-point, are such a word (and a last down): each equally likely.
+point, are such a word (and a last down), all equally likely.
 
 **Planar maps.** Every edge of a random tree gets a step -1, 0 or 1, which labels the vertices. Each
 corner, in the order of a walk around the tree, is joined with the next corner whose label is less
-by one, or with one new vertex where there is none. That gives a quadrangulation, a map in which
-every face has four sides; the vertices of even labels (or of odd ones: a coin decides), joined
-across each face, are the map. Each planar map with m edges arises from m+2 triples (tree, steps,
-coin), so it is **exactly uniform among all rooted planar maps**. Cost O(m).
+by one, or with one new vertex if there is none. That gives a quadrangulation; the vertices of even
+labels (or of odd ones: a coin decides), joined across each face, are the map. Each planar map with
+m edges arises from m+2 triples (tree, steps, coin), so it is **exactly uniform among all rooted
+planar maps**. Cost O(m).
 
 **Maps of a genus.** A random tree gets edges one after the other: one that joins two corners of a
-face splits that face, one that joins two faces makes them one and raises the genus. The numbers of
-vertices and the order of the two kinds are drawn so that every rooted map of that genus can come
-out; **they are not equally likely** (`world sample --class genus:1` draws those that are). Cost up
-to O(m²), hence `MAX_EDGES`.
+face splits that face, one that joins two faces merges them and raises the genus. Vertices and the
+order of the two kinds are drawn so that every rooted map of that genus can occur; **they are not
+equally likely** (`world sample --class genus:1` is uniform). Cost up to O(m²).
 
-**The marker** is at the root of the map, drawn with it: where the map is uniform, so is the world.
-The simplest world of each is the one without edges.
+**The marker** is at the root of the map: where the map is uniform, so is the world. The simplest
+world of each is the one without edges.
 
 Source: G. Schaeffer, "Conjugaison d'arbres et cartes combinatoires aléatoires", thesis, Bordeaux
 1998; P. Chassaing and G. Schaeffer, "Random planar lattices and integrated superBrownian
@@ -37,16 +36,16 @@ from topo_verify.world.families import _arguments as arguments
 from topo_verify.world.rooted_map import Dart, World
 
 MAX_EDGES = 10_000
-"""The most edges of `random_genus`, which takes half a second for them."""
+"""Of `random_genus`: half a second."""
 
 
 def random_tree(edges: int, *, seed: int = 0, marker: Dart | None = None) -> World:
-    """A tree with its rotations, uniform among all rooted plane trees with this many edges.
+    """A tree, uniform among all rooted plane trees with this many edges.
 
     Args:
         edges: 0 or more.
         seed: 0 or more.
-        marker: a dart; default: the root, drawn with the tree.
+        marker: a dart; default: the root.
     Raises:
         InputError: an argument is out of range, or more than `MAX_DARTS` darts.
     """
@@ -71,7 +70,7 @@ def random_planar(edges: int, *, seed: int = 0, marker: Dart | None = None) -> W
 
 
 def random_genus(edges: int, genus: int, *, seed: int = 0, marker: Dart | None = None) -> World:
-    """A map of this genus. Every one can be drawn; they are not equally likely.
+    """A map of this genus. All can be drawn; they are not equally likely.
 
     Args:
         edges: at least twice the genus, at most `MAX_EDGES`.
@@ -88,12 +87,12 @@ def random_genus(edges: int, genus: int, *, seed: int = 0, marker: Dart | None =
     edges, seed, marker = _checked(family, edges, seed, marker)
     name = arguments.name(family, edges, genus, seed=seed, marker=marker)
     random = Random(seed)
-    # A handle takes two edges outside the tree: one splits a face, one joins two.
+    # a handle takes two edges outside the tree: a split and a join
     in_tree = sum(random.randrange(2) for _ in range(edges - 2 * genus))
-    kinds = [1] * (edges - in_tree - genus) + [-1] * genus  # what each adds to the faces
+    kinds = [1] * (edges - in_tree - genus) + [-1] * genus  # of the faces
     random.shuffle(kinds)
     faces = _Faces(_walk(_tree(in_tree, random)))
-    # The sum so far is the number of faces less one. It is never negative, so a join finds two.
+    # the sum so far is faces - 1 >= 0, so a join finds two
     for kind in _from_lowest_point(kinds):
         (faces.split if kind > 0 else faces.join)(random)
     root = random.randrange(2 * edges) if edges else 0
@@ -110,7 +109,7 @@ def _checked(
 
 
 def _rooted(name: str, sigma: Sequence[Dart], root: Dart, marker: Dart | None) -> World:
-    """The world whose edges are the darts 0 and 1, 2 and 3 and so on."""
+    """The world with edges of darts 0 and 1, 2 and 3 and so on."""
     if marker is None and sigma:
         marker = root
     try:
@@ -121,15 +120,12 @@ def _rooted(name: str, sigma: Sequence[Dart], root: Dart, marker: Dart | None) -
 
 def _turning(faces: Sequence[Sequence[Dart]]) -> list[Dart]:
     """`sigma` of the map with these faces."""
-    # Along a face each dart is sigma∘alpha of the one before it, and alpha(d) = d ^ 1.
+    # along a face each dart is sigma∘alpha of the one before it, and alpha(d) = d ^ 1
     sigma = [0] * sum(map(len, faces))
     for face in faces:
         for place, dart in enumerate(face):
             sigma[face[place - 1] ^ 1] = dart
     return sigma
-
-
-# ---------------------------------------------------------------- trees
 
 
 def _tree(edges: int, random: Random) -> list[int]:
@@ -149,7 +145,7 @@ def _from_lowest_point(word: list[int]) -> list[int]:
 
 
 def _walk(word: Sequence[int]) -> list[Dart]:
-    """The darts that a walk around the tree takes: 2e up edge e, 2e+1 back."""
+    """The darts of a walk around the tree: 2e up edge e, 2e+1 back."""
     walk: list[Dart] = []
     above: list[int] = []
     edges = 0
@@ -163,22 +159,19 @@ def _walk(word: Sequence[int]) -> list[Dart]:
     return walk
 
 
-# ---------------------------------------------------------------- planar maps
-
-
 def planar_map(word: Sequence[int], steps: Sequence[int], *, coin: int) -> tuple[list[Dart], Dart]:
     """`sigma` and the root of the map that a tree, its steps and a coin encode.
 
     Args:
         word: the tree, ups (1) and downs (-1), at least one.
-        steps: what the label rises by along each edge, in the order of the ups.
-        coin: 0 or 1: the map's vertices have labels as even as the root's is, or as odd.
+        steps: the rise of the label along each edge, in the order of the ups.
+        coin: 0 or 1: the labels of the map's vertices are of the root's parity, or of the other.
     """
-    # An arc goes from label l to l - 1, so exactly one of its two darts is at a vertex of the map.
+    # an arc goes from label l to l - 1, so one of its darts is at a vertex of the map
     vertices, labels = _corners(word, steps)
     around = _quadrangulation(vertices, labels)
-    # A dart of the quadrangulation at one of the map's vertices also stands for the corner before
-    # it; across its face (twice: cross, then turn) lies the corner that this one is joined with.
+    # A kept dart also stands for the corner before it; across its face (twice: cross, then turn)
+    # lies the corner that this one is joined with.
     kept = [2 * i + (label - labels[0] + coin) % 2 for i, label in enumerate(labels)]
     number: dict[Dart, Dart] = {}
     for dart in kept:
@@ -192,12 +185,12 @@ def planar_map(word: Sequence[int], steps: Sequence[int], *, coin: int) -> tuple
 
 
 def _corners(word: Sequence[int], steps: Sequence[int]) -> tuple[list[int], list[int]]:
-    """The vertex and the label of each corner, in the order of the walk around the tree."""
+    """The vertex and the label of each corner, in the order of the walk."""
     rises = iter(steps)
     vertices, labels = [0], [0]
     below: list[tuple[int, int]] = []
     count = 1
-    # The last step leads back to the first corner.
+    # the last step leads back to the first corner
     for step in word[:-1]:
         if step > 0:
             below.append((vertices[-1], labels[-1]))
@@ -212,12 +205,12 @@ def _corners(word: Sequence[int], steps: Sequence[int]) -> tuple[list[int], list
 
 
 def _quadrangulation(vertices: Sequence[int], labels: Sequence[int]) -> list[Dart]:
-    """The next dart clockwise of each; arc i has dart 2i at corner i, 2i+1 where it leads."""
+    """The next dart clockwise of each; arc i has dart 2i at corner i, 2i+1 at its end."""
     corners = len(labels)
     arriving: list[list[Dart]] = [[] for _ in range(corners)]
     at_new: list[Dart] = []
     nearest: dict[int, int] = {}
-    for walked in reversed(range(2 * corners)):  # around twice: the first follows the last
+    for walked in reversed(range(2 * corners)):  # twice around: the first follows the last
         corner = walked % corners
         if walked < corners:
             after = nearest.get(labels[corner] - 1)
@@ -225,10 +218,10 @@ def _quadrangulation(vertices: Sequence[int], labels: Sequence[int]) -> list[Dar
         nearest[labels[corner]] = corner
     rotations: list[list[Dart]] = [[] for _ in range(max(vertices) + 1)]
     for corner, (vertex, darts) in enumerate(zip(vertices, arriving, strict=True)):
-        # Arcs do not cross, so the arc from the nearest corner before this one comes first.
+        # arcs do not cross: the one from the nearest earlier corner comes first
         rotations[vertex] += [*sorted(darts, key=_distance_to(corner, corners)), 2 * corner]
     around = [0] * (2 * corners)
-    # The new vertex lies outside: the order is reversed.
+    # the new vertex lies outside: reversed
     for rotation in (*rotations, at_new):
         for place, dart in enumerate(rotation):
             around[rotation[place - 1]] = dart
@@ -239,14 +232,11 @@ def _distance_to(corner: int, corners: int) -> Callable[[Dart], int]:
     return lambda dart: (corner - dart // 2) % corners
 
 
-# ---------------------------------------------------------------- maps of a genus
-
-
 class _Faces:
-    """The faces of a map that grows: it begins as a tree, and each call adds an edge.
+    """The faces of a map that begins as a tree; each call adds an edge.
 
-    `faces` are lists of darts, each in the order of a walk around it; `face_of` is the face of each
-    dart. The world of one vertex has one empty face.
+    `faces` are lists of darts in the order of a walk; `face_of` is the face of each dart. The world
+    of one vertex has one empty face.
     """
 
     def __init__(self, walk: list[Dart]) -> None:
@@ -254,14 +244,14 @@ class _Faces:
         self.face_of = [0] * len(walk)
 
     def split(self, random: Random) -> None:
-        """Join two corners of one face: a random corner, and any corner of its face."""
+        """Join a random corner with a random corner of its face."""
         face, first = self._corner(random)
         darts = self.faces[face]
         second = random.randrange(len(darts) or 1)
         here, there = self._edge()
         low, high = sorted((first, second))
         parts = [[here, *darts[low:high]], [there, *darts[high:], *darts[:low]]]
-        # The longer part keeps the face's number, so that fewer darts need a new one.
+        # the longer part keeps its number
         parts.sort(key=len)
         self.faces[face] = parts[1]
         self.faces.append(parts[0])
@@ -270,19 +260,24 @@ class _Faces:
             self.face_of[dart] = len(self.faces) - 1
 
     def join(self, random: Random) -> None:
-        """Join a random corner with a random corner of another face, each face as likely."""
-        one, first = self._corner(random)
-        two = (one + 1 + random.randrange(len(self.faces) - 1)) % len(self.faces)
-        second = random.randrange(len(self.faces[two]))
+        """Join a random corner with a random corner of a random other face."""
+        here_face, first = self._corner(random)
+        there_face = (here_face + 1 + random.randrange(len(self.faces) - 1)) % len(self.faces)
+        second = random.randrange(len(self.faces[there_face]))
         here, there = self._edge()
-        # Across the new edge, once around the other face, back, once around this one.
-        joined = [here, *_turned(self.faces[two], second), there, *_turned(self.faces[one], first)]
-        small, large = sorted((one, two), key=lambda face: len(self.faces[face]))
+        # across the new edge, around the other face, back, around this one
+        joined = [
+            here,
+            *_turned(self.faces[there_face], second),
+            there,
+            *_turned(self.faces[here_face], first),
+        ]
+        small, large = sorted((here_face, there_face), key=lambda face: len(self.faces[face]))
         for dart in (here, *self.faces[small], there):
             self.face_of[dart] = large
         self.faces[large] = joined
         last = self.faces.pop()
-        if small < len(self.faces):  # the last face takes the number that became free
+        if small < len(self.faces):  # the last face takes the free number
             self.faces[small] = last
             for dart in last:
                 self.face_of[dart] = small

@@ -1,17 +1,12 @@
 """Small well-known graphs and the Platonic solids, drawn in the plane without crossings: genus 0.
 
-Nodes on a circle are numbered clockwise, and exits are listed in the order of that drawing. Nothing
-is random, so there is no seed; the marker is at dart 0 by default. The simplest world of each:
-`path(1)` (a node alone), `cycle(1)` (a loop), `star(1)` (an edge), `wheel(3)` (the tetrahedron),
-`prism(3)`.
+Nodes on a circle are numbered clockwise. Nothing is random; the marker is at dart 0 by default. The
+simplest world of each: `path(1)` (a node alone), `cycle(1)` (a loop), `star(1)` (an edge),
+`wheel(3)` (the tetrahedron), `prism(3)`.
 
-**Solids** are planar worlds in which every dart looks like every other: wherever the marker points,
-the world is the same up to isomorphism; `marker=DART` only says which of the darts it is. The
-tetrahedron is a wheel and the cube a prism; the octahedron and the icosahedron are drawn with one
+**Solids** look the same from every dart. The octahedron and the icosahedron are drawn with one
 corner in the middle and one outside, rings between them; the dodecahedron is the dual of the
-icosahedron (its faces become vertices).
-
-Source: Euclid, "Elements", book XIII.
+icosahedron.
 """
 
 from __future__ import annotations
@@ -67,7 +62,7 @@ def wheel(rim: int, *, marker: Dart | None = None) -> World:
     def rows(n: int) -> Iterable[list[int]]:
         return [
             list(range(1, n + 1)),
-            # At the top of the circle: next node east, hub south, previous node west.
+            # at the top: next node east, hub south, previous node west
             *([(i + 1) % n + 1, 0, (i - 1) % n + 1] for i in range(n)),
         ]
 
@@ -75,14 +70,11 @@ def wheel(rim: int, *, marker: Dart | None = None) -> World:
 
 
 def prism(sides: int, *, marker: Dart | None = None) -> World:
-    """Two cycles of `sides` nodes (3 or more), one in the other, joined one to one.
-
-    The rest as for `path`.
-    """
+    """Two nested cycles of `sides` nodes (3 or more), joined one to one. The rest as for `path`."""
 
     def rows(n: int) -> Iterable[list[int]]:
         return [
-            # The outer cycle, then the inner one, whose nodes have the outer node in the north.
+            # the outer cycle, then the inner one with the outer node in the north
             *([(i + 1) % n, n + i, (i - 1) % n] for i in range(n)),
             *([i, n + (i + 1) % n, n + (i - 1) % n] for i in range(n)),
         ]
@@ -97,22 +89,19 @@ def _made(
     marker: Dart | None,
     graph: Callable[[int], Graph],
 ) -> World:
-    """The world of this graph, once its one argument is checked.
+    """The world of this graph, once its argument is checked.
 
     Args:
-        number: the argument's value, the least that it may be, and darts per unit.
+        number: the argument's value, its least value, and darts per unit.
     """
     value, least, darts_each = number
     value = arguments.integer(family, parameter, value, least)
     arguments.require_darts(family, darts_each * value)
     marker = arguments.marker(family, marker)
     name = arguments.name(family, value, marker=marker)
-    # path(1) has no dart that a marker could point at.
-    made = graph(value)
-    return as_world(name, made, 0 if marker is None and made[0] else marker)
-
-
-# ---------------------------------------------------------------- the Platonic solids
+    # path(1) has no dart
+    exits = graph(value)
+    return as_world(name, exits, 0 if marker is None and exits[0] else marker)
 
 
 def tetrahedron(*, marker: Dart | None = None) -> World:
@@ -132,21 +121,21 @@ def cube(*, marker: Dart | None = None) -> World:
 def octahedron(*, marker: Dart | None = None) -> World:
     """6 vertices of degree 4, 12 edges, 8 triangles."""
     ring = [[5, i % 4 + 1, 0, (i - 2) % 4 + 1] for i in range(1, 5)]
-    # The node outside sees the ring from its other side, so in the reverse order.
+    # reversed for the node outside
     rows = [[1, 2, 3, 4], *ring, [4, 3, 2, 1]]
     return _named("octahedron", as_world("octahedron", from_neighbours(rows), 0), marker)
 
 
 def dodecahedron(*, marker: Dart | None = None) -> World:
     """20 vertices of degree 3, 30 edges, 12 pentagons."""
-    # Faces taken as rotations make the dual or its mirror image; a solid is its own mirror image.
+    # the dual, or its mirror image, which is the same
     other = icosahedron()
     return _named("dodecahedron", World.from_rotations(other.faces, other.edges, 0), marker)
 
 
 def icosahedron(*, marker: Dart | None = None) -> World:
     """12 vertices of degree 5, 30 edges, 20 triangles."""
-    # Node 6 + i lies outside the inner ring, between node 1 + i and the next one.
+    # node 6 + i lies outside, between 1 + i and the next
     inner = [[6 + i, 1 + (i + 1) % 5, 0, 1 + (i - 1) % 5, 6 + (i - 1) % 5] for i in range(5)]
     outer = [[11, 6 + (i + 1) % 5, 1 + (i + 1) % 5, 1 + i, 6 + (i - 1) % 5] for i in range(5)]
     rows = [[1, 2, 3, 4, 5], *inner, *outer, [10, 9, 8, 7, 6]]

@@ -2,22 +2,20 @@
 
 The rotation at a vertex (a *place* of the drawing) is the **clockwise order of the directions in
 which the edges (its *ways*) leave**, from the north on, y upwards. A way leaves along the first
-segment of its course (its polyline) that has a length. Without a course a way is straight.
+segment of its course (its polyline; default: straight) that has a length.
 
-Directions are compared exactly: in floating point where that decides, in fractions where it does
-not. Two ways that leave in the very same direction have no order, and none is made up: an error
-names the place. A way whose course is a single point is an error as well.
+Directions are compared exactly: in fractions where floating point does not decide. Two ways that
+leave in the same direction have no order: an error names the place. A course of a single point is
+an error as well.
 
-**Which end is which.** A course may be written from either end. It is turned round where that
-brings its ends nearer to the places they belong to.
+**Which end is which.** A course is reversed if that brings its ends nearer to its places.
 
 **One street, two directions.** Directed graphs often hold a street twice, once for each direction
-of travel. A directed way with the same course as an earlier one, backwards, is that one, and each
-has one such partner at most. Ways with different courses stay apart: two carriageways are two
-parallel edges. Undirected ways are never merged.
+of travel. A directed way with the same course as an earlier one, backwards, is merged with it, in
+pairs. Different courses stay apart, and undirected ways are never merged.
 
 The marker points at the first dart of the first place, unless it is named. Where ways cross without
-a place (bridges) the map need not be planar; the drawing is taken as it is.
+a place (bridges) the map need not be planar.
 """
 
 from __future__ import annotations
@@ -39,31 +37,31 @@ W = TypeVar("W", bound=World)
 Point = tuple[float, float]
 
 FARTHEST = 1e12
-"""The largest coordinate, either way: products of two differences are far from overflowing."""
+"""The largest coordinate, either way: products of differences do not overflow."""
 
 
 MOST_EDGES = 500_000
-"""The most edges of a file: a million darts."""
+"""Of a file: a million darts."""
 
 MOST_POINTS = 1_000_000
-"""The most points of all polylines in a file: each takes 100 bytes and more, once read."""
+"""Of all polylines in a file, each 100 bytes and more in memory."""
 
 
 class DrawnVertex(NamedTuple):
-    """A vertex of the drawing: its name and its coordinates."""
+    """A vertex of the drawing."""
 
     name: str
     at: Point
 
 
 class DrawnEdge(NamedTuple):
-    """An edge of the drawing, from one vertex to another, by their numbers."""
+    """An edge of the drawing, between vertices by their numbers."""
 
     start: int
     end: int
     course: Sequence[Point] = ()  # from start to end, both included; empty: straight
     directed: bool = False
-    name: str = ""  # what to call it in messages
+    name: str = ""  # for messages
 
 
 class DrawnEnd(NamedTuple):
@@ -85,8 +83,8 @@ def as_world(
     """The world of the drawing.
 
     Args:
-        source: what to call the input in messages.
-        name: what to call the world.
+        source: the name of the input in messages.
+        name: the name of the world.
         marker: the end that it points at; default: the first dart of the first place.
     Raises:
         InputError: two ways leave a place in the same direction, a way has no direction, a place
@@ -113,21 +111,18 @@ def as_world(
         raise InputError(f"{source}: {error}") from error
 
 
-# ---------------------------------------------------------------- courses
-
-
 def _course(way: DrawnEdge, places: Sequence[DrawnVertex]) -> tuple[Point, ...]:
     """The way's points from its start to its end, none twice in a row."""
     start, end = places[way.start], places[way.end]
     points = list(way.course) or [start.at, end.at]
     course = (points[0], *(b for a, b in pairwise(points) if a != b))
     if len(course) < 2:
-        what = "a loop that is" if way.start == way.end else "an edge that is"
+        subject = "a loop that is" if way.start == way.end else "an edge that is"
         raise InputError(
-            f"at vertex '{shown(start.name)}' begins {what} a single point, so it leaves in"
+            f"at vertex '{shown(start.name)}' begins {subject} a single point, so it leaves in"
             " no direction: give it a geometry with two different points, or leave it out"
         )
-    # The course belongs to the way in the direction that brings its ends nearer to its places.
+    # turned if that brings its ends nearer to its places
     as_is = _apart(course[0], start.at) + _apart(course[-1], end.at)
     turned = _apart(course[-1], start.at) + _apart(course[0], end.at)
     return course[::-1] if turned < as_is else course
@@ -147,7 +142,7 @@ def _merged(
     for number, (way, course) in enumerate(zip(ways, courses, strict=True)):
         partners = waiting.get((way.end, way.start, course[::-1])) if way.directed else None
         if partners:
-            same[number] = partners.pop(0)  # each way has one partner at most
+            same[number] = partners.pop(0)
             continue
         kept.append(number)
         if way.directed:
@@ -156,15 +151,12 @@ def _merged(
 
 
 def _survivor(end: DrawnEnd, same: dict[int, int]) -> DrawnEnd:
-    # The way that is kept runs the other way, so its other end is at the same place.
+    # it runs the other way
     return DrawnEnd(same[end.way], 1 - end.side) if end.way in same else end
 
 
-# ---------------------------------------------------------------- directions
-
-
 class _LeavingEnd(NamedTuple):
-    """An end of a way, and the two points that give the direction in which it leaves."""
+    """An end of a way, and the two points of its direction."""
 
     end: DrawnEnd
     origin: Point
@@ -176,7 +168,7 @@ class _LeavingEnd(NamedTuple):
 
     @property
     def westward(self) -> bool:
-        """Does the direction point west or due south?"""
+        """Whether the direction is west or due south."""
         x, y = self.direction
         return x < 0 or (x == 0 and y < 0)
 
@@ -207,14 +199,13 @@ def _exits(
 
 
 def _require_connected(places: Sequence[DrawnVertex], ways: Sequence[DrawnEdge]) -> None:
-    """Refuse a drawing in several parts, and name a place that is not reached."""
     beside: list[list[int]] = [[] for _ in places]
     for way in ways:
         beside[way.start].append(way.end)
         beside[way.end].append(way.start)
     reached = {0: None}
     queue = [0]
-    for at in queue:  # grows as it goes
+    for at in queue:
         fresh = dict.fromkeys(other for other in beside[at] if other not in reached)
         reached |= fresh
         queue += fresh
@@ -231,38 +222,35 @@ def _clockwise(
     place: DrawnVertex, exits: Sequence[_LeavingEnd], ways: Sequence[DrawnEdge]
 ) -> list[DrawnEnd]:
     row = sorted(exits, key=cmp_to_key(_compared))
-    for one, other in pairwise(row):
-        if _compared(one, other) == 0:
-            names = [shown(ways[leaving.end.way].name, limit=60) for leaving in (one, other)]
+    for first, second in pairwise(row):
+        if _compared(first, second) == 0:
+            names = [shown(ways[leaving.end.way].name, limit=60) for leaving in (first, second)]
             raise InputError(
                 f"at vertex '{shown(place.name)}' two edges leave at the same angle,"
-                f" '{names[0]}' toward {one.toward} and '{names[1]}' toward {other.toward}, so"
+                f" '{names[0]}' toward {first.toward} and '{names[1]}' toward {second.toward}, so"
                 " neither comes first: move a point of one of them, or leave one out"
             )
-    return [one.end for one in row]
+    return [first.end for first in row]
 
 
-def _compared(one: _LeavingEnd, other: _LeavingEnd) -> int:
-    """Negative where `one` comes first clockwise from the north, 0 for the very same direction."""
-    if one.westward != other.westward:
-        return 1 if one.westward else -1
-    # Both point into one half, so less than half a turn lies between them. Then the cross product
-    # a·d - b·c is positive exactly if `other` is anticlockwise from `one`, and so comes first.
-    (a, b), (c, d) = one.direction, other.direction
+def _compared(first: _LeavingEnd, second: _LeavingEnd) -> int:
+    """Negative if `first` comes first clockwise from the north, 0 for the same direction."""
+    if first.westward != second.westward:
+        return 1 if first.westward else -1
+    # less than half a turn lies between them, so a·d - b·c > 0 iff `second` is anticlockwise from
+    # `first`, and comes first
+    (a, b), (c, d) = first.direction, second.direction
     ahead, back = a * d, b * c
-    if abs(ahead - back) > 1e-12 * (abs(ahead) + abs(back)):  # more than rounding can amount to
+    if abs(ahead - back) > 1e-12 * (abs(ahead) + abs(back)):  # more than rounding errors
         return 1 if ahead > back else -1
-    # Too close to call in floating point: the coordinates are exact as fractions.
-    (p, q), (r, s) = one.exact, other.exact
+    # coordinates are exact as fractions
+    (p, q), (r, s) = first.exact, second.exact
     turn = p * s - q * r
     return (turn > 0) - (turn < 0)
 
 
-# ---------------------------------------------------------------- texts
-
-
 def require_size(name: str, *, vertices: int, edges: int, points: int) -> None:
-    """Refuse a file as soon as it has more than memory is promised for."""
+    """Refuse a file as soon as it exceeds the promised memory."""
     if vertices > MOST_EDGES + 1 or edges > MOST_EDGES or points > MOST_POINTS:
         raise InputError(
             f"{name}: expected at most {MOST_EDGES:,} edges, their vertices, and"
@@ -271,40 +259,39 @@ def require_size(name: str, *, vertices: int, edges: int, points: int) -> None:
         )
 
 
-def number(value: Any, what: str, most: float = FARTHEST) -> float:
+def number(value: Any, subject: str, most: float = FARTHEST) -> float:
     """The value as a coordinate.
 
     Raises:
-        InputError: it is not a number, or larger than `most`, either way.
+        InputError: it is no number, or larger than `most`, either way.
     """
     with suppress(TypeError, ValueError, OverflowError):
-        found = float(value)
-        if abs(found) <= most:
-            return found + 0.0  # no negative zero
-    # A long integer is not written out: Python refuses to, beyond some thousand digits.
-    seen = "an integer" if isinstance(value, int) else repr(value)
+        coordinate = float(value)
+        if abs(coordinate) <= most:
+            return coordinate + 0.0  # not -0.0
+    # Python refuses to print very long integers
+    got = "an integer" if isinstance(value, int) else repr(value)
     raise InputError(
-        f"{what} is {shown(seen, limit=60)}, expected a number of at most {most:.0e} in size"
+        f"{subject} is {shown(got, limit=60)}, expected a number of at most {most:.0e} in size"
     )
 
 
-def line(text: str, what: str) -> tuple[Point, ...]:
-    """The points of a polyline in well-known text, `LINESTRING (0 0, 1 2)`; heights are left out.
+def line(text: str, subject: str) -> tuple[Point, ...]:
+    """The points of a polyline in well-known text, `LINESTRING (0 0, 1 2)`, without heights.
 
     Raises:
-        InputError: the text is not such a line.
+        InputError: the text is no such line.
     """
-    found = re.fullmatch(r"\s*LINESTRING\s*(?:Z\s*)?\(([^()]*)\)\s*", text, re.IGNORECASE)
-    if not found:
+    match = re.fullmatch(r"\s*LINESTRING\s*(?:Z\s*)?\(([^()]*)\)\s*", text, re.IGNORECASE)
+    if not match:
         raise InputError(
-            f"{what} is '{shown(text, limit=60)}', expected a line as LINESTRING (0 0, 1 2)"
+            f"{subject} is '{shown(text, limit=60)}', expected a line as LINESTRING (0 0, 1 2)"
         )
-    # One point at a time, since a million of them as texts take ten times the memory.
-    return points((part.split() for part in _parts(found[1])), what)
+    # lazily: a million points as texts take ten times the memory
+    return points((part.split() for part in _parts(match[1])), subject)
 
 
 def _parts(text: str) -> Iterator[str]:
-    """What stands between the commas."""
     begin = 0
     while (comma := text.find(",", begin)) >= 0:
         yield text[begin:comma]
@@ -312,18 +299,18 @@ def _parts(text: str) -> Iterator[str]:
     yield text[begin:]
 
 
-def points(rows: Iterable[Sequence[object]], what: str) -> tuple[Point, ...]:
-    """The points of a polyline, x and y each; a third coordinate, a height, is left out.
+def points(rows: Iterable[Sequence[object]], subject: str) -> tuple[Point, ...]:
+    """The points of a polyline, x and y each, without heights.
 
     Raises:
-        InputError: a point has fewer or more coordinates, or one of them is not a number.
+        InputError: a point has other coordinates than two or three numbers.
     """
-    return tuple(_point(row, what) for row in rows)
+    return tuple(_point(row, subject) for row in rows)
 
 
-def _point(row: Sequence[object], what: str) -> Point:
+def _point(row: Sequence[object], subject: str) -> Point:
     if len(row) not in {2, 3}:
         raise InputError(
-            f"{what} has a point of {len(row)} coordinates, expected x and y: give it both"
+            f"{subject} has a point of {len(row)} coordinates, expected x and y: give it both"
         )
-    return number(row[0], what), number(row[1], what)
+    return number(row[0], subject), number(row[1], subject)

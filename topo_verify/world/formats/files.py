@@ -1,6 +1,6 @@
 """Reads files up to a limit and writes them whole or not at all, for every format.
 
-Every failure is an `InputError` of one sentence that names the file and what the system said.
+Every failure is an `InputError` that names the file and what the system said.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import IO, TextIO
 from topo_verify.errors import InputError, shown
 
 LIMIT = 64 * 2**20
-"""Bytes that a file may have: room for a world of a million darts with positions, twice."""
+"""Bytes of a file: a world of a million darts with positions, twice."""
 
 
 def read(path: str | PathLike[str]) -> bytes:
@@ -40,7 +40,7 @@ def opened(path: str | PathLike[str]) -> Generator[IO[bytes]]:
     try:
         with Path(path).open("rb") as file:
             yield file
-    except (OSError, ValueError) as error:  # ValueError: a path with a null character
+    except (OSError, ValueError) as error:  # a null character in the path
         if isinstance(error, InputError):
             raise
         raise InputError(f"cannot read {shown(path)}: {_reason(error)}; name a file") from error
@@ -52,14 +52,14 @@ def standard_input() -> IO[bytes]:
     Raises:
         InputError: it was closed before the start.
     """
-    stream: TextIO | None = sys.stdin  # it is None after <&-
+    stream: TextIO | None = sys.stdin  # after <&-
     if stream is None:
         raise InputError("standard input is closed: name a file, or pipe the text in")
     return stream.buffer
 
 
 def lines(stream: IO[bytes], *, name: str) -> Iterator[bytes]:
-    """The lines of a stream of any length, one after the other.
+    """The lines of a stream of any length.
 
     Raises:
         InputError: a line has more than `LIMIT` bytes.
@@ -74,7 +74,7 @@ def read_stream(stream: IO[bytes], *, name: str) -> bytes:
     """The bytes of the stream until it ends.
 
     Raises:
-        InputError: it has more than `LIMIT` bytes; one more is read, so an endless stream is safe.
+        InputError: more than `LIMIT` bytes; an endless stream is safe.
     """
     data = stream.read(LIMIT + 1)
     if len(data) > LIMIT:
@@ -83,7 +83,7 @@ def read_stream(stream: IO[bytes], *, name: str) -> bytes:
 
 
 def too_large(name: str) -> str:
-    """The error message that refuses more than `LIMIT` bytes."""
+    """The error message for more than `LIMIT` bytes."""
     return (
         f"{name} is larger than {LIMIT // 2**20} MiB, the most that is read (a million darts take"
         " less): give a smaller one"
@@ -93,12 +93,11 @@ def too_large(name: str) -> str:
 def write(path: str | PathLike[str], text: str | bytes) -> None:
     """Write the bytes, or the text as UTF-8: all of it or nothing.
 
-    A reader of the file sees either its old content or all of the new: a temporary file in the same
-    folder takes its place once it is complete. Links are followed and permissions kept. Anything
-    but a regular file (a pipe, a terminal, the null device) is written to directly, not replaced.
+    A complete temporary file in the same folder replaces the old one. Links are followed and
+    permissions kept. Anything but a regular file (a pipe, a terminal) is written to directly.
 
     Raises:
-        InputError: the system refuses, with its reason; no temporary file is left behind.
+        InputError: the system refuses; no temporary file remains.
     """
     try:
         data = text.encode() if isinstance(text, str) else text
@@ -114,23 +113,23 @@ def write(path: str | PathLike[str], text: str | bytes) -> None:
 
 
 def _replace(target: Path, data: bytes) -> None:
-    # In the same folder, because a file cannot be renamed into another file system.
+    # a file cannot be renamed into another file system
     temporary = target.parent / f".topo-verify-{token_hex(8)}"
     try:
         with temporary.open("xb") as file:
             file.write(data)
             file.flush()
-            os.fsync(file.fileno())  # or a crash could leave an empty file under the new name
+            os.fsync(file.fileno())  # a crash could leave an empty file
         if target.exists():
             temporary.chmod(target.stat().st_mode & 0o777)
         temporary.replace(target)
-    except BaseException:  # an interrupt, too, leaves nothing behind
+    except BaseException:  # an interrupt, too
         temporary.unlink(missing_ok=True)
         raise
 
 
 def stem(path: str | PathLike[str]) -> str:
-    """The file's name without its ending: the name of a world that has none in its file."""
+    """The file's name without its ending."""
     return os.fsencode(Path(path).stem).decode("utf-8", "replace")
 
 

@@ -1,19 +1,15 @@
 """GraphML: worlds with their rotation, and drawings as OSMnx and NetworkX write them.
 
-A graph whose data `format` is `topo-verify/graph` carries its rotation in data of the names that
-rotated.py lists, darts as `0 5 3`. `encode` writes such graphs; they hold every world whole, except
-texts with characters that XML cannot hold.
+A graph whose data `format` is `topo-verify/graph` carries its rotation in the data that rotated.py
+lists, darts as `0 5 3`. `encode` writes such graphs.
 
-Any other graph is a **drawing**. The reader takes from each node its data `x` and `y` (y upwards;
-degrees of longitude and latitude order the exits just as metres do); from each edge its data
-`geometry`, a polyline in well-known text, if it has one, and whether it is directed. It ignores the
-rest. embedding.py says how a drawing becomes a world, which two directed edges are one street, and
-what is refused. The vertices come in the order of the nodes in the file and keep their ids as
-names. A street network as OSMnx saves it (`save_graphml`) is directed, with both directions of a
-street: each pair becomes one edge. A network in several parts is refused;
+Any other graph is a **drawing** (embedding.py): nodes with `x` and `y` (y upwards, or degrees of
+longitude and latitude), edges directed or not, perhaps with a `geometry` in well-known text; other
+data are ignored. Vertices keep their ids as names. A street network of OSMnx (`save_graphml`) holds
+both directions of a street: each pair becomes one edge. A network in several parts is refused;
 `osmnx.truncate.largest_component` keeps one.
 
-Source: U. Brandes and others, "GraphML Progress Report", Graph Drawing 2001; http://graphml.graphdrawing.org.
+Source: U. Brandes and others, "GraphML Progress Report", Graph Drawing 2001.
 """
 
 from __future__ import annotations
@@ -37,7 +33,7 @@ _WANTED = {
     "node": ("x", "y", "rotation", "name"),
     "edge": ("geometry", "darts"),
 }
-"""The names of the data that are read, of each kind of element."""
+"""The data that are read."""
 
 
 def load(cls: type[W], path: str | PathLike[str]) -> W:
@@ -53,8 +49,8 @@ def decode(cls: type[W], data: bytes, *, name: str = "GraphML", stem: str = "") 
     """The world in the bytes.
 
     Args:
-        name: what to call the input in messages.
-        stem: what to call the world, if the graph has no name for it.
+        name: the name of the input in messages.
+        stem: the name of the world if the graph has none.
     Raises:
         InputError: the bytes are not GraphML; a node has neither position nor rotation; the drawing
             or the rotation is refused.
@@ -77,15 +73,14 @@ def decode(cls: type[W], data: bytes, *, name: str = "GraphML", stem: str = "") 
     return embedding.as_world(cls, places, ways, source=name, name=stem)
 
 
-def _at(node: Mapping[str, str], what: str) -> Point:
-    """The position of a node of a drawing."""
+def _at(node: Mapping[str, str], subject: str) -> Point:
     missing = [axis for axis in ("x", "y") if axis not in node]
     if missing:
         raise InputError(
-            f"{what} has no '{missing[0]}': the rotation comes from positions, so each"
+            f"{subject} has no '{missing[0]}': the rotation comes from positions, so each"
             " node has its x and y as data"
         )
-    x, y = (embedding.number(node[axis], f"{what}, {axis}") for axis in ("x", "y"))
+    x, y = (embedding.number(node[axis], f"{subject}, {axis}") for axis in ("x", "y"))
     return x, y
 
 
@@ -95,18 +90,18 @@ def _rotated(cls: type[W], reader: _Reader, stem: str) -> W:
     rotated.require_version(graph["format"], graph.get("version"), source=name)
     vertices: list[RotatedVertex] = []
     for key, node in reader.nodes.items():
-        what = reader.what("node", key)
+        subject = reader.what("node", key)
         if "rotation" not in node:
-            raise InputError(f"{what} has no 'rotation': give it its darts in clockwise order")
-        darts = rotated.darts_in(node["rotation"], f"{what}, rotation")
-        at = rotated.point(node.get("x"), node.get("y"), what)
+            raise InputError(f"{subject} has no 'rotation': give it its darts in clockwise order")
+        darts = rotated.darts_in(node["rotation"], f"{subject}, rotation")
+        at = rotated.point(node.get("x"), node.get("y"), subject)
         vertices.append(RotatedVertex(key, darts, node.get("name"), at))
     edges: list[RotatedEdge] = []
     for edge, start, end in reader.joined():
-        what = reader.what("edge", edge.name)
+        subject = reader.what("edge", edge.name)
         if edge.darts is None:
-            raise InputError(f"{what} has no 'darts': give it the two darts of its ends")
-        edges.append(RotatedEdge(start, end, rotated.darts_in(edge.darts, f"{what}, darts")))
+            raise InputError(f"{subject} has no 'darts': give it the two darts of its ends")
+        edges.append(RotatedEdge(start, end, rotated.darts_in(edge.darts, f"{subject}, darts")))
     marker = rotated.darts_in(graph.get("marker", ""), f"{name}: the marker")
     if len(marker) > 1:
         raise InputError(f"{name}: the marker has {len(marker)} darts: give it one")
@@ -121,7 +116,7 @@ def _rotated(cls: type[W], reader: _Reader, stem: str) -> W:
 
 
 class _Edge(NamedTuple):
-    """An edge as it is read; `source` and `target` are ids of nodes that may follow."""
+    """An edge as read; `source` and `target` are ids of nodes that may follow."""
 
     source: str | None
     target: str | None
@@ -132,27 +127,26 @@ class _Edge(NamedTuple):
 
     @property
     def name(self) -> str:
-        """What the edge is called in messages."""
+        """The name in messages."""
         return " ".join(text for text in self[:3] if text is not None)
 
 
 class _Reader:
-    """Collects the keys, nodes and edges of a document while it is read.
+    """Collects the keys, nodes and edges of a document.
 
-    `element` is the data of the graph, node or edge that is open, `attributes` the attributes of
-    the node or edge.
+    `element` is the data of the open graph, node or edge, `attributes` the attributes.
     """
 
     def __init__(self, name: str) -> None:
         self.name = name
         self.is_graphml = False
-        self.directed: bool | None = None  # None until the graph begins
-        self.keys: dict[tuple[str, str], str] = {}  # the names of the data by kind and key
+        self.directed: bool | None = None  # None before the graph
+        self.keys: dict[tuple[str, str], str] = {}  # names of data by kind and key
         self.defaults: dict[str, dict[str, str]] = {kind: {} for kind in _WANTED}
-        self.about: dict[str, str] = {}  # the data of the graph
+        self.about: dict[str, str] = {}  # of the graph
         self.nodes: dict[str, dict[str, str]] = {}
         self.edges: list[_Edge] = []
-        self.points = 0  # in all geometries
+        self.points = 0  # of all geometries
         self.attributes: dict[str, str] = {}
         self.element: dict[str, str] = {}
         self.data_key = ""
@@ -194,7 +188,7 @@ class _Reader:
                 pass
 
     def _key(self, attributes: Mapping[str, str]) -> None:
-        # The key of a <default> that may follow within this <key>.
+        # for the <default> in this <key>
         self.data_key = attributes.get("id", "")
         for kind, wanted in _WANTED.items():
             name = attributes.get("attr.name", "")
@@ -205,8 +199,8 @@ class _Reader:
         name = self.keys.get((kind, self.data_key))
         if name is not None:
             if name in element:
-                what = f"{self.name}: the graph" if kind == "graph" else self._open(kind)
-                raise InputError(f"{what} has '{name}' twice: leave one of the two out")
+                subject = f"{self.name}: the graph" if kind == "graph" else self._open(kind)
+                raise InputError(f"{subject} has '{name}' twice: leave one of the two out")
             element[name] = text
 
     def _node(self) -> None:
@@ -238,16 +232,16 @@ class _Reader:
         embedding.require_size(self.name, vertices=len(self.nodes), edges=edges, points=self.points)
 
     def _open(self, kind: str) -> str:
-        """What the open node or edge is called in messages."""
+        """The name of the open node or edge in messages."""
         given = (self.attributes.get(key) for key in ("source", "target", "id"))
         return self.what(kind, " ".join(text for text in given if text is not None))
 
     def what(self, kind: str, name: str) -> str:
-        """What a node or an edge is called in messages."""
+        """The name of a node or an edge in messages."""
         return f"{self.name}: {kind} '{shown(name, limit=60)}'"
 
     def joined(self) -> Iterator[tuple[_Edge, int, int]]:
-        """Each edge with the numbers of its nodes, once all are known."""
+        """Each edge with the numbers of its nodes."""
         number = {name: place for place, name in enumerate(self.nodes)}
         for edge in self.edges:
             start, end = (number.get(key or "") for key in edge[:2])
@@ -259,27 +253,24 @@ class _Reader:
             yield edge, start, end
 
 
-# ---------------------------------------------------------------- writing
-
-
 _UNFIT = re.compile("[^\t\n\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""What no XML can hold; and the carriage return, which every reader makes a new line."""
+"""What XML cannot hold; also the carriage return, which readers make a new line."""
 
 
 def encode(world: World) -> str:
-    """GraphML with the world's rotation: the same world gives the same text.
+    """GraphML with the world's rotation, the same text for the same world.
 
     Raises:
-        InputError: a name, the source or the licence holds a character that XML cannot hold.
+        InputError: a text holds a character that XML cannot hold.
     """
     import networkx as nx
 
     from topo_verify.world.formats.nx import to_networkx
 
     for text in (world.name, world.source, world.licence, *world.vertex_names):
-        if found := _UNFIT.search(text):
+        if match := _UNFIT.search(text):
             raise InputError(
-                f"GraphML cannot hold the character {found[0]!a} in {shown(repr(text), limit=60)}:"
+                f"GraphML cannot hold the character {match[0]!a} in {shown(repr(text), limit=60)}:"
                 " rename it, or write world JSON or nx-json"
             )
     graph: Any = to_networkx(world)
@@ -288,6 +279,6 @@ def encode(world: World) -> str:
     for *_, attributes in graph.edges(data=True):
         attributes["darts"] = " ".join(map(str, attributes["darts"]))
     file = BytesIO()
-    # Not `write_graphml`, which writes other bytes where lxml is installed.
+    # with lxml, `write_graphml` writes other bytes
     cast("Any", nx).write_graphml_xml(graph, file)
     return file.getvalue().decode().removesuffix("\n")

@@ -1,12 +1,10 @@
 """Reads XML that may be hostile, as a stream.
 
-A document type declaration is refused: it is the only place where entities are declared, so without
-it nothing expands ("billion laughs") and nothing is fetched from another file or from the network.
-The depth is limited here, the size by `files.LIMIT`. Only the caller keeps anything, so a document
-of many elements needs little memory.
+A document type declaration is refused: entities are declared only there, so nothing expands
+("billion laughs") and nothing is fetched. The depth is limited here, the size by `files.LIMIT`.
+Only the caller keeps anything. Names come without their namespaces.
 
-Names come without their namespaces. Source: the expat of Python's standard library; the dangers
-are those in the section "XML security" of its manual.
+Source: "XML security" in the manual of Python's standard library.
 """
 
 from __future__ import annotations
@@ -20,20 +18,20 @@ DEEPEST = 64
 """Elements within elements; the formats here need 6."""
 
 _SEPARATOR = "\x01"
-"""What stands between a namespace and a name; no document can hold this character."""
+"""Between a namespace and a name; no document can hold it."""
 
 OnStart = Callable[[tuple[str, ...], dict[str, str]], None]
-"""Called with the names from the root to an element that begins, and its attributes."""
+"""Called at an element's start with the names from the root and its attributes."""
 
 OnEnd = Callable[[tuple[str, ...], str], None]
-"""Called with the names from the root to an element that ends, and the text just before its end."""
+"""Called at an element's end with the names from the root and the text just before it."""
 
 
 def read(data: bytes, *, name: str, start: OnStart, end: OnEnd) -> None:
     """Go through the document.
 
     Args:
-        name: what to call the input in messages.
+        name: the name of the input in messages.
     Raises:
         InputError: it is not XML, has a document type, or is nested too deeply; also whatever
             `start` and `end` raise.
@@ -66,10 +64,10 @@ def read(data: bytes, *, name: str, start: OnStart, end: OnEnd) -> None:
     parser.CharacterDataHandler = text.append
     parser.StartDoctypeDeclHandler = refuse
     try:
-        parser.Parse(data, True)  # noqa: FBT003  expat's own signature: this is all
+        parser.Parse(data, True)  # noqa: FBT003  expat's signature
     except expat.ExpatError as error:
         raise InputError(f"{name} is not valid XML: {error}") from error
-    # expat knows no encoding of that name, or it is one of several bytes a character.
+    # an encoding that expat does not know
     except (LookupError, ValueError) as error:
         if isinstance(error, InputError):
             raise

@@ -5,11 +5,8 @@
      "nodes": [{"rotation": [0], "id": 0}, {"rotation": [1], "id": 1}],
      "edges": [{"darts": [0, 1], "source": 0, "target": 1, "key": 0}]}
 
-`networkx.node_link_graph` reads it, and D3 and its kin do. It holds every world whole; rotated.py
-names the attributes. The list of edges is called `edges`, as NetworkX 3.6 calls it by default;
-`links`, its former name, is read as well. Other fields are ignored, none may stand twice.
-
-Source: https://networkx.org/documentation/stable/reference/readwrite/json_graph.html.
+`networkx.node_link_graph` and D3 read it. rotated.py names the attributes. `links`, the former name
+of `edges`, is read as well. Other fields are ignored; repeated ones are refused.
 """
 
 from __future__ import annotations
@@ -27,7 +24,7 @@ from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
 
-_SAFE = 2**53  # up to here every reader of JSON agrees on integers
+_SAFE = 2**53  # exact in every reader of JSON
 _FileDart = Annotated[int, Meta(ge=-_SAFE, le=_SAFE)]
 _Id = int | str
 
@@ -69,16 +66,13 @@ class _NodeLink(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class _Header(msgspec.Struct):
-    """What is read first: a newer version may have other fields than these."""
+    """Read first: a newer version may have other fields."""
 
     graph: dict[str, Any]
 
 
-# ---------------------------------------------------------------- reading
-
-
 def load(cls: type[W], path: str | PathLike[str]) -> W:
-    """The world in the file, called after the file if it gives no name.
+    """The world in the file, named after the file if it gives no name.
 
     Raises:
         InputError: as `decode`, or the file cannot be read.
@@ -91,8 +85,8 @@ def decode(cls: type[W], text: str | bytes, *, name: str = "node-link JSON", ste
     """The world in the text.
 
     Args:
-        name: what to call the input in messages.
-        stem: what to call the world if the text has no name for it.
+        name: the name of the input in messages.
+        stem: the name of the world if the text has none.
     Raises:
         InputError: the text is not node-link JSON, or its graph carries no world.
     """
@@ -154,14 +148,11 @@ def _parse(text: str | bytes, name: str) -> _NodeLink:
     return data
 
 
-# ---------------------------------------------------------------- writing
-
-
 def encode(world: World) -> str:
-    """Node-link JSON on one line: the same world gives the same text.
+    """Node-link JSON on one line, the same text for the same world.
 
     Raises:
-        InputError: a name, the source or the licence holds half of a surrogate pair.
+        InputError: a text holds half of a surrogate pair.
     """
     data = _NodeLink(
         graph=_Graph(**rotated.attributes(world)),

@@ -1,22 +1,17 @@
 """NetworkX: every world as a multigraph and back, planar embeddings, graphs with positions.
 
-NetworkX is imported when one of these functions is called, because it takes long to load.
-
 **Multigraphs with rotations** (`to_networkx`, `from_networkx`) hold every world whole: rotated.py
 names their attributes. Nodes are the numbers of the vertices, keys those of the edges.
 
-**Planar embeddings** (`networkx.PlanarEmbedding`) hold clockwise orders, as worlds do, for simple
-planar graphs: other worlds are refused. The vertices come in the order of the nodes, each from its
-first neighbour on; what is written numbers its nodes as the world numbers its vertices and begins
-with the marker's, so that the marker comes back as the first dart of the first vertex.
+**Planar embeddings** (`networkx.PlanarEmbedding`) hold clockwise orders of simple planar graphs.
+Vertices come in the order of the nodes, each from its first neighbour on; when written, the
+marker's vertex and dart come first, so that they come back as the marker.
 
-**Graphs with positions** become worlds as embedding.py says: clockwise by the angle of each edge's
-first segment, y upwards; equal angles are an error. A street network from OSMnx can be given as it
-is, projected or not.
+**Graphs with positions** become worlds as embedding.py says, such as a street network from OSMnx,
+projected or not.
 
-In the last two the marker is the first dart of the first vertex, unless it is named by the two
-ends of its edge: `marker=("a", "b")` lies at a and points to b; in a multigraph a key may follow.
-Vertices keep their nodes' names as texts.
+In the last two the marker is the first dart of the first vertex, unless `marker=("a", "b")` names
+its edge: it lies at a and points to b; in a multigraph a key may follow.
 """
 
 from __future__ import annotations
@@ -35,14 +30,11 @@ if TYPE_CHECKING:
     import networkx as nx
 
 MarkerEnds = tuple[Any, ...]
-"""The node where the marker lies, the node that it points to, and perhaps the edge's key."""
-
-
-# ---------------------------------------------------------------- multigraphs with rotations
+"""The marker's node, the node that it points to, and perhaps the edge's key."""
 
 
 def to_networkx(world: World) -> nx.MultiGraph[int]:
-    """The world's graph, whose attributes carry the rotation; `from_networkx` brings it back.
+    """The world's graph; its attributes carry the rotation.
 
     The graph has `marker`; each node has `rotation`, its darts clockwise; each edge has `darts`.
     Names and positions (`x`, `y`) come along where the world has them.
@@ -59,12 +51,12 @@ def to_networkx(world: World) -> nx.MultiGraph[int]:
 
 
 def from_networkx(graph: nx.Graph[Any]) -> World:
-    """The world of a graph with the attributes that `to_networkx` gives; others are ignored.
+    """The world of a graph with the attributes of `to_networkx`; others are ignored.
 
-    Nodes and keys may have been renamed. The vertices come in the order of the nodes.
+    Nodes and keys may have been renamed.
 
     Raises:
-        InputError: a node has no rotation, an edge no darts, or together they make no world.
+        InputError: a node has no rotation, an edge no darts, or they make no world.
     """
     given = cast("Any", graph)
     if "format" in given.graph:
@@ -76,8 +68,8 @@ def from_networkx(graph: nx.Graph[Any]) -> World:
     edges: list[RotatedEdge] = []
     for start, end, attributes in given.edges(data=True):
         if "darts" not in attributes:
-            what = f"the graph: edge {shown(repr((start, end)), limit=60)}"
-            raise InputError(f"{what} has no 'darts': give it the two darts of its ends")
+            subject = f"the graph: edge {shown(repr((start, end)), limit=60)}"
+            raise InputError(f"{subject} has no 'darts': give it the two darts of its ends")
         edges.append(RotatedEdge(nodes[start], nodes[end], attributes["darts"]))
     return rotated.as_world(
         World,
@@ -90,18 +82,15 @@ def from_networkx(graph: nx.Graph[Any]) -> World:
 
 
 def _rotated(attributes: Mapping[str, Any], node: Any) -> RotatedVertex:
-    what = f"the graph: node {shown(repr(node), limit=60)}"
+    subject = f"the graph: node {shown(repr(node), limit=60)}"
     if "rotation" not in attributes:
         raise InputError(
-            f"{what} has no 'rotation', its darts in clockwise order: give it one, or read the"
+            f"{subject} has no 'rotation', its darts in clockwise order: give it one, or read the"
             " graph with from_positions or from_planar_embedding"
         )
     name = attributes.get("name")
-    at = rotated.point(attributes.get("x"), attributes.get("y"), what)
+    at = rotated.point(attributes.get("x"), attributes.get("y"), subject)
     return RotatedVertex(str(node), attributes["rotation"], None if name is None else str(name), at)
-
-
-# ---------------------------------------------------------------- planar embeddings
 
 
 def from_planar_embedding(
@@ -111,7 +100,7 @@ def from_planar_embedding(
 
     Args:
         marker: (node, neighbour); default: the first node and its first neighbour.
-        name: what to call the world.
+        name: of the world.
     Raises:
         InputError: the embedding is broken, empty or not connected, or has no such edge.
     """
@@ -119,7 +108,7 @@ def from_planar_embedding(
 
     source = "the planar embedding"
     given = cast("Any", embedding)
-    try:  # NetworkX's own check, because a half-made embedding fails in many ways
+    try:  # half-made embeddings fail in many ways
         given.check_structure()
         rows = {node: list(given.neighbors_cw_order(node)) for node in given}
     except (nx.NetworkXException, KeyError, TypeError) as error:
@@ -141,7 +130,7 @@ def from_planar_embedding(
 
 
 def to_planar_embedding(world: World) -> nx.PlanarEmbedding[int]:
-    """The embedding whose nodes are the numbers of the world's vertices, the marker's first.
+    """The embedding whose nodes are the numbers of the vertices, the marker's first.
 
     Raises:
         InputError: the world is not simple or not planar.
@@ -152,7 +141,7 @@ def to_planar_embedding(world: World) -> nx.PlanarEmbedding[int]:
     first = world.marker_vertex
     order = [first, *(v for v in range(len(world.vertices)) if v != first)]
     rotations = list(world.vertices)
-    if world.root is not None:  # the marker's dart comes first at its vertex, as it is read back
+    if world.root is not None:  # the marker's dart comes first
         turn = world.place_of[world.root]
         rotations[first] = rotations[first][turn:] + rotations[first][:turn]
     embedding: nx.PlanarEmbedding[int] = nx.PlanarEmbedding()
@@ -161,9 +150,6 @@ def to_planar_embedding(world: World) -> nx.PlanarEmbedding[int]:
         {v: [world.vertex_of[world.alpha[dart]] for dart in rotations[v]] for v in order}
     )
     return embedding
-
-
-# ---------------------------------------------------------------- graphs with positions
 
 
 def from_positions(
@@ -177,12 +163,11 @@ def from_positions(
 
     Args:
         graph: its edges may have an attribute `geometry`: a list of (x, y), a text such as
-            LINESTRING (0 0, 1 2), or anything with such a list as its `coords`. Without it they are
-            straight.
+            LINESTRING (0 0, 1 2), or an object whose `coords` are such a list; default: straight.
         positions: (x, y) of each node; default: the nodes' own attributes, `x` and `y` or `pos`.
         marker: (node, neighbour) or (node, neighbour, key); default: the first dart of the first
             node.
-        name: what to call the world.
+        name: of the world.
     Raises:
         InputError: a position is missing, a geometry is malformed, two edges leave a node at one
             angle, the graph is empty or not connected, or the marker names no edge or several.
@@ -205,42 +190,42 @@ def from_positions(
 
 
 def _at(attributes: Mapping[str, Any], node: Any, positions: Mapping[Any, Any] | None) -> Point:
-    what = f"the graph: the position of node {shown(repr(node), limit=60)}"
+    subject = f"the graph: the position of node {shown(repr(node), limit=60)}"
     position: Any = attributes.get("pos") if positions is None else positions.get(node)
     if position is None and positions is None and "x" in attributes and "y" in attributes:
         position = attributes["x"], attributes["y"]
     if position is None:
         raise InputError(
-            f"{what} is missing: the rotation comes from positions; give each node x and y, or pos,"
-            " or hand a mapping to `positions`"
+            f"{subject} is missing: the rotation comes from positions; give each node x and y,"
+            " or pos, or hand a mapping to `positions`"
         )
-    (point,) = embedding.points([_row(position, what)], what)
+    (point,) = embedding.points([_row(position, subject)], subject)
     return point
 
 
 def _geometry(graph: Any, label: tuple[Any, ...]) -> Sequence[Point]:
-    what = f"the graph: the geometry of edge {shown(repr(label), limit=60)}"
+    subject = f"the graph: the geometry of edge {shown(repr(label), limit=60)}"
     value = graph.edges[label].get("geometry")
     if value is None:
         return ()
     if isinstance(value, str):
-        return embedding.line(value, what)
-    rows = _row(getattr(value, "coords", value), what)
-    return embedding.points([_row(row, what) for row in rows], what)
+        return embedding.line(value, subject)
+    rows = _row(getattr(value, "coords", value), subject)
+    return embedding.points([_row(row, subject) for row in rows], subject)
 
 
-def _row(value: Any, what: str) -> list[Any]:
-    """The items of a row, of whatever type."""
+def _row(value: Any, subject: str) -> list[Any]:
+    """The items of a row of any type."""
     if isinstance(value, str | bytes | Mapping) or not isinstance(value, Iterable):
-        seen = shown(repr(cast("Any", value)), limit=60)
-        raise InputError(f"{what} is {seen}, expected x and y in a row, or such rows")
+        text = shown(repr(cast("Any", value)), limit=60)
+        raise InputError(f"{subject} is {text}, expected x and y in a row, or such rows")
     return list(cast("Any", value))
 
 
 def _marked(marker: MarkerEnds, labels: Sequence[tuple[Any, ...]]) -> DrawnEnd:
     """The one end of an edge that the marker names; of a loop, its start.
 
-    In a directed graph an edge in the direction of the name goes before one against it.
+    In a directed graph an edge in this direction precedes one against it.
     """
     near, key = marker[:2], marker[2:]
     for side, ends in ((0, near), (1, near[::-1])):

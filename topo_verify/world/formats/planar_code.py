@@ -2,22 +2,19 @@
 
     >>planar_code<<  3  2 3 0  1 3 0  1 2 0       (a triangle; a number is a byte)
 
-After the head, which may be missing, the graphs follow one another: the number of vertices, then
-for each vertex the numbers of its neighbours in clockwise order, counted from 1, and a zero.
-A graph of more than 255 vertices begins with a zero byte, and from there on its numbers have two
-bytes each: the high byte first, as nauty writes them, unless the head is `>>planar_code le<<`.
+After the optional head the graphs follow one another: the number of vertices, then for each vertex
+the numbers of its neighbours in clockwise order, from 1, and a zero. A graph of more than 255
+vertices begins with a zero byte, and its numbers have two bytes: the high byte first, unless the
+head is `>>planar_code le<<`.
 
-A neighbour's number identifies an edge only if the graph is simple, and the format is for planar
-maps: any other world is refused, when read and when written. The format has no marker. When
-a file is read, the marker is at the first dart of the first vertex; when it is written, its vertex
-comes first, its dart first there, and the rest is numbered breadth-first. So isomorphic worlds give
-the same bytes.
+Worlds that are not simple and planar are refused. The format has no marker: the marker is the first
+dart of the first vertex. Written worlds are numbered breadth-first from it, so isomorphic worlds
+give the same bytes.
 
-What this does not show: that the writer meant clockwise as we do. The mirror image of a world has a
-valid file as well, and the bytes do not tell which was meant.
+What this does not show: that the writer meant clockwise; a mirror image is a valid file.
 
-Source: G. Brinkmann and B. D. McKay, plantri-guide.txt; the head and the byte order as in the guide
-of CaGe and in `planarg` of nauty 2.8.
+Source: G. Brinkmann and B. D. McKay, plantri-guide.txt; for the head and the byte order the guide
+of CaGe and `planarg` of nauty 2.8.
 """
 
 from __future__ import annotations
@@ -35,7 +32,7 @@ from topo_verify.world.rooted_map import World
 W = TypeVar("W", bound=World)
 
 MAX_VERTICES = 2**16 - 1
-"""What two bytes can number."""
+"""The largest number of two bytes."""
 
 _HEAD = re.compile(rb">>planar_code(?: ?(le|be))? ?<<")
 
@@ -60,13 +57,13 @@ def decode(
     """The world in the bytes.
 
     Args:
-        name: what to call the input in messages.
-        graph: which of the graphs, counted from 0; default: the only one.
-        stem: what to call the world; with `graph`, its number follows.
+        name: the name of the input in messages.
+        graph: its index; default: the only one.
+        stem: the name of the world; with `graph`, the index follows.
     Raises:
         InputError: no graph of that number, several and none named, or no simple planar world.
     """
-    found = None
+    neighbours = None
     number = -1
     for number, rows in enumerate(_graphs(data, name)):
         if number == 1 and graph is None:
@@ -74,21 +71,21 @@ def decode(
                 f"{name} holds several graphs: say which, counted from 0, as in"
                 " World.load(path, graph=0), or give each a file"
             )
-        # The graphs before the one that is asked for are parsed, because only that finds its start.
+        # parsing earlier graphs finds its start
         if number == (graph or 0):
-            found = rows
+            neighbours = rows
         if number == graph:
             break
-    if found is None:
+    if neighbours is None:
         held = f"{number + 1} graphs" if number >= 0 else "no graph"
         asked = "" if graph is None else f", and graph {graph} (counted from 0) is none of them"
         raise InputError(f"{name} holds {held}{asked}: name a file with the graph that is meant")
     title = stem if graph is None or not stem else f"{stem}-{graph}"
-    return _world(cls, found, name if graph is None else f"{name}, graph {graph}", title)
+    return _world(cls, neighbours, name if graph is None else f"{name}, graph {graph}", title)
 
 
 def encode(world: World) -> bytes:
-    """The world as a file with one graph, head included.
+    """The world as a file with one graph and a head.
 
     Raises:
         InputError: the world is not simple, not planar, or has more than `MAX_VERTICES` vertices.
@@ -112,25 +109,22 @@ def encode(world: World) -> bytes:
     return b">>planar_code be<<\0" + wide
 
 
-def require_simple_and_planar(world: World, what: str) -> None:
-    """Refuse a world that is not simple and planar: the format names darts by their neighbours."""
+def require_simple_and_planar(world: World, subject: str) -> None:
+    """Refuse a world that is not simple and planar."""
     if not world.is_simple:
         raise InputError(
-            f"{what} holds simple worlds, and this one has loops or parallel edges: keep it as"
+            f"{subject} holds simple worlds, and this one has loops or parallel edges: keep it as"
             " world JSON"
         )
     if not world.is_planar:
         raise InputError(
-            f"{what} holds planar worlds, and this one has genus {world.genus}: keep it as world"
+            f"{subject} holds planar worlds, and this one has genus {world.genus}: keep it as world"
             " JSON"
         )
 
 
-# ---------------------------------------------------------------- reading
-
-
 def _graphs(data: bytes, name: str) -> Iterator[list[Sequence[int]]]:
-    """The neighbours of each vertex, numbered from 1, of one graph after the other."""
+    """The neighbours of each vertex, numbered from 1, graph by graph."""
     head = _HEAD.match(data)
     if data.startswith(b">>") and head is None:
         raise InputError(
@@ -146,8 +140,8 @@ def _graphs(data: bytes, name: str) -> Iterator[list[Sequence[int]]]:
 
 
 def _graph(data: bytes, at: int, name: str, *, little: bool) -> tuple[list[Sequence[int]], int]:
-    """The graph that begins at this byte, and the position behind it."""
-    wide = data[at] == 0  # no graph has 0 vertices, so a zero announces numbers of two bytes
+    """The graph at this byte, and the position behind it."""
+    wide = data[at] == 0  # no graph has 0 vertices
     size = data[at]
     if wide:
         size = int.from_bytes(data[at + 1 : at + 3], "little" if little else "big")
@@ -167,7 +161,7 @@ def _graph(data: bytes, at: int, name: str, *, little: bool) -> tuple[list[Seque
 
 
 def _row(data: bytes, at: int) -> tuple[Sequence[int], int]:
-    """The numbers up to the next zero, and the position behind it; past the end if none follows."""
+    """The numbers up to the next zero, and the position behind it (past the end without a zero)."""
     end = data.find(0, at)
     return (data[at:end], end + 1) if end >= 0 else ((), len(data) + 1)
 

@@ -1,18 +1,17 @@
 """Graphs that carry a rotation: a world as NetworkX, GraphML and node-link JSON can hold it.
 
-Nothing is lost, whatever the genus, with loops and parallel edges. The graph is an undirected
-multigraph, and what makes it a world are attributes of these names:
+Every world is an undirected multigraph with these attributes:
 
-| of | attribute | what |
+| of | attribute | value |
 | --- | --- | --- |
 | the graph | `format`, `version` | `topo-verify/graph`, 1 |
-| | `marker` | the dart that the marker points at; left out where there is no dart |
-| | `name`, `source`, `licence` | texts, where the world has them |
+| | `marker` | the dart that the marker points at, if there is a dart |
+| | `name`, `source`, `licence` | optional texts |
 | a node | `rotation` | its darts in clockwise order |
-| | `name`; `x` and `y` | its name and its position, y upwards, where the world has them |
-| an edge | `darts` | its two darts; the one named first is at either of its ends |
+| | `name`; `x` and `y` | optional name and position, y upwards |
+| an edge | `darts` | its two darts, in any order |
 
-Other attributes are ignored. A graph whose darts do not fit its edges is refused.
+Other attributes are ignored.
 """
 
 from __future__ import annotations
@@ -32,11 +31,11 @@ W = TypeVar("W", bound=World)
 
 FORMAT: Final = "topo-verify/graph"
 VERSION: Final = 1
-"""The newest version of the attributes that is read, and the one that is written."""
+"""The newest version that is read, and the one that is written."""
 
 
 class RotatedVertex(NamedTuple):
-    """A node with its rotation; `label` is what messages call it."""
+    """A node with its rotation; `label` names it in messages."""
 
     label: str
     rotation: Any
@@ -64,7 +63,7 @@ def as_world(
     """The world with these rotations.
 
     Args:
-        source: what to call the input in messages.
+        source: the name of the input in messages.
         about: name, source and licence of the world.
     Raises:
         InputError: the darts make no world, or an edge joins other vertices than its darts are at.
@@ -95,12 +94,12 @@ def as_world(
 T = TypeVar("T")
 
 
-def _of_all(what: str, row: Sequence[T | None]) -> tuple[T, ...]:
+def _of_all(subject: str, row: Sequence[T | None]) -> tuple[T, ...]:
     """The row if all vertices have it, nothing if none has it."""
     present = tuple(value for value in row if value is not None)
     if present and len(present) < len(row):
         raise InputError(
-            f"{len(present)} of {len(row)} nodes have {what}: give it to each, or to none"
+            f"{len(present)} of {len(row)} nodes have {subject}: give it to each, or to none"
         )
     return present
 
@@ -122,7 +121,7 @@ def _require_ends(
         )
 
 
-def point(x: object, y: object, what: str) -> tuple[float, float] | None:
+def point(x: object, y: object, subject: str) -> tuple[float, float] | None:
     """The position with these coordinates; None if both are None.
 
     Raises:
@@ -131,13 +130,13 @@ def point(x: object, y: object, what: str) -> tuple[float, float] | None:
     if x is None and y is None:
         return None
     if x is None or y is None:
-        raise InputError(f"{what} has one of x and y: give it both, or none")
+        raise InputError(f"{subject} has one of x and y: give it both, or none")
     most = sys.float_info.max
-    return embedding.number(x, f"{what}, x", most), embedding.number(y, f"{what}, y", most)
+    return embedding.number(x, f"{subject}, x", most), embedding.number(y, f"{subject}, y", most)
 
 
 def attributes(world: World) -> dict[str, Any]:
-    """The attributes of the graph: format, version, marker, texts."""
+    """The attributes of the graph."""
     texts = {"name": world.name, "source": world.source, "licence": world.licence}
     return {
         "format": FORMAT,
@@ -148,13 +147,13 @@ def attributes(world: World) -> dict[str, Any]:
 
 
 def node_attributes(world: World, vertex: int) -> dict[str, Any]:
-    """The attributes of one node: its rotation, its name and its position."""
-    found: dict[str, Any] = {"rotation": list(world.vertices[vertex])}
+    """The attributes of one node."""
+    attributes: dict[str, Any] = {"rotation": list(world.vertices[vertex])}
     if world.vertex_names:
-        found["name"] = world.vertex_names[vertex]
+        attributes["name"] = world.vertex_names[vertex]
     if world.positions:
-        found["x"], found["y"] = map(float, world.positions[vertex])
-    return found
+        attributes["x"], attributes["y"] = map(float, world.positions[vertex])
+    return attributes
 
 
 def texts_of(graph: Mapping[str, Any]) -> dict[str, str]:
@@ -163,7 +162,7 @@ def texts_of(graph: Mapping[str, Any]) -> dict[str, str]:
 
 
 def require_version(kind: object, version: object, *, source: str) -> None:
-    """Refuse a graph that says it is of another format or of a newer version."""
+    """Refuse a graph of another format or of a newer version."""
     if kind != FORMAT:
         raise InputError(
             f"{source}: expected the graph's 'format' {FORMAT!r}, got {_quoted(kind)}: name a file"
@@ -180,17 +179,17 @@ def _quoted(value: object) -> str:
     return f"'{shown(str(value), limit=60)}'"
 
 
-def darts_in(text: str, what: str) -> list[int]:
+def darts_in(text: str, subject: str) -> list[int]:
     """The darts in a text, as `0 5 3`.
 
     Raises:
-        InputError: something else stands there.
+        InputError: it holds something else.
     """
     words = text.split()
     for word in words:
         if not re.fullmatch(r"-?[0-9]{1,18}", word):
             raise InputError(
-                f"{what} has '{shown(word, limit=60)}', expected darts as in '0 5 3', integers with"
-                " spaces between them"
+                f"{subject} has '{shown(word, limit=60)}', expected darts as in '0 5 3', integers"
+                " with spaces between them"
             )
     return [int(word) for word in words]

@@ -1,18 +1,15 @@
 """SUMO's road networks, `.net.xml`: the undirected graph of their streets.
 
-The reader takes each `<junction>` with its `id`, `x`, `y` (y upwards) and each `<edge>` with its
-`id`, `from`, `to` and, if it has one, its `shape`, the line in the middle of the street (SUMO
-leaves it out where it is straight). It ignores lanes, connections, traffic lights and the kinds of
-traffic, and everything within a junction: elements whose id begins with ':'.
+The reader takes each `<junction>` with `id`, `x`, `y` (y upwards) and each `<edge>` with `id`,
+`from`, `to` and an optional `shape`. It ignores everything else, and elements within a junction,
+whose id begins with ':'.
 
-**Both directions of a street are one edge.** SUMO's edges have one direction. Two of them between
-the same junctions, there and back, are one street if their ids differ in a leading '-' and nothing
-else (so SUMO names them), or if one has the shape of the other backwards; the shape of the first in
-the file counts. Others stay apart, as the carriageways of a motorway do.
+**Both directions of a street are one edge**, if their ids differ only in a leading '-' or their
+shapes are each other's reverse; the first shape counts. Others stay apart, such as the carriageways
+of a motorway.
 
-embedding.py says how the drawing becomes a world, and what is refused: for example, junctions
-without a street and networks in several parts. `netconvert --keep-edges.components 1` keeps the
-largest part.
+embedding.py says how the drawing becomes a world. Networks in several parts are refused;
+`netconvert --keep-edges.components 1` keeps the largest.
 
 Source: Eclipse SUMO, user documentation, "SUMO Road Networks".
 """
@@ -45,8 +42,8 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
     """The world in the bytes.
 
     Args:
-        name: what to call the input in messages.
-        stem: what to call the world.
+        name: the name of the input in messages.
+        stem: the name of the world.
     Raises:
         InputError: the bytes are not a SUMO network, or the drawing is refused.
     """
@@ -64,29 +61,29 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
         if path[1:] in {("junction",), ("edge",)}:
             known = places if path[1] == "junction" else edges
             key = attributes.get("id", "")
-            what = f"{name}: {path[1]} '{shown(key, limit=60)}'"
+            subject = f"{name}: {path[1]} '{shown(key, limit=60)}'"
             if not key or key in known:
                 why = "stands there twice" if key else "has no id"
-                raise InputError(f"{what} {why}: each has an id of its own")
+                raise InputError(f"{subject} {why}: each has an id of its own")
             if key.startswith(":"):  # within a junction
                 return
             if path[1] == "edge":
                 edges[key] = attributes
-                points += attributes.get("shape", "").count(",")  # each point has one at least
+                points += attributes.get("shape", "").count(",")
             else:
-                places[key] = DrawnVertex(key, _at(attributes, what))
+                places[key] = DrawnVertex(key, _at(attributes, subject))
             embedding.require_size(name, vertices=len(places), edges=len(edges), points=points)
 
     def end(_path: tuple[str, ...], _text: str) -> None:
-        """Does nothing: SUMO writes everything into attributes."""
+        """Does nothing: SUMO's texts are attributes."""
 
     markup.read(data, name=name, start=start, end=end)
     ways = _ways(places, edges, name)
     return embedding.as_world(cls, list(places.values()), ways, source=name, name=stem)
 
 
-def _at(attributes: dict[str, str], what: str) -> Point:
-    x, y = (embedding.number(attributes.get(axis, ""), f"{what}, {axis}") for axis in "xy")
+def _at(attributes: dict[str, str], subject: str) -> Point:
+    x, y = (embedding.number(attributes.get(axis, ""), f"{subject}, {axis}") for axis in "xy")
     return x, y
 
 
@@ -96,15 +93,15 @@ def _ways(
     number = {key: place for place, key in enumerate(places)}
     ways: dict[str, DrawnEdge] = {}
     for key, attributes in edges.items():
-        what = f"{name}: edge '{shown(key, limit=60)}'"
+        subject = f"{name}: edge '{shown(key, limit=60)}'"
         start, end = (number.get(attributes.get(side, "")) for side in ("from", "to"))
         if start is None or end is None:
-            raise InputError(f"{what}: expected the ids of two junctions as 'from' and 'to'")
-        # One point at a time: see embedding.line.
+            raise InputError(f"{subject}: expected the ids of two junctions as 'from' and 'to'")
+        # lazily: see embedding.line
         shape = re.finditer(r"\S+", attributes.get("shape", ""))
         rows = (point[0].split(",") for point in shape)
-        course = embedding.points(rows, f"{what}, shape")
-        # SUMO names the other direction of a street with a leading "-".
+        course = embedding.points(rows, f"{subject}, shape")
+        # a leading "-" names the other direction
         other = ways.get(key[1:] if key.startswith("-") else f"-{key}")
         if other is None or (other.start, other.end) != (end, start):
             ways[key] = DrawnEdge(start, end, course, directed=True, name=key)

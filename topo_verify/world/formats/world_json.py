@@ -3,17 +3,14 @@
     {"format": "topo-verify/world", "version": 1, "name": "triangle",
      "vertices": [[0, 5], [1, 2], [3, 4]], "edges": [[0, 1], [2, 3], [4, 5]], "marker": 0}
 
-`vertices` holds the darts of each vertex in clockwise order, `edges` two darts each, `marker` the
-dart that the marker points at (null only where there is no dart). Darts are any distinct integers
-and are numbered 0 … 2m-1 in ascending order when read. `WorldFile` says the rest; the JSON Schema
-beside this file (`world.schema.json`) is made from it, so neither can drift from the other.
+Darts are any distinct integers, numbered 0 … 2m-1 in ascending order when read. `WorldFile` says
+the rest; the JSON Schema beside this file is made from it.
 
-Reading is strict, because a file that is read differently from what its writer meant makes every
-result about it worthless: no field may be unknown or stand twice, no number be taken for another
-kind. Every refusal is one sentence that names the file, the place in it and what belongs there.
+Reading is strict, because a file read differently from its writer's meaning makes results about it
+worthless: no field may be unknown or repeated, no number of another kind. Every refusal names the
+file, the place in it and what belongs there.
 
-What this does not show: that the world is the one that was meant. Rotations given anticlockwise are
-a valid file; they are the mirror image.
+What this does not show: that rotations were meant clockwise. A mirror image is a valid file.
 
 Source: docs/semantics.md, section 14.
 """
@@ -35,10 +32,10 @@ from topo_verify.world.rooted_map import World
 W = TypeVar("W", bound=World)
 
 VERSION: Final = 1
-"""The newest version of the format that is read, and the one that is written."""
+"""The newest version that is read, and the one that is written."""
 
 _SAFE = 2**53
-"""Up to here every reader of JSON agrees on integers."""
+"""Exact in every reader of JSON."""
 
 _FileDart = Annotated[int, Meta(ge=-_SAFE, le=_SAFE)]
 
@@ -46,8 +43,7 @@ _FileDart = Annotated[int, Meta(ge=-_SAFE, le=_SAFE)]
 class WorldFile(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A world file: an embedded graph with one directional marker."""
 
-    # The JSON Schema carries the line above. Error messages quote the descriptions below as what
-    # was expected, so each is written to end a sentence.
+    # The schema carries this docstring; descriptions end the sentences of error messages.
 
     format: Annotated[
         Literal["topo-verify/world"], Meta(description="the name of this format, topo-verify/world")
@@ -85,7 +81,7 @@ class WorldFile(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 
 
 class _Header(msgspec.Struct):
-    """The two fields that are read first: a newer version may have others than these."""
+    """Read first: a newer version may have other fields."""
 
     format: str
     version: int
@@ -97,11 +93,8 @@ def schema() -> dict[str, Any]:
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **made}
 
 
-# ---------------------------------------------------------------- reading
-
-
 def load(cls: type[W], path: str | PathLike[str]) -> W:
-    """The world in the file, called after the file (its stem) if it gives no name.
+    """The world in the file, named after the file if it gives no name.
 
     Raises:
         InputError: the file cannot be read, is larger than `files.LIMIT`, or holds no world.
@@ -112,24 +105,24 @@ def load(cls: type[W], path: str | PathLike[str]) -> W:
 
 
 def decode(cls: type[W], text: str | bytes, *, name: str = "world JSON") -> W:
-    """The world in the text (bytes are UTF-8; a byte order mark at the head is passed over).
+    """The world in the text; a byte order mark is ignored.
 
     Args:
-        name: what to call the input in messages.
+        name: the name of the input in messages.
     Raises:
-        InputError: the text holds no world; one sentence says where and why.
+        InputError: the text holds no world; says where and why.
     """
     return from_data(cls, _parse(text, name), name=name)
 
 
 def from_data(cls: type[W], data: WorldFile, *, name: str, stem: str = "") -> W:
-    """The world that a decoded file describes.
+    """The world of a decoded file.
 
     Args:
-        name: what to call the input in messages.
-        stem: what to call the world if the file has no name for it.
+        name: the name of the input in messages.
+        stem: the name of the world if the file has none.
     Raises:
-        InputError: rotations, edges and marker together are no world.
+        InputError: rotations, edges and marker make no world.
     """
     try:
         return cls.from_rotations(
@@ -149,7 +142,7 @@ def from_data(cls: type[W], data: WorldFile, *, name: str, stem: str = "") -> W:
 def _parse(text: str | bytes, name: str) -> WorldFile:
     text = utf8_text(text, name)
     try:
-        # The header alone first: a newer version may have fields that this one would refuse.
+        # first, since a newer version may have other fields
         _require_version(msgspec.json.decode(text, type=_Header), name)
         data = msgspec.json.decode(text, type=WorldFile)
     except msgspec.ValidationError as error:
@@ -164,14 +157,13 @@ def _parse(text: str | bytes, name: str) -> WorldFile:
         raise InputError(
             f"{name}: expected a world, got lists that are nested too deeply: give one a vertex"
         ) from error
-    # msgspec keeps the last of two equal keys. This pass sees nothing but a valid world file, so
-    # there is one object, and neither its depth nor its numbers can be too large.
+    # msgspec keeps the last of two equal keys; the text is a valid world file by now
     require_single_keys(text, name)
     return data
 
 
 def utf8_text(text: str | bytes, name: str) -> str:
-    """The text without a byte order mark; refuses what is not UTF-8, is empty or is too large."""
+    """The text without a byte order mark; refuses what is not UTF-8, empty or too large."""
     try:
         data = text.encode() if isinstance(text, str) else text
         text = data.decode()
@@ -199,43 +191,40 @@ def _require_version(header: _Header, name: str) -> None:
 
 
 def require_single_keys(text: str, name: str) -> None:
-    """Refuse JSON in which a field stands twice in one object."""
+    """Refuse JSON in which an object has a field twice."""
 
     def single(pairs: list[tuple[str, Any]]) -> None:
-        seen: set[str] = set()
+        keys: set[str] = set()
         for key, _ in pairs:
-            if key in seen:
+            if key in keys:
                 raise InputError(f"{name} has the field '{key}' twice: leave one of the two out")
-            seen.add(key)
+            keys.add(key)
 
-    # Numbers are not looked at, and Python refuses to turn some thousand digits into one.
+    # Python refuses to parse very long integers
     json.loads(text, object_pairs_hook=single, parse_int=str)
 
 
 def _sentence(error: str, name: str) -> str:
-    """msgspec's objection as a sentence that names the place, what belongs there and the mend."""
-    what, _, place = error.partition(" - at `$.")
+    """msgspec's error as a sentence that names the place, problem belongs there and the mend."""
+    problem, _, place = error.partition(" - at `$.")
     fields = schema()["$defs"]["WorldFile"]["properties"]
-    named = re.match(r"\w+", place) or re.search(r"(?<=missing required field `)\w+", what)
+    named = re.match(r"\w+", place) or re.search(r"(?<=missing required field `)\w+", problem)
     if named and named[0] in fields:
         expected = f"'{named[0]}' is {fields[named[0]]['description']}"
     else:
         expected = f"a world is one JSON object with no fields but {', '.join(fields)}"
     where = f"{name}, {shown(place[:-1])}" if place else name
     mends = {"missing": "add it", "unknown": "leave it out"}
-    mend = next((text for word, text in mends.items() if f" {word} " in what), "correct it")
-    return f"{where}: {shown(_lower(what))}; {mend}: {expected}"
+    mend = next((text for word, text in mends.items() if f" {word} " in problem), "correct it")
+    return f"{where}: {shown(_lower(problem))}; {mend}: {expected}"
 
 
 def _lower(sentence: str) -> str:
     return sentence[:1].lower() + sentence[1:]
 
 
-# ---------------------------------------------------------------- writing
-
-
 def to_data(world: World) -> WorldFile:
-    """The world as a struct, to be written alone or inside another format."""
+    """The world as a struct, also for other formats."""
     return WorldFile(
         format="topo-verify/world",
         version=VERSION,
@@ -251,10 +240,10 @@ def to_data(world: World) -> WorldFile:
 
 
 def encode(world: World) -> str:
-    """World JSON on one line: the same world gives the same text.
+    """World JSON on one line, the same text for the same world.
 
     Raises:
-        InputError: a name, the source or the licence holds half of a surrogate pair.
+        InputError: a text holds half of a surrogate pair.
     """
     return encoded(to_data(world))
 
@@ -274,7 +263,7 @@ def encoded(data: msgspec.Struct) -> str:
 
 
 def save(world: World, path: str | PathLike[str]) -> None:
-    """Write the world to the file: at once or, if anything fails, not at all.
+    """Write the world to the file, whole or not at all.
 
     Raises:
         InputError: as `encode`, or the file cannot be written.
