@@ -1,16 +1,15 @@
-"""The catalogue: algorithms (a rule, a motion, two policies, one loop), and the steered mappers.
+"""The catalogue: algorithms (a rule, a motion, two policies, one loop) and steered mappers.
 
-    chart.py            the map S                        exploration.py     the loop of listings 1-3
-    motion.py           excursions: retrace, overlap     policies.py        pick and order
-    basic.py            rule `none`                      enhancement_i.py   rule `prefix`
-    enhancement_ii.py   rule `history`                   enhancement_iii.py rule `records`
-    folding.py          rule `folding`                   planar.py          rule `planar`
-    history.py          the fold of all that was seen    places.py          places of a fold
-    homing.py           the mapper `homing`              planner.py         the mapper `planner`
-    steering.py         the loop of the two
+    chart.py            the map S               exploration.py      the loop of listings 1-3
+    motion.py           retrace, overlap        policies.py         pick and order
+    basic.py            rule `none`             enhancement_i.py    rule `prefix`
+    enhancement_ii.py   rule `history`          enhancement_iii.py  rule `records`
+    folding.py          rule `folding`          planar.py           rule `planar`
+    history.py          the fold of a run       places.py           its places
+    homing.py           mapper `homing`         planner.py          mapper `planner`
+    steering.py         the loop of the two     next_edge.py        their next edge
 
-Nothing here can see a world: these files import `robot.percept`, `robot.events` and the standard
-library, and a test holds them to it.
+No file here can see a world: a test limits the imports.
 
 Source: docs/semantics.md, section 7.
 """
@@ -53,16 +52,15 @@ __all__ = [
 ]
 
 REFERENCE = Policies("nearest", "shortest")
-"""The policies that define the reference costs."""
+"""The policies of the reference costs."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Algorithm:
-    """A mapper of the catalogue: called with a robot, it returns its map and its cost.
+    """A mapper that runs the paper's loop: called with a robot, it returns map and cost.
 
     Attributes:
-        name: as in the catalogue.
-        rule: makes the rule for one run.
+        rule: makes the rule of one run.
         motion: `retrace` or `overlap`.
         policies: which edge next, which hypothesis first.
         assumes: "planar" if its maps are right in planar worlds only.
@@ -75,10 +73,9 @@ class Algorithm:
     assumes: Literal["planar"] | None = None
 
     def __call__(self, robot: Robot) -> Survey:
-        """Explore the robot's world. Deterministic: the same world gives the same run."""
+        """Explore the robot's world, deterministically."""
         return explore(
             robot,
-            # A rule remembers its run, so each run gets one of its own.
             rule=self.rule(),
             motion=self.motion,
             pick=choices.pick_policy(self.policies.pick),
@@ -89,20 +86,19 @@ class Algorithm:
         """The same algorithm with other policies.
 
         Raises:
-            ValueError: no such policy; the sentence lists them.
+            ValueError: no such policy.
         """
-        ours = self.policies
-        theirs = Policies(pick or ours.pick, order or ours.order)
-        return replace(self, policies=choices.check(theirs))
+        policies = Policies(pick or self.policies.pick, order or self.policies.order)
+        return replace(self, policies=choices.check(policies))
 
     def __repr__(self) -> str:
-        """As code below `import topo_verify as tv`; of an algorithm of one's own only the name."""
+        """As code below `import topo_verify as tv`; the bare name if it is not in the catalogue."""
         if replace(self, policies=REFERENCE) != CATALOGUE.get(self.name):
             return f"<Algorithm {self.name!r}>"
         chosen = (("pick", self.policies.pick), ("order", self.policies.order))
         others = [f"{k}={v!r}" for k, v in chosen if v != getattr(REFERENCE, k)]
-        made = f".with_policies({', '.join(others)})" if others else ""
-        return f"tv.CATALOGUE[{self.name!r}]{made}"
+        policies = f".with_policies({', '.join(others)})" if others else ""
+        return f"tv.CATALOGUE[{self.name!r}]{policies}"
 
     def _repr_pretty_(self, printer: Any, _: bool) -> None:  # noqa: FBT001  asked by Hypothesis
         printer.text(repr(self))
@@ -110,26 +106,18 @@ class Algorithm:
 
 @dataclass(frozen=True, slots=True)
 class Steered:
-    """A mapper of the catalogue that steers by the fold of its whole history: docs/homing.md.
-
-    It has neither a rule nor policies to choose, and there is no compiled twin of it.
-
-    Attributes:
-        name: as in the catalogue.
-        run: maps the world of one robot.
-        assumes: "planar" if its maps are right in planar worlds only.
-    """
+    """A mapper that steers by the fold of its history: docs/homing.md. No rule, no policies."""
 
     name: str
     run: Callable[[Robot], Survey]
     assumes: Literal["planar"] | None = None
 
     def __call__(self, robot: Robot) -> Survey:
-        """Explore the robot's world. Deterministic: the same world gives the same run."""
+        """Explore the robot's world, deterministically."""
         return self.run(robot)
 
     def __repr__(self) -> str:
-        """The name; it is no code, for whoever wants one runs it by its name."""
+        """`<Steered 'homing'>`; not evaluable. Run it by its name."""
         return f"<Steered {self.name!r}>"
 
 
@@ -156,7 +144,7 @@ CATALOGUE: dict[str, Algorithm] = {
         Algorithm("folding+planar", _planar_folding, overlap, assumes="planar"),
     )
 }
-"""Every algorithm under its name, from the weakest rule to the strongest."""
+"""Every algorithm by name, from the weakest rule to the strongest."""
 
 STEERED: dict[str, Steered] = {
     mapper.name: mapper
@@ -167,17 +155,17 @@ STEERED: dict[str, Steered] = {
         Steered("planner+planar", planar_planner, assumes="planar"),
     )
 }
-"""The mappers that are no algorithms of the paper's loop. `all` leaves them out."""
+"""The steered mappers by name. `all` leaves them out."""
 
 NAMED: dict[str, Algorithm | Steered] = {**CATALOGUE, **STEERED}
-"""Whatever a TARGET may name: the algorithms, then the steered mappers."""
+"""Everything a TARGET may name."""
 
 
 def algorithm(name: str) -> Algorithm:
     """The algorithm of this name.
 
     Raises:
-        ValueError: no such algorithm; the sentence lists them.
+        ValueError: no such algorithm.
     """
     if name not in CATALOGUE:
         raise ValueError(f"no algorithm {name!r}: there are {', '.join(CATALOGUE)}")

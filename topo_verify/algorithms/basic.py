@@ -19,10 +19,10 @@ class NoRule:
     """Rejects nothing without motion; remembers nothing."""
 
     def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
-        """Does nothing: the rule needs nothing of vu."""
+        """Does nothing."""
 
     def observe(self, sequence: Executed) -> None:
-        """Does nothing: the rule keeps no sequence."""
+        """Does nothing."""
 
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
@@ -37,4 +37,4 @@ class NoRule:
     def learn(
         self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
     ) -> None:
-        """Does nothing: the rule remembers nothing of S."""
+        """Does nothing."""

@@ -1,15 +1,15 @@
 """The map S that a mapper draws while it explores.
 
-A new vertex's darts are numbered consecutively, clockwise from the dart by which it was entered
-(v0: from the dart that the marker points at, which so is dart 0). A vertex is therefore an interval
-of darts, and turning is addition modulo its degree:
+The darts of a new vertex are numbered consecutively, clockwise from the dart of entry (v0: from the
+dart that the marker points at, dart 0). A vertex is an interval of darts, and turning is addition
+modulo its degree.
 
     letter   what it is                                              e.g.
     e, h     darts of S: the edge being validated, a hypothesis       7
     vk, vu   vertices: where e leaves, where it arrives (unknown)     2
     U        the unexplored darts: their other end is not known yet   {3, 7, 8}
 
-`alpha` is known on explored darts only. S only grows, so whatever it says stays true.
+S only grows, so every statement it makes stays true.
 
 Source: docs/semantics.md, section 3; "S" and "U" of the paper's listings 1-3.
 """
@@ -26,7 +26,7 @@ Vertex = int
 
 
 class Survey(NamedTuple):
-    """What a mapper of the catalogue returns: its map, and what it cost in edge traversals."""
+    """The result of a mapper: its map, and its cost in edge traversals."""
 
     vertices: tuple[tuple[MapDart, ...], ...]
     edges: tuple[tuple[MapDart, MapDart], ...]
@@ -35,9 +35,9 @@ class Survey(NamedTuple):
 
 
 class Tree(NamedTuple):
-    """Breadth-first search from a root: per vertex its distance and its dart towards the root.
+    """A breadth-first tree: each vertex's distance from the root and its dart towards it.
 
-    A vertex that was not reached (the search may stop early) has distance -1.
+    Vertices that were not reached (the search may stop early) have distance -1.
     """
 
     depth: list[int]
@@ -45,15 +45,18 @@ class Tree(NamedTuple):
 
 
 class Chart:
-    """S, from one vertex to the whole world. It grows by `add_vertex` and `join` and never shrinks.
+    """S, from one vertex to the whole world. It grows by `add_vertex` and `join`.
 
-    Attributes, per dart: `vertex`, `alpha` (None: unexplored), `percepts` (what the robot senses
-    with that dart as its reference dart). Per vertex: `first` dart and `degree`. `unexplored` is U,
-    ascending.
+    Attributes:
+        vertex: of each dart.
+        alpha: the other end of each dart; None while it is unexplored.
+        percepts: what the robot senses with this dart as its reference dart.
+        first, degree: the first dart of each vertex, and its degree.
+        unexplored: U, ascending.
     """
 
     def __init__(self, percept: Percept) -> None:
-        """Start with v0 alone. The marked dart is dart 0, so the first percept has marker 0."""
+        """Start with v0 alone. The first percept has marker 0, since the marked dart is dart 0."""
         self.first: list[MapDart] = []
         self.degree: list[int] = []
         self.vertex: list[Vertex] = []
@@ -70,21 +73,19 @@ class Chart:
         self.degree.append(percept.degree)
         self.alpha += [None] * percept.degree
         for door in range(percept.degree):
-            # Seen from `door` places further clockwise, the marker is so many doors nearer.
             marker = None if percept.marker is None else (percept.marker - door) % percept.degree
             self.percepts.append(Percept(percept.degree, marker))
             self.unexplored[first + door] = None
         return first
 
     def join(self, e: MapDart, other: MapDart) -> None:
-        """Put on record that the two darts are the two ends of one edge."""
-        # The loop has taken e out of U already, when it chose it.
+        """Record that two darts are the ends of one edge."""
         self.alpha[e], self.alpha[other] = other, e
         self.unexplored.pop(e, None)
         self.unexplored.pop(other, None)
 
     def turn(self, dart: MapDart, door: Door) -> MapDart:
-        """The dart behind a door, for a robot with this reference dart: sigma^door(dart)."""
+        """sigma^door(dart): the dart behind a door for a robot with this reference dart."""
         v = self.vertex[dart]
         first = self.first[v]
         return first + (dart - first + door) % self.degree[v]
@@ -104,34 +105,32 @@ class Chart:
         return range(self.first[v], self.first[v] + self.degree[v])
 
     def outward(self, root: Vertex) -> Iterator[tuple[Vertex, int, MapDart | None]]:
-        """Breadth-first search on S: vertex, distance, dart towards the root; queue order.
+        """Breadth-first search on S: vertex, distance, dart towards the root.
 
-        Darts are scanned in ascending order. A caller that stops early saves the rest of it.
+        Darts are scanned in ascending order. The caller may stop early.
         """
-        seen = {root}
+        reached = {root}
         queue: list[tuple[Vertex, int, MapDart | None]] = [(root, 0, None)]
         for v, distance, back in queue:  # grows as it goes
             yield v, distance, back
             for dart in self.darts(v):
                 other = self.alpha[dart]
-                if other is not None and self.vertex[other] not in seen:
-                    # `other` is the dart at the far end, so it is the one that leads back.
-                    seen.add(self.vertex[other])
+                if other is not None and self.vertex[other] not in reached:
+                    reached.add(self.vertex[other])
                     queue.append((self.vertex[other], distance + 1, other))
 
     def tree(self, root: Vertex, *, until: Vertex | None = None) -> Tree:
-        """The breadth-first tree rooted at a vertex; complete, or until `until` is reached."""
+        """The breadth-first tree from a root: complete, or until `until` is reached."""
         depth = [-1] * len(self.first)
         parent: list[MapDart | None] = [None] * len(self.first)
         for v, distance, back in self.outward(root):
             depth[v], parent[v] = distance, back
-            # All vertices on its way to the root were reached before it.
             if v == until:
                 break
         return Tree(depth, parent)
 
     def survey(self, cost: int) -> Survey:
-        """The map as the mapper delivers it, with its cost."""
+        """The map in the form in which a mapper delivers it."""
         rotations = tuple(tuple(self.darts(v)) for v in range(len(self.first)))
         edges = tuple((d, o) for d, o in enumerate(self.alpha) if o is not None and d < o)
         return Survey(rotations, edges, 0 if self.alpha else None, cost)

@@ -1,8 +1,7 @@
-"""Enhancement I, stage 1: what was seen on the common prefix of doors (rule `prefix`).
+"""Enhancement I, stage 1: percepts on the common prefix of doors (rule `prefix`).
 
 If the ways home of two hypotheses begin with the same doors, both lead from vu through the same
-places. What the robot saw there for one hypothesis is what the other must expect there. (Stage 2
-walks only the doors that are not shared: `motion.overlap`.)
+places and must expect the same percepts there. (Stage 2 is `motion.overlap`.)
 
 Source: section III-A of the paper; listing 2, lines 16-19.
 """
@@ -19,7 +18,7 @@ from topo_verify.robot.events import Evidence
 
 
 class PrefixRule(NoRule):
-    """Compares the last sequence with the hypothesis' own way home. It remembers nothing."""
+    """Compares the last sequence with the hypothesis' way home."""
 
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
@@ -29,7 +28,7 @@ class PrefixRule(NoRule):
             return None
         last = sequences[-1]  # the earlier ones were compared when they were the last
         shared = common_prefix(hypothesis.doors, last.doors)  # A2.17
-        # At step 0, vu itself, all hypotheses expect the same: vu is not v0 if doors were executed.
+        # At step 0 all hypotheses expect the same: vu is not v0 if doors were executed.
         for step in range(1, shared + 1):
             if last.percepts[step] != hypothesis.expected[step]:  # A2.18
                 evidence = Evidence(

@@ -1,9 +1,8 @@
 """Enhancement II: every sequence executed for this edge, traced on S (rule `history`).
 
-Assume the hypothesis h. Then the robot entered vu by dart h of S. As long as tracing stays on
-explored edges, each door of an executed sequence is a known exit, and S shows what must have been
-seen behind it. Tracing ends where it crosses an unexplored dart, because S does not show the place
-behind; e and h count as unexplored.
+Assume the hypothesis h: the robot entered vu by dart h of S. While tracing stays on explored edges,
+each door is a known exit, and S shows the percept behind it. Tracing ends at an unexplored dart; e
+and h count as unexplored.
 
 Source: section III-B of the paper.
 """
@@ -20,12 +19,12 @@ from topo_verify.robot.events import Evidence, MapDart
 
 
 class HistoryRule(NoRule):
-    """Traces the last sequence from the hypothesis. It remembers nothing beyond this edge."""
+    """Traces the last sequence from the hypothesis."""
 
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
-        """The first percept that S does not show where the sequence leads from dart h, if any.
+        """The first percept that contradicts S where the sequence leads from dart h, if any.
 
         Earlier sequences were traced when they were executed, and S has not changed since.
         """

@@ -1,13 +1,10 @@
-"""Enhancement III: records of what was seen behind unexplored darts (rule `records`).
+"""Enhancement III: records of percepts behind unexplored darts (rule `records`).
 
 Once vu is known, the sequences executed for e start at a known dart of S. Where one crosses an
-unexplored dart d, the percepts behind d are recorded in T[d]: the first alone (one-level), or all
-of them in a trie by further relative doors (all-level). When a later hypothesis is traced across d,
-they are compared as the percepts of S are. Records stay true, because they are relative to a known
-dart and S only grows. T[d] is dropped when d is explored: from then on S shows the place itself.
-
-While e is validated, e and h count as unexplored, so T[e] and T[h] are consulted where tracing
-crosses them, and nowhere else.
+unexplored dart d, the percepts behind d enter T[d]: the first alone (one-level), or all of them in
+a trie by relative doors (all-level). A later hypothesis traced across d is compared with them; e
+and h count as unexplored. Records stay true, because they are relative to a known dart and S only
+grows. T[d] is dropped when d is explored.
 
 Source: section III-C of the paper; listing 3, lines 3, 10-16, 29.
 """
@@ -25,7 +22,7 @@ from topo_verify.robot.percept import Door, Percept
 
 
 class Seen:
-    """A place behind an unexplored dart: its percept, and by door the places seen behind it."""
+    """A node of the trie: the percept of a place, and by door the places behind it."""
 
     __slots__ = ("behind", "percept")
 
@@ -38,7 +35,7 @@ class RecordsRule(HistoryRule):
     """Traces as `history` does, and on along T. T lives as long as the exploration.
 
     Args:
-        levels: how many places deep records go; None: as deep as the robot went.
+        levels: depth of the records in places; None: as deep as the robot went.
     """
 
     def __init__(self, levels: int | None = None) -> None:
@@ -51,12 +48,9 @@ class RecordsRule(HistoryRule):
         """The first recorded percept behind the dart that the sequence contradicts, if any."""
         place = self.records.get(exit_dart)  # A3.14
         first = step
-        # `levels` limits what is written. One-level records have nothing behind them, so this ends.
         while place is not None:
             if place.percept != sequence.percepts[step]:
-                # Door number `step` is doors[step - 1], so these are the doors behind the
-                # crossing.
-                record = Record(exit_dart, sequence.doors[first:step])
+                record = Record(exit_dart, sequence.doors[first:step])  # doors[first - 1] crossed
                 evidence = Evidence(
                     step,
                     place.percept,
@@ -75,8 +69,8 @@ class RecordsRule(HistoryRule):
     def learn(
         self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
     ) -> None:
-        """Record what the sequences showed behind unexplored darts, traced on the grown S."""
-        # Before anything is recorded. Both are explored now, so neither gets a new record below.
+        """Record the percepts behind unexplored darts, with the sequences traced on the grown S."""
+        # Both are explored now, so neither gets a new record below.
         self.records.pop(e, None)
         self.records.pop(entry, None)
         for sequence in sequences:  # A3.29
@@ -90,8 +84,6 @@ class RecordsRule(HistoryRule):
                 at = arrival
 
     def _record(self, exit_dart: MapDart, sequence: Executed, step: int) -> None:
-        """Record the percepts of the sequence from this step on, as many as `levels` allows."""
-        # What is recorded already stays: a place shows the same percept each time.
         place = self.records.setdefault(exit_dart, Seen(sequence.percepts[step]))
         # The place directly behind the dart is level 1.
         deepest = len(sequence.doors) if self.levels is None else step + self.levels - 1

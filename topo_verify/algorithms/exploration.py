@@ -7,14 +7,14 @@
     H                  remaining, in the order of the order policy
     PE, P              h.expected, pilot.percepts
 
-`# A2.7` marks line 7 of listing 2 (listing 1: the basic algorithm, 2: Enhancement I, 3: Enhancement
-III all-level). Two independent choices make an algorithm of this loop: the *rule*, which rejects
-hypotheses without motion, and the *motion* between hypotheses.
+`# A2.7` marks line 7 of listing 2 (1: the basic algorithm, 2: Enhancement I, 3: Enhancement III
+all-level). An algorithm is this loop with a *rule*, which rejects hypotheses without motion, and a
+*motion* between hypotheses.
 
 Source: H. Wang, M. Jenkin, P. Dymond, on enhancing topological exploration with a single
 directional immovable marker, listings 1-3; after G. Dudek, M. Jenkin, E. Milios, D. Wilkes,
 "Robotic exploration as graph construction", IEEE Trans. Robotics and Automation 7(6), 1991.
-Differs: the paper says neither which e, nor which path, nor which order: docs/semantics.md does.
+Differs: the paper leaves open which e, which path and which order; docs/semantics.md does not.
 """
 
 from __future__ import annotations
@@ -39,30 +39,30 @@ from topo_verify.robot.percept import Percept
 
 
 class Refutation(NamedTuple):
-    """Why a hypothesis is false: the name of the rule that shows it, and its evidence."""
+    """Why a hypothesis is false: the rule that shows it, and the evidence."""
 
     rule: RuleName
     evidence: Evidence
 
 
 class Rule(Protocol):
-    """Rejects hypotheses without motion. A rule lives for one run and may remember what it saw."""
+    """Rejects hypotheses without motion. A rule lives for one run and may remember its percepts."""
 
     def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
-        """Take note that the robot has crossed e and senses this percept at vu."""
+        """Called when the robot has crossed e and senses this percept at vu."""
         ...
 
     def observe(self, sequence: Executed) -> None:
-        """Take note of a sequence that was executed and ended in a mismatch."""
+        """Called for each executed sequence that ended in a mismatch."""
         ...
 
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
-        """Why the hypothesis is false, judged by the last sequence; None if it may be true.
+        """Why the hypothesis is false by the last sequence; None if it may be true.
 
-        The loop asks for each remaining hypothesis before any motion (there is no sequence yet) and
-        after each mismatch. So earlier sequences have been judged for the same hypothesis already.
+        The loop asks for each remaining hypothesis before any motion (no sequence yet) and after
+        each mismatch, so earlier sequences have been judged already.
         """
         ...
 
@@ -73,18 +73,18 @@ class Rule(Protocol):
     def learn(
         self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
     ) -> None:
-        """Take note that S has grown: the robot crossed e and came in by dart `entry`."""
+        """Called when S has grown: the robot crossed e and came in by dart `entry`."""
         ...
 
 
 def explore(robot: Robot, *, rule: Rule, motion: Motion, pick: Pick, order: Order) -> Survey:
-    """Map the robot's world: the map, and its cost in edge traversals, which is O(m²n)."""
+    """Map the robot's world in O(m²n) edge traversals."""
     chart = Chart(robot.percept)  # A1.1 A1.2 A2.1 A2.2 A3.1 A3.2
     pilot = Pilot(robot)
     at: MapDart = 0  # the robot's reference dart, on S
     while chart.unexplored:  # A1.3 A2.3 A3.4
         e = pick(chart, at)  # A1.4 A2.4 A3.5
-        # e leaves U before H is made, since no edge ends in its own dart; `join` explores it later.
+        # e leaves U before H is made, since no edge ends in its own dart.
         del chart.unexplored[e]
         at = pilot.walk(chart, at, chart.vertex[e])  # A1.5 A2.5 A3.6
         percept = pilot.cross(chart, at, e)
@@ -94,12 +94,11 @@ def explore(robot: Robot, *, rule: Rule, motion: Motion, pick: Pick, order: Orde
         sequences: list[Executed] = []
         h = validate(pilot, chart, e, remaining, sequences, rule=rule, motion=motion)
         if h is not None:  # A1.16 A2.24 A3.25
-            # Declared where the robot stands: only `localise` walks it back, if at all.
             chart.join(e, h.dart)  # loop augmentation: A1.17 A2.25 A3.26
             robot.declare(Augment(e, "loop", h.dart, percept.degree))
             entry = h.dart
         else:  # A1.18 A2.26 A3.27
-            pilot.back(0)  # the last hypothesis' way: A1.15 A3.24
+            pilot.back(0)  # A1.15 A3.24
             entry = chart.add_vertex(percept)
             chart.join(e, entry)  # non-loop augmentation: A1.19 A2.27 A3.28
             robot.declare(Augment(e, "new", entry, percept.degree))
@@ -113,7 +112,6 @@ def hypotheses(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]
     alike = [h for h in chart.unexplored if chart.percepts[h].signature == percept.signature]
     if not alike:
         return []
-    # One tree serves all hypotheses, because S does not change while e is validated.
     tree = chart.tree(0)
     return [Hypothesis(h, chart, tree) for h in order(alike, chart, tree)]
 
@@ -128,9 +126,9 @@ def validate(
     rule: Rule,
     motion: Motion,
 ) -> Hypothesis | None:
-    """The hypothesis that is confirmed, or None if all are rejected.
+    """The confirmed hypothesis, or None if all are rejected.
 
-    Appends to `sequences` each sequence that was executed and ended in a mismatch.
+    Appends to `sequences` each executed sequence that ended in a mismatch.
     """
     declare = pilot.robot.declare
     # Before any motion: with no sequence yet, only `folding` and `planar` can reject.
@@ -148,7 +146,7 @@ def validate(
             return h
         # The percepts differ: A1.14 A2.14 A3.23. The robot stays: A2.15.
         declare(Reject(e, h.dart, "motion", Evidence(step, h.expected[step], pilot.percepts[step])))
-        if not pilot.doors:  # vu shows the marker: nothing was executed that a rule could use
+        if not pilot.doors:  # vu shows the marker: no sequence was executed
             continue
         sequences.append(pilot.executed())
         rule.observe(sequences[-1])
@@ -168,11 +166,11 @@ def sift(
     """The hypotheses that the rule does not refute, in their order."""
     kept: list[Hypothesis] = []
     for h in remaining:  # A2.16
-        refuted = rule.refute(chart, h, sequences)
-        if refuted is None:
+        refutation = rule.refute(chart, h, sequences)
+        if refutation is None:
             kept.append(h)  # A3.17
         else:
-            pilot.robot.declare(Reject(e, h.dart, *refuted))  # A2.19 A3.16
+            pilot.robot.declare(Reject(e, h.dart, *refutation))  # A2.19 A3.16
     return kept
 
 
@@ -180,13 +178,13 @@ def execute(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
     """Walk the hypothesis' way home. Returns the first step whose percept differs; None if none.
 
     Args:
-        shared: how many doors the way shares with the last sequence; the robot goes back only so
-            far and does not walk them again.
+        shared: number of doors the way shares with the last sequence. The robot goes back only
+            that far and does not walk them again.
     """
-    if shared < len(h.doors):  # else its whole way is executed already: no motion
+    if shared < len(h.doors):  # else its whole way is executed already
         pilot.back(shared)  # A1.15 A2.23 A3.24
     for step, expected in enumerate(h.expected):  # A1.9 A1.10 A2.8 A2.9 A3.18 A3.19
-        # What is shared is not walked again, but compared it is: the robot has seen those percepts.
+        # Shared doors are not walked again, but their percepts are compared.
         if step > len(pilot.doors):
             pilot.forward(h.doors[step - 1])
         if pilot.percepts[step] != expected:  # A1.11 A2.11 A3.20
@@ -195,14 +193,12 @@ def execute(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
 
 
 def localise(pilot: Pilot, chart: Chart, entry: MapDart) -> MapDart:
-    """The robot's reference dart on S, once vu's entry dart is known; it may walk back to vu first.
+    """The robot's reference dart on S, once vu's entry dart is known.
 
-    At v0 the marker tells the reference dart, so the robot stays. Elsewhere it goes back to vu,
-    where its reference dart is turned away from the entry dart as the way back turned it.
+    At v0 the marker tells it. Elsewhere the robot first walks back to vu.
     """
     marker = pilot.robot.percept.marker
     if marker is not None:
-        # The marker points at dart 0, `marker` doors clockwise from the reference dart.
         return chart.turn(0, -marker)
     pilot.back(0)
     return chart.turn(entry, pilot.turned)

@@ -1,27 +1,21 @@
 """Folding, the complete rule: it keeps a hypothesis exactly if some world that fits makes it true.
 
-The rule keeps everything ever seen: the vertices of S, and **ghosts**, places that were seen but
-are not known to be any vertex of S. A test of a hypothesis joins e with h and folds: a dart has one
-partner, so where it would get two, the two are one dart, and their vertices one vertex, turned
-against each other. The hypothesis is false if folding meets a contradiction: two degrees at one
-place; the marker seen at one and not at the other (a place seen without the marker is never v0);
-two vertices of S, or one with itself turned; a dart that is its own partner. If there is none, hang
-a leaf on every open dart of the folded map: in that world the hypothesis is true and every percept
-so far is the same. So no rule that is right in all worlds can reject more.
+The rule keeps every percept: the vertices of S, and **ghosts**, visited places not known to be
+vertices of S. To test a hypothesis it joins e with h and folds: a dart has one partner, so where it
+would get two, the two are one dart, and their vertices one vertex, turned against each other. The
+hypothesis is false if folding meets a contradiction: two degrees at one place; the marker at one
+and not at the other; two vertices of S identified, or one with itself turned; a dart that is its
+own partner. Otherwise hang a leaf on every open dart of the folded map: in that world the
+hypothesis is true and every percept is the same. So no rule that is right in all worlds can reject
+more.
 
-That vu is new is one more alternative. It is ruled out when vu folds into a vertex of S; if one
-hypothesis is left then, it is concluded without motion.
+"vu is new" is one more alternative. It is ruled out when vu folds into a vertex of S; a single
+hypothesis left then is concluded without motion.
 
-    letter       what it is
-    e, h, vu     as in exploration.py
-    NodeDart     a dart of a node, as a number; different numbers may be the same dart
-
-**What a test costs.** A test folds in a layer above what was seen; with the contradiction the layer
-is dropped. If there is none the layer is kept: behind the same e the hypothesis is tested again
-after each mismatch, and then only the places seen since are folded in. (Folding anew each time is
-quadratic in the places behind open edges.) One test takes time nearly linear in its identifications
-(union-find, by size), and a long run makes tens of millions of them; so `_fold` has its look-ups
-written out. The code is written apart from `checkers/folding.py`; tests compare them.
+A test folds in a layer, which a contradiction drops. Otherwise the layer is kept, and the next test
+of the same hypothesis folds in only the new places: folding anew is quadratic in them. Time is
+nearly linear in the identifications (union-find by size), tens of millions in a long run, so
+`_fold` writes out its look-ups. Written apart from `checkers/folding.py`; tests compare them.
 
 Source: docs/semantics.md, section 11; J. R. Stallings, "Topology of finite graphs", Invent. Math.
 71 (1983).
@@ -39,24 +33,29 @@ from topo_verify.robot.events import Evidence, MapDart
 from topo_verify.robot.percept import Door, Percept
 
 NodeDart = int
-"""A dart of a node. They are numbered from 1, so that 0 is none."""
+"""A dart of a node, numbered from 1; 0 is none. Different numbers may be the same dart."""
 
 OWN_END = "a dart would be its own other end"
 UNLIKE = "two degrees, or the marker and its absence, at one place"
 
 
 class SeenPlaces:
-    """What was seen, and what follows from that alone. Node by node, its darts clockwise.
+    """The nodes of a history without any hypothesis.
 
-    Attributes, per dart: `node` (the first dart of its node), `around` (the darts of its node,
-    clockwise from it, once `clockwise` was asked; rows for each dart of a vertex with many loops
-    would be too many), `looks` (the signature of its node); `leader` (0, or a dart that it is),
-    `behind` (if it has no leader: 0, or the other end, or a dart that this leads). `weight`, per
-    node: how many it stands for, itself not counted. `known`: the nodes that are vertices of S.
+    Attributes:
+        node: of each dart, the first dart of its node.
+        around: of each dart, the darts of its node clockwise from it, made on demand.
+        looks: of each dart, the signature of its node.
+        leader: of each dart, 0 or a dart that it is.
+        behind: of each leading dart, its other end or 0.
+        weight: of each node, how many others it stands for.
+        known: the nodes that are vertices of S.
+        joined: every edge, in the order of `join`.
+        merges: number of darts identified with others.
     """
 
     def __init__(self) -> None:
-        """Nothing is seen yet."""
+        """Start with nothing."""
         self.node: list[NodeDart] = [0]
         self.around: list[tuple[NodeDart, ...]] = [()]
         self.looks: list[tuple[int, bool]] = [(0, False)]
@@ -66,7 +65,7 @@ class SeenPlaces:
         self.merges = 0  # how many times places were identified
 
     def add(self, percept: Percept) -> NodeDart:
-        """Add a node with this percept at its first dart, which is returned."""
+        """Add a node with this percept at its first dart. Returns that dart."""
         first, degree = len(self.node), percept.degree
         self.node += [first] * degree
         self.around += [()] * degree
@@ -85,20 +84,17 @@ class SeenPlaces:
 
 
 class PartialFold:
-    """Nodes, their identifications so far, and what lies behind their doors.
+    """Nodes, their identifications, and the ends of their darts.
 
-    A fold may be a **layer** above another one: it reads through to what that has seen, and leaves
-    it as it is. So to undo is to drop the layer. Of what is joined below afterwards it learns by
-    `follow`.
-
-    Every method that identifies returns "" or the contradiction it met. After a contradiction the
-    fold is of no more use.
+    A fold may be a **layer** above another one, which it reads but never changes. `follow` folds in
+    what was joined below since. Methods that identify return "" or the contradiction, after which
+    the fold is useless.
     """
 
     def __init__(self, below: PartialFold | None = None) -> None:
         self.below = below
         self.seen: SeenPlaces = SeenPlaces() if below is None else below.seen
-        # What is found beyond `seen`, by dart or node as there.
+        # The additions to `seen`.
         self.leader: dict[NodeDart, NodeDart] = {}
         self.behind: dict[NodeDart, NodeDart] = {}
         self.weight: dict[NodeDart, int] = {}
@@ -109,19 +105,19 @@ class PartialFold:
         return type(self)(self)
 
     def add(self, percept: Percept, *, known: bool = False) -> NodeDart:
-        """Add a node with this percept at its door 0. Returns the dart of that door."""
+        """Add a node with this percept at its first dart. Returns that dart."""
         first = self.seen.add(percept)
         if known:
             self.seen.known.add(first)
         return first
 
     def turn(self, dart: NodeDart, door: Door) -> NodeDart:
-        """The dart that is so many doors clockwise from this one."""
+        """The dart `door` doors clockwise from this one."""
         first = self.seen.node[dart]
         return first + (dart - first + door) % self.seen.looks[dart][0]
 
     def resolve(self, dart: NodeDart) -> NodeDart:
-        """The dart that stands for all that are the same dart."""
+        """The dart that leads all darts that are the same."""
         leader, leader_seen = self.leader, self.seen.leader
         while up := leader_seen[dart] or leader.get(dart):
             dart = up
@@ -132,63 +128,57 @@ class PartialFold:
         return self.seen.node[self.resolve(dart)] in self.seen.known
 
     def across(self, dart: NodeDart) -> NodeDart:
-        """The other end of a dart's edge; 0 if nothing was seen behind it."""
+        """The other end of a dart's edge; 0 if the robot was never behind it."""
         dart = self.resolve(dart)
         return self.behind.get(dart) or self.seen.behind[dart]
 
     def know(self, dart: NodeDart) -> None:
-        """Take note that the dart is one of a vertex of S."""
+        """Record that the dart is one of a vertex of S."""
         self.seen.known.add(self.seen.node[self.resolve(dart)])
 
-    def join(self, one: NodeDart, other: NodeDart) -> str:
+    def join(self, d: NodeDart, e: NodeDart) -> str:
         """Join two darts to one edge, and fold."""
         if self.below is None:
-            self.seen.joined.append((one, other))
-        one, other = self.resolve(one), self.resolve(other)
-        if one == other:
+            self.seen.joined.append((d, e))
+        d, e = self.resolve(d), self.resolve(e)
+        if d == e:
             return OWN_END
         behind, seen = self.behind, self.seen.behind
-        had, has = behind.get(one) or seen[one], behind.get(other) or seen[other]
-        # The last pair is folded first: what is behind h, if anything, with the vertex of e in S.
-        pairs: list[tuple[NodeDart, NodeDart]] = []
-        if had:
-            pairs.append((had, other))
+        d_end, e_end = behind.get(d) or seen[d], behind.get(e) or seen[e]
+        pairs: list[tuple[NodeDart, NodeDart]] = []  # the last pair is folded first
+        if d_end:
+            pairs.append((d_end, e))
         else:
-            behind[one] = other
-        if has:
-            pairs.append((has, one))
+            behind[d] = e
+        if e_end:
+            pairs.append((e_end, d))
         else:
-            behind[other] = one
+            behind[e] = d
         return self._drawn(pairs)
 
-    def identify(self, one: NodeDart, other: NodeDart) -> str:
+    def identify(self, d: NodeDart, e: NodeDart) -> str:
         """Make two darts one, and fold."""
-        return self._drawn([(one, other)], one_partner=False)
+        return self._drawn([(d, e)], one_partner=False)
 
     def _drawn(self, pairs: list[tuple[NodeDart, NodeDart]], *, one_partner: bool = True) -> str:
-        """Fold; where nothing was assumed, take what was found for seen, or drop it if it clashes.
+        """Fold; in the lowest fold keep the result, or drop all of it if it clashes.
 
-        (It never clashes in a world. What was found halfway would lead later folds in circles.)
+        It never clashes in a world. A partial result would lead later folds in circles.
         """
-        wrong = self._fold(pairs, one_partner=one_partner)
+        contradiction = self._fold(pairs, one_partner=one_partner)
         if self.below is None:
-            self._keep(right=not wrong)
-        return wrong
+            self._keep(right=not contradiction)
+        return contradiction
 
     def _fold(  # noqa: C901, PLR0912  one kernel, since it runs by the million
         self, waiting: list[tuple[NodeDart, NodeDart]], *, one_partner: bool = True
     ) -> str:
-        """Make the two darts of each pair one, and draw what follows.
-
-        Args:
-            one_partner: the two darts of each pair have one partner, so nothing more is to be
-                drawn from what lies behind them.
-        """
+        """Make the darts of each pair one. With `one_partner` they share a partner."""
         seen, leader, behind, weight = self.seen, self.leader, self.behind, self.weight
         node, around, looks, known = seen.node, seen.around, seen.looks, seen.known
         leader_seen, behind_seen, weight_seen = seen.leader, seen.behind, seen.weight
-        for one, other in waiting:
-            if looks[one] != looks[other]:
+        for d, e in waiting:
+            if looks[d] != looks[e]:
                 return UNLIKE
         while waiting:
             small, large = waiting.pop()
@@ -201,16 +191,15 @@ class PartialFold:
             s, n = node[small], node[large]
             if s == n:
                 return "a vertex would be itself, turned"
-            if s in known:  # it leads whatever is identified with it
+            if s in known:  # a vertex of S leads its class
                 if n in known:
                     return "two vertices of S would be one"
                 small, large = large, small
             elif n not in known:
                 light, heavy = weight.get(s) or weight_seen[s], weight.get(n) or weight_seen[n]
-                if light > heavy:  # keeps every chain of leaders short
+                if light > heavy:
                     small, large, n = large, small, s
                 weight[n] = light + 1 + heavy
-            # Alike, so of one degree.
             darts = around[small] or seen.clockwise(small)
             for dart, same in zip(darts, around[large] or seen.clockwise(large)):  # noqa: B905  made by the million
                 leader[dart] = same
@@ -231,34 +220,32 @@ class PartialFold:
         return ""
 
     def _keep(self, *, right: bool) -> None:
-        """Take for seen what was found, if it is right; and begin anew."""
         seen = self.seen
         seen.merges += len(self.leader) if right else 0
-        for found, kept in (
+        for additions, kept in (
             (self.leader, seen.leader),
             (self.behind, seen.behind),
             (self.weight, seen.weight),
         ):
-            for place, number in found.items() if right else ():
+            for place, number in additions.items() if right else ():
                 kept[place] = number
-            found.clear()
+            additions.clear()
 
     def follow(self) -> str | None:
         """Fold in what was joined below since this layer was made or last followed.
 
         Returns:
-            As the methods that identify; or None if places were identified below, of which a layer
-            that was made before cannot be told.
+            "" or the contradiction; None if places were identified below: the layer is out of date.
         """
         new = self.seen.joined[self._followed :]
         self._followed += len(new)
         if self.seen.merges != self._merges:
             return None
-        return next((wrong for edge in new if (wrong := self.join(*edge))), "")
+        return next((clash for edge in new if (clash := self.join(*edge))), "")
 
 
 class FoldingRule(NoRule):
-    """Rejects every hypothesis that no world allows. It remembers everything seen in the run."""
+    """Rejects every hypothesis that no world allows. It remembers the whole run."""
 
     def __init__(self) -> None:
         self.fold = PartialFold()
@@ -268,12 +255,12 @@ class FoldingRule(NoRule):
         self.assumed: dict[MapDart, PartialFold] = {}  # of each hypothesis kept: its layer
 
     def node_dart(self, chart: Chart, dart: MapDart) -> NodeDart:
-        """The dart of a node that a dart of S is."""
+        """The dart of the fold for a dart of S."""
         v = chart.vertex[dart]
         return self.fold.turn(self.entries[v], dart - chart.first[v])
 
     def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
-        """Take note of vu, which is a place seen before, or a new ghost."""
+        """Find vu: a place visited before, or a new ghost."""
         if not self.entries:
             self.entries.append(self.fold.add(chart.percepts[0], known=True))
         self.e = self.node_dart(chart, e)
@@ -281,7 +268,7 @@ class FoldingRule(NoRule):
         self.assumed.clear()
 
     def _cross(self, exit_place: NodeDart, percept: Percept) -> NodeDart:
-        """The dart by which the robot comes in behind an exit; adds a ghost if it is new there."""
+        """The dart by which the robot comes in behind an exit; adds a ghost on the first visit."""
         beyond = self.fold.across(exit_place)
         if not beyond:
             beyond = self.fold.add(percept)
@@ -299,16 +286,16 @@ class FoldingRule(NoRule):
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
-        """Why no world allows the hypothesis, if none does."""
+        """Why no world allows the hypothesis; None if one does."""
         layer = self.assumed.pop(hypothesis.dart, None)
-        wrong = None if layer is None else layer.follow()
-        if layer is None or wrong is None:
+        contradiction = None if layer is None else layer.follow()
+        if layer is None or contradiction is None:
             layer = self.fold.layer()
-            wrong = layer.join(self.e, self.node_dart(chart, hypothesis.dart))
-        if not wrong:
+            contradiction = layer.join(self.e, self.node_dart(chart, hypothesis.dart))
+        if not contradiction:
             self.assumed[hypothesis.dart] = layer
             return None
-        return Refutation("folding", Evidence(0, contradiction=wrong))
+        return Refutation("folding", Evidence(0, contradiction=contradiction))
 
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
         """The last hypothesis, once vu is known to be a vertex of S."""
@@ -317,7 +304,7 @@ class FoldingRule(NoRule):
     def learn(
         self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
     ) -> None:
-        """Note which vertex of S vu is: a new one, or that of `entry`."""
+        """Record which vertex of S vu is: a new one, or that of `entry`."""
         if len(self.entries) < len(chart.first):
             self.entries.append(self.vu)
             self.fold.know(self.vu)

@@ -1,23 +1,21 @@
-"""The fold of a whole history, S as its settled part, and the robot in it: what `homing` steers by.
+"""The fold of a whole history, S as its settled part, and the robot in it.
 
-The robot's whole history is folded: one node a visit, and two visits one node as soon as they must
-be one place. Nothing else is remembered, and nothing is ever assumed. So the fold is true whatever
-doors the robot takes; and when no dart of it is open, it is the world (docs/semantics.md, section
-11). A policy that steers by a History decides what the map costs and can do no more harm than that.
+Each visit is a node; two visits become one node once they must be one place. Nothing is assumed, so
+the fold is true whatever doors the robot takes; once no dart of it is open, it is the world
+(docs/semantics.md, section 11). A policy that steers by a History affects only the cost.
 
-    letter       what it is
-    S, U         the chart: the part of the fold that is settled, and its unexplored darts
-    e, vu        a dart of U that was crossed, and the place behind it: not known to be in S, or not
+    S, U         the chart: the settled part of the fold, and its unexplored darts
+    e, vu        a crossed dart of U, and the place behind it
     h            a hypothesis for e: another dart of U, at a vertex that looks like vu
     ghost        a node of the fold that is not known to be a vertex of S
 
-**An edge is settled late**, wherever the robot stands by then: as a loop once vu has become a
-vertex of S by folding, as a new vertex once folding refutes every h. Then S grows, and the decision
-is declared with the contradiction that refuted each h. With S the fold knows more (two vertices of
-S are never one), so one settled edge may settle others.
+**An edge is settled late**, wherever the robot stands: as a loop once folding makes vu a vertex of
+S, as a new vertex once folding refutes every h. The decision is declared with the contradiction of
+each h. A larger S tells the fold more (two vertices of S are never one), so one settled edge may
+settle others.
 
-**Suppositions.** For each h that is not refuted the places as they would be if e ended in h are
-kept, and follow what is seen: where the ghosts lie, what would be seen behind their doors.
+**Suppositions.** For each h that is not refuted, the places as they would be if e ended in h are
+kept and follow the history.
 
 Source: docs/homing.md.
 """
@@ -39,13 +37,13 @@ from topo_verify.robot.percept import Percept, Purpose
 
 @dataclass(slots=True)
 class Crossed:
-    """What is known of a dart of U that was crossed.
+    """A crossed dart of U.
 
     Attributes:
-        refuted: the hypotheses that no world allows, each with the rule and the contradiction.
-        supposed: of hypotheses that some world allows: the places, if it is true.
-        vertices: how many vertices S had when they were supposed.
-        possible: the first hypothesis that some world allowed, when that was last asked.
+        refuted: the hypotheses that no world allows, with the reason.
+        supposed: of the others, the places if they are true.
+        vertices: the number of vertices of S when they were supposed.
+        possible: the first hypothesis that some world allowed at the last check.
     """
 
     refuted: dict[MapDart, Refutation] = field(default_factory=dict[MapDart, Refutation])
@@ -55,23 +53,26 @@ class Crossed:
 
 
 class ImpossibleError(Exception):
-    """No world that the mapper allows for shows its history."""
+    """No world that the mapper allows for has this history."""
 
 
 class History:
-    """Everything seen, folded. It grows by `move`, which also settles what can be settled.
+    """All percepts of a run, folded. `move` adds one and settles what it proves.
 
     Attributes:
-        chart: S. `places`: the fold, with S in it. `crossed`: the darts of U that were crossed.
-        at: the robot's reference dart. `cost`: its moves so far.
-        settled: how many edges are settled.
+        chart: S.
+        places: the fold, with S in it.
+        crossed: the crossed darts of U.
+        at: the robot's reference dart.
+        cost: its moves so far.
+        settled: number of settled edges.
     """
 
     allowed: ClassVar = "world"
-    """What the mapper allows for."""
+    """The worlds that the mapper allows for."""
 
     def __init__(self, robot: Robot) -> None:
-        """Begin where the robot stands, at v0."""
+        """Begin at v0."""
         self.robot = robot
         self.chart = Chart(robot.percept)  # H.1
         self.places = Places(robot.percept)
@@ -84,26 +85,26 @@ class History:
     # ---------------------------------------------------------------- S in the fold
 
     def node_dart(self, dart: MapDart) -> NodeDart:
-        """The dart of the fold that a dart of S is."""
+        """The dart of the fold for a dart of S."""
         v = self.chart.vertex[dart]
         return self.places.turn(self.places.entries[v], dart - self.chart.first[v])
 
     def map_dart(self, dart: NodeDart, places: Places | None = None) -> MapDart | None:
-        """The dart of S that a dart is, by what was seen (or supposed); None if it is a ghost's."""
-        where = places or self.places
-        v = where.vertex(dart)
+        """The dart of S for a dart of the fold (or of `places`); None at a ghost."""
+        places = places or self.places
+        v = places.vertex(dart)
         if v is None:
             return None
-        return self.chart.turn(self.chart.first[v], where.door(self.places.entries[v], dart))
+        return self.chart.turn(self.chart.first[v], places.door(places.entries[v], dart))
 
     def behind(self, e: MapDart) -> NodeDart:
-        """The dart by which the robot comes in behind a dart of S that it has crossed."""
+        """The dart by which the robot comes in behind a crossed dart of S."""
         end = self.places.across(self.node_dart(e))
         assert end is not None, f"dart {e} was never crossed"
         return end
 
     def home(self) -> Tree:
-        """The breadth-first tree of S rooted at v0: for each vertex its way home."""
+        """The breadth-first tree of S rooted at v0."""
         if self._home is None:
             self._home = self.chart.tree(0)
         return self._home
@@ -115,23 +116,20 @@ class History:
         return self.places.vertex(self.at) is not None
 
     def beside(self, e: MapDart) -> bool:
-        """Whether the robot stands at a ghost that hangs together with the place behind e."""
+        """Whether the robot stands at one of the ghosts behind e."""
         return e in self.crossed and self.places.place(self.at) in self.ghosts(e)
 
     def away(self) -> int:
-        """How far the robot is from the nearest vertex of S."""
+        """Distance from the robot to the nearest vertex of S."""
         search = self.outward(self.at)
         return next(far for place, far, _ in search if self.places.vertex(place) is not None)
 
     def open_darts(self, place: PlaceNode) -> Iterator[NodeDart]:
-        """The darts of a place behind which nothing was seen yet."""
+        """The darts of a place that were never crossed."""
         return (dart for dart in self.places.darts(place) if self.places.across(dart) is None)
 
     def leads(self, place: PlaceNode) -> Iterator[MapDart]:
-        """The darts of U to settle from a place.
-
-        They are those that leave it and were never crossed, or at a ghost those that lead there.
-        """
+        """The darts of U to settle from a place: uncrossed, or leading to a ghost."""
         ghost = self.places.vertex(place) is None
         for dart in self.places.darts(place):
             end = self.places.across(dart)
@@ -143,27 +141,28 @@ class History:
     def outward(
         self, start: NodeDart, *, ghosts_only: bool = False
     ) -> Iterator[tuple[PlaceNode, int, NodeDart | None]]:
-        """Breadth-first search over what was seen: place, distance, dart that leads back.
+        """Breadth-first search over the places visited: place, distance, dart that leads back.
 
         Args:
-            ghosts_only: pass over the vertices of S (but for the place of the start).
+            start: a dart of the first place.
+            ghosts_only: skip the vertices of S, except the first place.
         """
         first = self.places.place(start)
         reached = {first}
         queue: list[tuple[PlaceNode, int, NodeDart | None]] = [(first, 0, None)]
-        for found in queue:  # grows as it goes
-            yield found
-            place, distance, _ = found
-            for there, end in self._neighbours.get(place) or self.neighbours(place):
-                if there not in reached:
-                    reached.add(there)
-                    if not (ghosts_only and self.places.vertex(there) is not None):
-                        queue.append((there, distance + 1, end))
+        for step in queue:  # grows as it goes
+            yield step
+            place, distance, _ = step
+            for neighbour, end in self._neighbours.get(place) or self.neighbours(place):
+                if neighbour not in reached:
+                    reached.add(neighbour)
+                    if not (ghosts_only and self.places.vertex(neighbour) is not None):
+                        queue.append((neighbour, distance + 1, end))
 
     def neighbours(self, place: PlaceNode) -> list[tuple[PlaceNode, NodeDart]]:
-        """The places next to a place, each with the dart by which the robot comes in there.
+        """The places next to a place, each with the dart of arrival.
 
-        Kept until the fold changes at the place: most searches pass over places that are settled.
+        Cached until the fold changes there, because most searches cross settled places.
         """
         places = self.places
         if place not in self._neighbours:
@@ -172,17 +171,17 @@ class History:
         return self._neighbours[place]
 
     def ghosts(self, e: MapDart) -> dict[PlaceNode, int]:
-        """The ghosts that hang together with vu, and how far from it they are."""
+        """The ghosts connected with vu through ghosts, and their distances from it."""
         search = self.outward(self.behind(e), ghosts_only=True)
         return {place: distance for place, distance, _ in search}
 
     def distances(self, goals: Collection[PlaceNode]) -> dict[PlaceNode, int]:
-        """How far some places are from the robot."""
+        """Distances of the goals from the robot."""
         search = ((place, far) for place, far, _ in self.outward(self.at) if place in goals)
         return dict(islice(search, len(goals)))  # the search ends with the last of them
 
     def way(self, goal: NodeDart) -> list[NodeDart]:
-        """The darts by which the robot leaves the places on a shortest way to that of a dart."""
+        """The exits on a shortest way from the robot to the place of a dart."""
         target = self.places.place(goal)
         back, search = dict[PlaceNode, NodeDart | None](), self.outward(self.at)
         while target not in back:
@@ -199,10 +198,10 @@ class History:
     # ---------------------------------------------------------------- moving
 
     def move(self, exit_dart: NodeDart, purpose: Purpose = "walk") -> None:
-        """Leave by a dart of the place where the robot stands; fold, and settle what follows.
+        """Leave by a dart of the robot's place; fold, and settle what follows.
 
         Raises:
-            ImpossibleError: no world that is allowed for shows this history.
+            ImpossibleError: no world that the mapper allows for has this history.
         """
         places = self.places
         percept = self.robot.move(places.door(self.at, exit_dart), purpose)
@@ -211,10 +210,10 @@ class History:
         if beyond is None:
             merges = places.merges
             e = self.map_dart(exit_dart)
-            beyond, wrong = places.add(exit_dart, percept)  # H.14
-            if wrong:
-                raise self.impossible(wrong)
-            # Where places were identified, doors that were seen at a ghost may be doors of S now.
+            beyond, contradiction = places.add(exit_dart, percept)  # H.14
+            if contradiction:
+                raise self.impossible(contradiction)
+            # Identified places may turn crossed doors of a ghost into doors of S.
             merged = places.merges != merges
             if merged:
                 self._neighbours.clear()
@@ -224,12 +223,11 @@ class History:
             self._settle()
         self.at = places.resolve(beyond)
 
-    def impossible(self, wrong: str) -> ImpossibleError:
-        """The exception to raise where the history is contradictory."""
-        return ImpossibleError(f"no {self.allowed} shows this history: {wrong}")
+    def impossible(self, contradiction: str) -> ImpossibleError:
+        """The exception for a contradictory history."""
+        return ImpossibleError(f"no {self.allowed} shows this history: {contradiction}")
 
     def _note(self, darts: Collection[MapDart]) -> None:
-        """Take note of those darts of U that are crossed by now."""
         for e in darts:
             if e not in self.crossed and self.places.across(self.node_dart(e)) is not None:
                 self.crossed[e] = Crossed()
@@ -250,23 +248,22 @@ class History:
 
     def suppose(self, e: MapDart, h: MapDart) -> Places | None:
         """The places if a crossed e ends in h, or None if no world allows that."""
-        about = self.crossed[e]
-        if h in about.refuted:
+        crossed = self.crossed[e]
+        if h in crossed.refuted:
             return None
-        if about.vertices != len(self.places.entries):  # a layer cannot be told that S has grown
-            about.supposed.clear()
-            about.vertices = len(self.places.entries)
-        supposed = about.supposed.get(h)
+        if crossed.vertices != len(self.places.entries):  # a layer does not learn that S has grown
+            crossed.supposed.clear()
+            crossed.vertices = len(self.places.entries)
+        supposed = crossed.supposed.get(h)
         if supposed is None or not supposed.follow():
-            found = self.places.suppose(self.node_dart(e), self.node_dart(h))  # H.10
-            if isinstance(found, str):
-                about.refuted[h] = Refutation("folding", Evidence(0, contradiction=found))
+            fold = self.places.suppose(self.node_dart(e), self.node_dart(h))  # H.10
+            if isinstance(fold, str):
+                crossed.refuted[h] = Refutation("folding", Evidence(0, contradiction=fold))
                 return None
-            supposed = about.supposed[h] = found
+            supposed = crossed.supposed[h] = fold
         return supposed
 
     def _settle(self) -> None:
-        """Settle every crossed edge of which the history proves where it ends."""
         grown = True
         while grown:
             grown = False
@@ -283,22 +280,20 @@ class History:
                 grown = True
 
     def _may_be_known(self, e: MapDart) -> bool:
-        """Whether some world allows a hypothesis for a crossed e."""
-        about = self.crossed[e]
-        h = about.possible  # those before it are refuted for ever, so it is still the first or none
+        crossed = self.crossed[e]
+        h = crossed.possible  # refutations last, so it is still the first or none
         if h is None or h not in self.chart.unexplored or self.suppose(e, h) is None:
-            about.possible = next((h for h, _ in self.hypotheses(e)), None)
-        return about.possible is not None
+            crossed.possible = next((h for h, _ in self.hypotheses(e)), None)
+        return crossed.possible is not None
 
     def _settle_loop(self, e: MapDart, h: MapDart) -> None:
-        """S grows by the edge between two of its darts."""
         self.robot.declare(Pose(e, tuple(self.alike(e))))
         self.robot.declare(Confirm(e, h, "folding"))
         self._join(e, h)
         self.robot.declare(Augment(e, "loop", h, self.chart.percepts[h].degree))
 
     def _settle_new(self, e: MapDart) -> None:
-        """S grows by the place behind e, whose darts are numbered from that by which e enters."""
+        """S grows by the place behind e, with darts numbered from that of entry."""
         entry, alike = self.behind(e), self.alike(e)
         degree, _ = self.places.looks(entry)
         self.robot.declare(Pose(e, tuple(alike)))

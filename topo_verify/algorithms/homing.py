@@ -1,27 +1,21 @@
 """Homing: settle the nearest edge, by doors that tell much and lead home soon.
 
-It steers by the fold of the whole history (history.py) in the loop of steering.py; so it is sound
-by construction, and this file touches nothing but the cost. Four rules:
+It is sound by the fold (history.py) and ends by the loop (steering.py); this file affects the cost.
 
-1. **From where the robot stands.** The basic algorithm walks the ways home of one hypothesis after
-   the other, each from vu. Here each ghost that the robot has seen behind e is a place of S if h is
-   true, and so has a way home; the robot follows one from the ghost where it stands. Nor does it
-   walk to vu to begin with an e behind which it stands already.
-2. **No way back.** When e is settled, the robot goes on from there. The fold says where that is.
-3. **New edges first.** The next edge is the one behind which the robot is soonest; of two that are
-   equally near, one that was never crossed comes before a ghost. Where all places look alike, it
-   lies along a face: next_edge.py.
-4. **Doors by what they tell.** Behind an open dart of a ghost each hypothesis foretells what the
-   robot will see. The next door leads towards the open dart with the least
+1. **From where the robot stands.** The basic algorithm walks each way home from vu. Here each ghost
+   behind e is a place of S if h is true, and so has a way home; the robot takes one from its ghost.
+2. **No way back.** When e is settled, the robot goes on from there.
+3. **New edges first.** The next edge is the one behind which the robot is soonest; an edge never
+   crossed wins a tie. If all vertices look alike, it lies along a face: next_edge.py.
+4. **Doors by what they tell.** Each hypothesis predicts the percept behind an open dart of a ghost.
+   The next door leads towards the open dart with the least
 
        steps to it + 1 + expected way home behind it - BIT · bits that it tells about h
 
    The expectation is over the hypotheses, as if one were true: to learn that vu is new, all must
    be refuted anyway, soonest by the doors that would tell the true one apart. Each is weighed by
-   its coincidences. If h is true, places were seen several times; were it false, that many places
-   would have had the same degree by chance, each with the share of that degree in S.
-
-Why it ends, and within the bound of claim 7: steering.py.
+   its coincidences: if h is false, the places that it identifies have equal degrees by chance, each
+   with the share of that degree in S.
 
 Source: docs/homing.md.
 """
@@ -42,21 +36,21 @@ from topo_verify.algorithms.steering import HistoryOf, explore
 from topo_verify.robot.events import MapDart, Robot
 
 BIT = 1.4
-"""So many moves a bit is worth; between 1 and 2 the costs hardly change."""
+"""Value of a bit in moves; between 1 and 2 the costs hardly change."""
 
 DegreeShares = Mapping[int, float]
-"""Degree -> share of the darts of S at vertices of that degree: what to expect behind a door."""
+"""Degree -> share of the darts of S at vertices of that degree."""
 
 
 Prior = Callable[[MapDart], float]
-"""How likely a hypothesis is before anything is seen behind e, to a factor that all share."""
+"""Prior weight of a hypothesis, up to a common factor."""
 
 UNSEEN = 0.005
 """The share of a degree that no vertex of S has."""
 
 
 class Belief(NamedTuple):
-    """A hypothesis: the places if it is true, its share, how far from home each ghost is then."""
+    """A hypothesis: the places if it is true, its probability, each ghost's way home."""
 
     places: Places
     share: float
@@ -69,7 +63,7 @@ def homing(robot: Robot, *, history_of: HistoryOf = History) -> Survey:
 
 
 def alike(_: MapDart) -> float:
-    """The prior of `homing`: each hypothesis as likely as any other."""
+    """The prior of `homing`: all hypotheses are equally likely."""
     return 1.0
 
 
@@ -100,11 +94,11 @@ def degree_shares(history: History) -> DegreeShares:
 def weigh(
     history: History, e: MapDart, ghosts: Mapping[PlaceNode, int], usual: DegreeShares, prior: Prior
 ) -> list[Belief]:
-    """The hypotheses for e, by how likely each is if one is true."""
+    """The hypotheses for e, each with its probability if one is true."""
     depth, vertex = history.home().depth, history.chart.vertex
-    found: list[tuple[Places, float, dict[PlaceNode, int]]] = []
+    weighed: list[tuple[Places, float, dict[PlaceNode, int]]] = []
     for h, places in history.hypotheses(e):
-        # A ghost that is no place of S, even so, has its way home over vu.
+        # A place that stays a ghost even then has its way home over vu.
         images = {ghost: places.vertex(ghost) for ghost in ghosts}
         over_vu = depth[vertex[h]]
         homes = {
@@ -113,10 +107,10 @@ def weigh(
         bits = log2(prior(h)) - sum(
             log2(usual.get(degree, UNSEEN)) for degree in places.coincidences()
         )
-        found.append((places, bits, homes))
-    most = max(bits for _, bits, _ in found)
-    total = sum(2 ** (bits - most) for _, bits, _ in found)
-    return [Belief(places, 2 ** (bits - most) / total, homes) for places, bits, homes in found]
+        weighed.append((places, bits, homes))
+    most = max(bits for _, bits, _ in weighed)
+    total = sum(2 ** (bits - most) for _, bits, _ in weighed)
+    return [Belief(places, 2 ** (bits - most) / total, homes) for places, bits, homes in weighed]
 
 
 def foretell(
@@ -126,7 +120,7 @@ def foretell(
     dart: NodeDart,
     usual: DegreeShares,
 ) -> tuple[float, float]:
-    """The expected way home behind an open dart, and how many bits what is seen there tells."""
+    """The expected way home behind an open dart, and the bits that the percept there tells."""
     depth = history.home().depth
     foretold: defaultdict[tuple[int, MapDart], float] = defaultdict(float)
     way_home = unforetold = 0.0
@@ -136,7 +130,7 @@ def foretell(
         way_home += share * (homes[place] + 1 if v is None else depth[v])
         if end is None:
             unforetold += share
-        else:  # at v0 the marker's direction is seen as well
+        else:  # at v0 the percept also has the marker's direction
             direction = history.map_dart(end, places) if v == 0 else None
             foretold[places.looks(end)[0], -1 if direction is None else direction] += share
     for degree, share in usual.items():

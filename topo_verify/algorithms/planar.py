@@ -1,16 +1,12 @@
 """The planar prior: in a planar world, only darts on e's own face of S can be its other end.
 
-An edge drawn inside a face of a plane map cuts it in two; an edge from one face to another would
-need a handle. So two open darts of S can be joined only if they lie on one face of S, where an open
-dart counts as a dead end when the face is walked. The rule is sound in every planar world. In
-other worlds it rejects true hypotheses, and the checkers must find that. It may stand before any
-other rule.
+An edge inside a face of a plane map cuts it in two; an edge between two faces needs a handle. An
+open dart counts as a dead end of its face. The prior is sound in every planar world; in others it
+rejects true hypotheses, and the checkers must find that.
 
-Two shapes of it: a rule for the loop of exploration.py, and a `History` for the mappers that steer
-by one. As S grows, two darts on different faces stay on different ones, so what was refuted stays
-refuted. A history learns in the end whether the prior was right: in a planar world nothing
-contradicts it; elsewhere an edge is found to lead to another face, or two vertices of S to be one
-place. Such a mapper raises then, and delivers no map.
+It comes as a rule in front of another rule, and as a `History`. Refutations last: two darts on
+different faces stay so while S grows. In a world that is not planar a history finds an edge to
+another face, or two vertices of S at one place, and raises.
 
 Source: docs/semantics.md, section 8.
 """
@@ -46,7 +42,7 @@ class PlanarRule:
         self.rule.arrive(chart, e, percept)
 
     def observe(self, sequence: Executed) -> None:
-        """Passes the sequence on to the other rule."""
+        """Pass the sequence on."""
         self.rule.observe(sequence)
 
     def refute(
@@ -64,17 +60,17 @@ class PlanarRule:
     def learn(
         self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
     ) -> None:
-        """Passes the new edge on to the other rule."""
+        """Pass the new edge on."""
         self.rule.learn(chart, e, entry, sequences)
 
 
 class PlanarHistory(History):
-    """A history that refutes each hypothesis on another face than e as well."""
+    """A history that also refutes each hypothesis on another face than e."""
 
     allowed = "planar world"
 
     def __init__(self, robot: Robot) -> None:
-        """Begin where the robot stands, at v0."""
+        """Begin at v0."""
         super().__init__(robot)
         self._faces: dict[MapDart, frozenset[MapDart]] = {}  # of the darts asked about so far
 
@@ -86,10 +82,9 @@ class PlanarHistory(History):
         return None
 
     def _face(self, e: MapDart) -> frozenset[MapDart]:
-        """The darts on the face of e."""
         if e not in self._faces:
-            found = frozenset(face(self.chart, e))
-            self._faces.update(dict.fromkeys(found, found))
+            darts = frozenset(face(self.chart, e))
+            self._faces.update(dict.fromkeys(darts, darts))
         return self._faces[e]
 
     def _settle_loop(self, e: MapDart, h: MapDart) -> None:
@@ -103,12 +98,12 @@ class PlanarHistory(History):
 
 
 def planar_homing(robot: Robot) -> Survey:
-    """Map the robot's world, which is planar, as `homing` does."""
+    """Map the robot's planar world, as `homing` does."""
     return homing(robot, history_of=PlanarHistory)
 
 
 def planar_planner(robot: Robot) -> Survey:
-    """Map the robot's world, which is planar, as `planner` does."""
+    """Map the robot's planar world, as `planner` does."""
     return planner(robot, history_of=PlanarHistory)
 
 
@@ -116,8 +111,8 @@ def face(chart: Chart, e: MapDart) -> list[MapDart]:
     """The darts of S on the face of e, from e on."""
     darts = [e]
     while True:
-        across = chart.alpha[darts[-1]]  # None: an unexplored dart is a dead end, so turn back
-        # The next dart of the face is sigma∘alpha, where alpha of an open dart is the dart itself.
+        across = chart.alpha[darts[-1]]
+        # sigma∘alpha, where alpha of an unexplored dart is the dart itself
         following = chart.turn(darts[-1] if across is None else across, 1)
         if following == e:
             return darts

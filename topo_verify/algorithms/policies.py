@@ -1,8 +1,7 @@
 """The two policies that the paper leaves open: which edge next, and which hypothesis first.
 
-Every claim holds for every choice; costs do not. The reference costs are those of `nearest` and
-`shortest`. `random(seed)` draws from Python's `random.Random(seed)`: the same run on every machine
-here, not promised to implementations in other languages.
+Every claim holds for every choice; costs differ. `random(seed)` is Python's `random.Random(seed)`,
+not promised to implementations in other languages.
 
 Source: docs/semantics.md, section 5.
 """
@@ -24,7 +23,7 @@ Pick = Callable[[Chart, MapDart], MapDart]
 """(S, the robot's reference dart on S) -> the dart of U to explore next."""
 
 Order = Callable[[Iterable[MapDart], Chart, Tree], list[MapDart]]
-"""(H, S, the breadth-first tree rooted at v0) -> H in the order in which it is tried."""
+"""(H, S, the breadth-first tree rooted at v0) -> H in the order in which to try it."""
 
 
 def nearest(chart: Chart, at: MapDart) -> MapDart:
@@ -33,10 +32,10 @@ def nearest(chart: Chart, at: MapDart) -> MapDart:
     reach = 0
     for v, distance, _ in chart.outward(chart.vertex[at]):
         if best is not None and distance > reach:
-            break  # the search goes outward: no vertex as near is still to come
-        opened = next((d for d in chart.darts(v) if d in chart.unexplored), None)
-        if opened is not None and (best is None or opened < best):
-            best, reach = opened, distance
+            break
+        dart = next((d for d in chart.darts(v) if d in chart.unexplored), None)
+        if dart is not None and (best is None or dart < best):
+            best, reach = dart, distance
     assert best is not None, "U is not empty and S is connected"
     return best
 
@@ -52,17 +51,17 @@ def first(chart: Chart, at: MapDart) -> MapDart:
 
 
 def shortest(darts: Iterable[MapDart], chart: Chart, tree: Tree) -> list[MapDart]:
-    """By the length of the validation path, then by dart."""
+    """H by length of the validation path, then by dart."""
     return sorted(darts, key=lambda h: (tree.depth[chart.vertex[h]], h))
 
 
 def oldest(darts: Iterable[MapDart], chart: Chart, tree: Tree) -> list[MapDart]:
-    """Sort H by dart, ascending."""
+    """H by dart, ascending."""
     return sorted(darts)
 
 
 def newest(darts: Iterable[MapDart], chart: Chart, tree: Tree) -> list[MapDart]:
-    """Sort H by dart, descending."""
+    """H by dart, descending."""
     return sorted(darts, reverse=True)
 
 
@@ -71,10 +70,10 @@ ORDERS = {"shortest": shortest, "oldest": oldest, "newest": newest}
 
 
 def pick_policy(text: str) -> Pick:
-    """The pick policy of this name, made anew for one run.
+    """The pick policy of this name, for one run.
 
     Raises:
-        ValueError: no such policy; the sentence lists them.
+        ValueError: no such policy.
     """
     if (random := _random(text)) is not None:
         return lambda chart, at: random.choice(list(chart.unexplored))
@@ -84,10 +83,10 @@ def pick_policy(text: str) -> Pick:
 
 
 def order_policy(text: str) -> Order:
-    """The order policy of this name, made anew for one run.
+    """The order policy of this name, for one run.
 
     Raises:
-        ValueError: no such policy; the sentence lists them.
+        ValueError: no such policy.
     """
     if (random := _random(text)) is not None:
         return lambda darts, chart, tree: _shuffled(random, darts)
@@ -97,7 +96,7 @@ def order_policy(text: str) -> Order:
 
 
 def check(policies: Policies) -> Policies:
-    """The same policies, if both exist; otherwise a `ValueError` that lists those there are."""
+    """The same policies, or a ValueError that lists those that exist."""
     pick_policy(policies.pick)
     order_policy(policies.order)
     return policies
