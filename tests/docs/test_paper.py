@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections import Counter
 from functools import cache
 
 import pytest
@@ -68,7 +69,7 @@ def text_of(path: str, name: str) -> str:
 
 def lost(row: Row) -> list[str]:
     """The names in a row of the first table that do not exist."""
-    _, _, code, claims, z3, coq, tests = (re.findall(r"`([^`]+)`", cell) for cell in row)
+    _, _, code, claims, z3, coq, tests, _ = (re.findall(r"`([^`]+)`", cell) for cell in row)
     theorems = {theorem.name for theorem in catalogue()}
     return [
         *(name for name in code if not _defined("topo_verify/", name)),
@@ -148,13 +149,28 @@ def test_no_statement_of_the_paper_is_missing() -> None:
     assert {section for section, _ in missing(SENTENCES[:-1])} == {"V"}
 
 
+def test_the_page_counts_its_outcomes() -> None:
+    counts = Counter(row[7] for row in SENTENCES)
+    assert set(counts) == {"followed", "proved", "measured", "on average", "does not follow"}
+    (said,) = re.findall(
+        r"Of its (\d+) statements (\d+) are followed .* (\d+) are proved, (\d+) is measured, "
+        r"(\d+) hold on average only, and (\d+) does not follow\.",
+        PAGE,
+    )
+    assert [*map(int, said)] == [
+        len(SENTENCES),
+        *(counts[o] for o in ("followed", "proved", "measured", "on average", "does not follow")),
+    ]
+    assert all("`" in row[5] for row in SENTENCES if row[7] == "proved")
+
+
 def test_each_sentence_has_code_and_a_test() -> None:
     assert all("`" in row[2] and "`" in row[6] for row in SENTENCES)
 
 
 @pytest.mark.parametrize("column", [2, 3, 4, 5, 6])
 def test_a_name_that_was_changed_is_seen(column: int) -> None:
-    row = next(row for row in SENTENCES if all("`" in cell for cell in row[2:]))
+    row = next(row for row in SENTENCES if all("`" in cell for cell in row[2:7]))
     changed = [re.sub(r"`$", "x`", cell) if at == column else cell for at, cell in enumerate(row)]
     assert not lost(row)
     assert len(lost(tuple(changed))) == 1
