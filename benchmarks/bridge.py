@@ -16,18 +16,15 @@ from __future__ import annotations
 
 import argparse
 import importlib
-import multiprocessing
 import sys
 from collections.abc import Iterator, Sequence
-from importlib.abc import MetaPathFinder, SourceLoader
-from importlib.machinery import ModuleSpec
-from importlib.util import spec_from_file_location
+from functools import partial
 from multiprocessing.connection import Connection
 from pathlib import Path
 from resource import RLIMIT_AS, RLIMIT_CPU, setrlimit
 from tempfile import TemporaryDirectory
 
-from mutations import Mutant, mutants
+from mutations import Mutant, Planted, chosen, in_forks, mutants, report
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
@@ -44,6 +41,7 @@ MUTATED = ("enhancement_i", "enhancement_ii", "enhancement_iii", "exploration", 
 
 SECONDS = 20
 MEMORY = 4 << 30
+ENDLESS = "a run without end"
 
 NOT_COMPARED = "it is the number of a sequence in the evidence, which Coq's rules do not give"
 NOT_READ = "records are read at unexplored darts only, and both darts are explored by then"
@@ -88,35 +86,13 @@ def jobs() -> Iterator[bridge.Job]:
     yield from (bridge.Job(name, resolve_world(bridge.LONG[0])) for name in PAPER)
 
 
-class Planted(MetaPathFinder, SourceLoader):  # type: ignore[misc]  # typeshed's own
-    """Imports one module of the algorithms from a changed source."""
-
-    def __init__(self, mutant: Mutant) -> None:
-        self.name = f"topo_verify.algorithms.{Path(mutant.file).stem}"
-        self.path, self.source = str(FOLDER / mutant.file), mutant.source
-
-    def find_spec(self, fullname: str, *_: object) -> ModuleSpec | None:
-        """The spec, if it is this module."""
-        if fullname != self.name:
-            return None
-        return spec_from_file_location(fullname, self.path, loader=self)
-
-    def get_filename(self, fullname: str) -> str:  # noqa: ARG002  as importlib asks
-        """The file that it replaces."""
-        return self.path
-
-    def get_data(self, path: str) -> bytes:  # noqa: ARG002  as importlib asks
-        """The changed source."""
-        return self.source.encode()
-
-
-def differs(mutant: Mutant, runs: Sequence[tuple[bridge.Job, str]], pipe: Connection) -> None:
+def differs(runs: Sequence[tuple[bridge.Job, str]], mutant: Mutant, pipe: Connection) -> None:
     """In a fork: send the run in which the mutant leaves another trace, or ""."""
     setrlimit(RLIMIT_AS, (MEMORY, MEMORY))
     setrlimit(RLIMIT_CPU, (SECONDS, SECONDS))
     for name in [name for name in sys.modules if name.startswith("topo_verify.algorithms")]:
         del sys.modules[name]
-    sys.meta_path.insert(0, Planted(mutant))
+    Planted(mutant, "topo_verify.algorithms", FOLDER)
     try:
         catalogue = importlib.import_module("topo_verify.algorithms").CATALOGUE
     except Exception:  # noqa: BLE001  whatever a mutant raises
@@ -134,48 +110,15 @@ def differs(mutant: Mutant, runs: Sequence[tuple[bridge.Job, str]], pipe: Connec
     pipe.send("")
 
 
-def seen(mutant: Mutant, runs: Sequence[tuple[bridge.Job, str]]) -> str:
-    """The run in which a mutant is seen, or ""."""
-    fork = multiprocessing.get_context("fork")
-    here, there = fork.Pipe(duplex=False)
-    process = fork.Process(target=differs, args=(mutant, runs, there), daemon=True)
-    process.start()
-    there.close()
-    try:
-        found = here.recv()
-    except EOFError:
-        found = "a run without end"
-    process.join()
-    return str(found)
-
-
-def report(wanted: Sequence[Mutant], runs: Sequence[tuple[bridge.Job, str]]) -> int:
-    """Print the survivors; the exit code."""
-    holes, wrong, same = 0, 0, 0
-    for mutant in wanted:
-        where, reason = seen(mutant, runs), SAME.get(str(mutant))
-        if where and reason:
-            wrong += 1
-            print(f"{mutant}\n    is said to change nothing, but is seen by {where}", flush=True)
-        if not where:
-            same += reason is not None
-            holes += reason is None
-            print(f"{mutant} (line {mutant.line})\n    {reason or 'SURVIVES'}", flush=True)
-    print(f"{len(wanted) - same - holes} of {len(wanted)} mutants seen in {len(runs)} runs,")
-    print(f"{same} change nothing, {holes} survive")
-    return 1 if holes or wrong else 0
-
-
 def main() -> int:
     """Run the test."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--only", default="", help="mutants whose file or text has this in it")
+    parser.add_argument("--list", action="store_true", help="list them, and do no more")
     parser.add_argument("--library", type=Path, help="a folder with the library in Coq, compiled")
     options = parser.parse_args()
     everyone = [mutant for name in MUTATED for mutant in mutants(FOLDER / f"{name}.py")]
-    wanted = [mutant for mutant in everyone if options.only in str(mutant)]
-    if unknown := SAME.keys() - {str(mutant) for mutant in everyone}:
-        raise SystemExit(f"in SAME, but there are no such mutants: {unknown}")
+    wanted = chosen(everyone, options, SAME)
     if why := toolchain.missing():
         raise SystemExit(why)
     with TemporaryDirectory() as made, TemporaryDirectory() as folder:
@@ -187,7 +130,9 @@ def main() -> int:
         program = extracted(library.resolve(), Path(folder), "Mappers", "main")
         every = list(jobs())
         traces = bridge.traces_in_coq(program, every)
-    return report(wanted, list(zip(every, traces, strict=True)))
+    runs = list(zip(every, traces, strict=True))
+    outcomes = in_forks(wanted, partial(differs, runs), 1)
+    return report(((m, ENDLESS if seen is None else seen) for m, seen, _ in outcomes), SAME)
 
 
 if __name__ == "__main__":

@@ -27,11 +27,11 @@ from time import perf_counter, process_time
 import numpy as np
 
 from topo_verify import CATALOGUE, examine, families
+from topo_verify.campaign.compiled_shard import examine_range
 from topo_verify.compiled.enumeration import count_worlds, prepare
 from topo_verify.compiled.explore import KERNELS, run_world
 from topo_verify.compiled.judging.layout import JUDGE_SIZE
 from topo_verify.compiled.kernel import compiled
-from topo_verify.compiled.shard import examine_range
 from topo_verify.compiled.tally import map_worlds
 from topo_verify.compiled.workspace import SMALL
 from topo_verify.world.enumeration import rank_order
@@ -226,7 +226,7 @@ def lattice(row: Row, _: bool) -> None:
 
 def start(row: Row, _: bool) -> None:
     """A new process up to its first result, with a warm cache."""
-    code = "from topo_verify.compiled.shard import examine_range as e; e(['basic'], 4)"
+    code = "from topo_verify.campaign.compiled_shard import examine_range as e; e(['basic'], 4)"
     took: list[float] = []
     for _again in range(3):
         begin = perf_counter()

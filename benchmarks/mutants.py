@@ -23,18 +23,14 @@ from __future__ import annotations
 
 import argparse
 import importlib
-import multiprocessing
 import os
 import sys
 from collections import Counter
-from collections.abc import Generator, Iterable, Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass, field
-from importlib.abc import MetaPathFinder, SourceLoader
-from importlib.machinery import ModuleSpec
-from importlib.util import spec_from_file_location
-from multiprocessing.connection import Connection, wait
-from multiprocessing.context import ForkProcess
+from functools import partial
+from multiprocessing.connection import Connection
 from pathlib import Path
 from resource import RLIMIT_AS, setrlimit
 from signal import ITIMER_VIRTUAL, SIGVTALRM, setitimer
@@ -45,10 +41,11 @@ os.environ |= {"HYPOTHESIS_NO_PLUGINS": "1", "HYPOTHESIS_PROFILE": "mutants"}
 import hypothesis.strategies  # noqa: F401  only so that it is there
 import pytest
 from hypothesis import HealthCheck, Phase, settings
-from mutations import Mutant, mutants
+from mutations import Mutant, Planted, chosen, in_forks, mutants, report
 
 ROOT = Path(__file__).resolve().parent.parent
 MUTATED = ROOT / "topo_verify" / "checkers"
+PACKAGE = "topo_verify.checkers"
 OPTIONS = ("-x", "-q", "--tb=no", "--assert=plain", "-p", "no:cacheprovider")
 TESTS = ("tests/checkers", "tests/studies/test_gap.py")
 
@@ -123,29 +120,6 @@ SAME = {
 # ---------------------------------------------------------------- who survives
 
 
-class Planted(MetaPathFinder, SourceLoader):  # type: ignore[misc]  # typeshed's own
-    """Imports one module from a changed source."""
-
-    def __init__(self, mutant: Mutant) -> None:
-        self.name = f"topo_verify.checkers.{Path(mutant.file).stem}"
-        self.path = str(MUTATED / mutant.file)
-        self.source = mutant.source
-
-    def find_spec(self, fullname: str, *_: object) -> ModuleSpec | None:
-        """The spec, if it is this module."""
-        if fullname != self.name:
-            return None
-        return spec_from_file_location(fullname, self.path, loader=self)
-
-    def get_filename(self, fullname: str) -> str:  # noqa: ARG002  as importlib asks
-        """The file that it replaces."""
-        return self.path
-
-    def get_data(self, path: str) -> bytes:  # noqa: ARG002  as importlib asks
-        """The changed source."""
-        return self.source.encode()
-
-
 @dataclass(slots=True)
 class Tests:
     """Processor seconds, and mutants killed, of each test.
@@ -196,21 +170,21 @@ Outcome = tuple[int, str, dict[str, float]]
 """Pytest's exit code, the test that failed, and seconds by test."""
 
 
-def run_tests(mutant: Mutant | None, tests: Tests, pipe: Connection) -> None:
+def run_tests(tests: Tests, mutant: Mutant | None, pipe: Connection) -> None:
     """In a fork: run the tests until one fails, and send the outcome."""
     setrlimit(RLIMIT_AS, (MEMORY, MEMORY))
     setitimer(ITIMER_VIRTUAL, SECONDS)
     watch = Watch(tests)
     if mutant is not None:
-        sys.meta_path.insert(0, Planted(mutant))
+        Planted(mutant, PACKAGE, MUTATED)
     try:
         for path in sorted(MUTATED.glob("[!_]*.py")):  # the package does not import every one
-            importlib.import_module(f"topo_verify.checkers.{path.stem}")
+            importlib.import_module(f"{PACKAGE}.{path.stem}")
     except Exception:  # noqa: BLE001  whatever a mutant raises
         pipe.send((pytest.ExitCode.TESTS_FAILED, "the import", {}))
         return
     if mutant is not None:
-        module = sys.modules[f"topo_verify.checkers.{Path(mutant.file).stem}"]
+        module = sys.modules[f"{PACKAGE}.{Path(mutant.file).stem}"]
         assert isinstance(module.__loader__, Planted), "the mutant was not imported"
     with Path(os.devnull).open("w") as sink, redirect_stdout(sink), redirect_stderr(sink):
         code = pytest.main([*OPTIONS, *TESTS], [watch])
@@ -222,39 +196,18 @@ Judged = tuple[Mutant | None, str, dict[str, float]]
 
 
 def outcomes(wanted: Sequence[Mutant | None], tests: Tests, workers: int) -> Iterator[Judged]:
-    """Run the tests on each mutant, each in a fork made after all slow imports."""
-    fork = multiprocessing.get_context("fork")
-    waiting, running = list(reversed(wanted)), dict[Connection, tuple[Mutant | None, ForkProcess]]()
-    while waiting or running:
-        while waiting and len(running) < workers:
-            mutant = waiting.pop()
-            here, there = fork.Pipe(duplex=False)
-            process = fork.Process(target=run_tests, args=(mutant, tests, there), daemon=True)
-            process.start()
-            there.close()
-            running[here] = mutant, process
-        for pipe in wait(list(running)):
-            assert isinstance(pipe, Connection)
-            mutant, process = running.pop(pipe)
-            yield mutant, *_outcome(pipe, process)
-
-
-def _outcome(pipe: Connection, process: ForkProcess) -> tuple[str, dict[str, float]]:
-    try:
-        code, failed, seconds = pipe.recv()
-    except EOFError:
-        process.join()
-        if process.exitcode != -SIGVTALRM:
-            raise SystemExit(f"a test run ended with exit code {process.exitcode}") from None
-        return ENDLESS, {}
-    process.join()
-    if code == pytest.ExitCode.OK:
-        return "", seconds
-    if code == pytest.ExitCode.TESTS_FAILED:
-        return failed or "the collection of the tests", seconds  # `-x` ends it with this code
-    if code == pytest.ExitCode.INTERRUPTED:
-        return "the collection of the tests", seconds
-    raise SystemExit(f"pytest ended with exit code {code}")
+    """Run the tests on each mutant."""
+    for mutant, sent, exitcode in in_forks(wanted, partial(run_tests, tests), workers):
+        if sent is None and exitcode != -SIGVTALRM:
+            raise SystemExit(f"a test run ended with exit code {exitcode}")
+        code, failed, seconds = sent or (pytest.ExitCode.TESTS_FAILED, ENDLESS, {})
+        if code == pytest.ExitCode.OK:
+            yield mutant, "", seconds
+        elif code in (pytest.ExitCode.TESTS_FAILED, pytest.ExitCode.INTERRUPTED):
+            # `-x` ends the collection with either code.
+            yield mutant, failed or "the collection of the tests", seconds
+        else:
+            raise SystemExit(f"pytest ended with exit code {code}")
 
 
 def judged(wanted: Sequence[Mutant], workers: int) -> Iterator[tuple[Mutant, str]]:
@@ -273,27 +226,6 @@ def judged(wanted: Sequence[Mutant], workers: int) -> Iterator[tuple[Mutant, str
             print(f"{done} of {len(wanted)}, {took:.0f} s", file=sys.stderr, flush=True)
 
 
-def report(verdicts: Iterable[tuple[Mutant, str]]) -> int:
-    """Print the survivors; the exit code."""
-    killed = same = holes = endless = 0
-    wrong: list[str] = []
-    for mutant, killer in verdicts:
-        reason = SAME.get(str(mutant))
-        killed += killer != ""
-        endless += killer == ENDLESS
-        if killer and reason:
-            wrong.append(f"{mutant}\n    is said to change nothing, but was killed by {killer}")
-        if not killer:
-            same += reason is not None
-            holes += reason is None
-            print(f"{mutant} (line {mutant.line})\n    {reason or 'SURVIVES'}", flush=True)
-    for text in wrong:
-        print(text)
-    print(f"{killed} of {killed + same + holes} mutants killed ({endless} of them endless),")
-    print(f"{same} change nothing, {holes} survive")
-    return 1 if holes or wrong else 0
-
-
 def main() -> int:
     """Run the test."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
@@ -302,20 +234,13 @@ def main() -> int:
     parser.add_argument("--workers", type=int, default=2)
     options = parser.parse_args()
     everyone = [mutant for path in sorted(MUTATED.glob("*.py")) for mutant in mutants(path)]
-    wanted = [mutant for mutant in everyone if options.only in str(mutant)]
-    if unknown := SAME.keys() - {str(mutant) for mutant in everyone}:
-        raise SystemExit(f"in SAME, but there are no such mutants: {unknown}")
-    if options.list:
-        for mutant in wanted:
-            print(f"{mutant} (line {mutant.line})")
-        print(f"{len(wanted)} mutants")
-        return 0
+    wanted = chosen(everyone, options, SAME)
     os.chdir(ROOT)
     sys.path.insert(0, str(ROOT))
     for name in ("algorithms", "robot.simulator", "world"):
         importlib.import_module(f"topo_verify.{name}")
     assert not any(name.startswith("topo_verify.checkers") for name in sys.modules)
-    return report(judged(wanted, options.workers))
+    return report(judged(wanted, options.workers), SAME)
 
 
 if __name__ == "__main__":

@@ -1,18 +1,29 @@
-"""The operators of the mutation test: which small changes of a file are tried.
+"""What the mutation tests share: the small changes of a file, their runs in forks, the report.
 
-A comparison the other way or off by one, `and` for `or` or one side of it alone, sums and
-remainders, numbers and truth values, `any` for `all`, a condition turned or left out, a statement
-left out, `None` returned. Types and messages are left as they are.
+The changes: a comparison the other way or off by one, `and` for `or` or one side of it alone, sums
+and remainders, numbers and truth values, `any` for `all`, a condition turned or left out, a
+statement left out, `None` returned. Types and messages are left as they are.
 """
 
 from __future__ import annotations
 
 import ast
+import multiprocessing
+import sys
+from argparse import Namespace
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
+from importlib.abc import MetaPathFinder, SourceLoader
+from importlib.machinery import ModuleSpec
+from importlib.util import spec_from_file_location
+from multiprocessing.connection import Connection, wait
+from multiprocessing.context import ForkProcess
 from pathlib import Path
+from typing import Any, TypeVar
+
+M = TypeVar("M")
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,3 +180,88 @@ def _put(parent: ast.AST, field: str, index: int | None, node: ast.AST) -> None:
 def _short(node: ast.AST) -> str:
     text = ast.unparse(ast.fix_missing_locations(node))
     return text.splitlines()[0]
+
+
+class Planted(MetaPathFinder, SourceLoader):  # type: ignore[misc]  # typeshed's own
+    """Imports one module of a package, in a folder, from a changed source."""
+
+    def __init__(self, mutant: Mutant, package: str, folder: Path) -> None:
+        self.name = f"{package}.{Path(mutant.file).stem}"
+        self.path, self.source = str(folder / mutant.file), mutant.source
+        sys.meta_path.insert(0, self)
+
+    def find_spec(self, fullname: str, *_: object) -> ModuleSpec | None:
+        """Where it is, if it is the one."""
+        if fullname != self.name:
+            return None
+        return spec_from_file_location(fullname, self.path, loader=self)
+
+    def get_filename(self, fullname: str) -> str:  # noqa: ARG002  as importlib asks
+        """The file that it replaces."""
+        return self.path
+
+    def get_data(self, path: str) -> bytes:  # noqa: ARG002  as importlib asks
+        """The changed source."""
+        return self.source.encode()
+
+
+def in_forks(
+    wanted: Sequence[M], run: Callable[[M, Connection], None], workers: int
+) -> Iterator[tuple[M, Any, int]]:
+    """Run each in a fork, `workers` at a time; yield what it sent (None: it died), its exit code.
+
+    What takes long to import is imported before the processes fork.
+    """
+    fork = multiprocessing.get_context("fork")
+    waiting, running = list(reversed(wanted)), dict[Connection, tuple[M, ForkProcess]]()
+    while waiting or running:
+        while waiting and len(running) < workers:
+            job = waiting.pop()
+            here, there = fork.Pipe(duplex=False)
+            process = fork.Process(target=run, args=(job, there), daemon=True)
+            process.start()
+            there.close()
+            running[here] = job, process
+        for pipe in wait(list(running)):
+            assert isinstance(pipe, Connection)
+            job, process = running.pop(pipe)
+            try:
+                sent = pipe.recv()
+            except EOFError:
+                sent = None
+            process.join()
+            yield job, sent, process.exitcode or 0
+
+
+def chosen(everyone: Sequence[Mutant], options: Namespace, same: Mapping[str, str]) -> list[Mutant]:
+    """The mutants with `--only` in their text; with `--list` they are printed, and none is run."""
+    if unknown := same.keys() - {str(mutant) for mutant in everyone}:
+        raise SystemExit(f"in SAME, but there are no such mutants: {unknown}")
+    wanted = [mutant for mutant in everyone if options.only in str(mutant)]
+    if options.list:
+        for mutant in wanted:
+            print(f"{mutant} (line {mutant.line})")
+        print(f"{len(wanted)} mutants")
+        raise SystemExit(0)
+    return wanted
+
+
+def report(verdicts: Iterable[tuple[Mutant, str]], same: Mapping[str, str]) -> int:
+    """Print which mutants survive ("": nothing killed it); return the exit code.
+
+    `same` has the reason for each mutant that changes nothing; it is wrong if one is killed.
+    """
+    count: Counter[str] = Counter()
+    wrong: list[str] = []
+    for mutant, killer in verdicts:
+        reason = same.get(str(mutant))
+        count["killed" if killer else "same" if reason else "holes"] += 1
+        if killer and reason:
+            wrong.append(f"{mutant}\n    is said to change nothing, but was killed by {killer}")
+        if not killer:
+            print(f"{mutant} (line {mutant.line})\n    {reason or 'SURVIVES'}", flush=True)
+    for text in wrong:
+        print(text)
+    print(f"{count['killed']} of {count.total()} mutants killed,")
+    print(f"{count['same']} change nothing, {count['holes']} survive")
+    return 1 if count["holes"] or wrong else 0

@@ -14,8 +14,8 @@ from time import process_time
 
 from topo_verify.campaign.campaign import Shard
 from topo_verify.campaign.compiled import examine_compiled, warm
+from topo_verify.campaign.compiled_shard import examine_range
 from topo_verify.campaign.targets import targets
-from topo_verify.compiled.shard import examine_range
 from topo_verify.studies.search.search import search_campaign
 from topo_verify.world.enumeration import rank_order
 

@@ -20,13 +20,13 @@ from topo_verify.campaign.backend import here
 from topo_verify.campaign.campaign import Campaign, Interrupted, Ranks, Shard, ShardResult
 from topo_verify.campaign.campaign import examine as examine_by_checkers
 from topo_verify.campaign.compiled import examine_compiled
+from topo_verify.campaign.compiled_shard import STATUSES
 from topo_verify.campaign.identity import source_hash
 from topo_verify.campaign.run import CompiledAlgorithm, Engine
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.tally import Tally
 from topo_verify.campaign.targets import targets
 from topo_verify.checkers import CLAIMS
-from topo_verify.compiled.judging.layout import STATUSES
 from topo_verify.faults import FAULTS
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
@@ -39,7 +39,7 @@ from topo_verify.world.enumeration.pruned import ranked_tables
 
 pytest.importorskip("numba")
 
-from topo_verify.compiled import shard as engine
+from topo_verify.campaign import compiled_shard as engine
 from topo_verify.compiled import tally
 
 Counts = Any

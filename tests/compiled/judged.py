@@ -12,6 +12,7 @@ import pytest
 from msgspec import structs
 
 from topo_verify import World
+from topo_verify.campaign.compiled_shard import STATUSES, ShardCounts
 from topo_verify.campaign.run import Exploration, explore
 from topo_verify.checkers import check
 from topo_verify.checkers.findings import Judgement
@@ -19,7 +20,6 @@ from topo_verify.compiled import workspace as ws
 from topo_verify.compiled.events import decoded, spans, words
 from topo_verify.compiled.judging import layout, verdict
 from topo_verify.compiled.kernel import SOURCES
-from topo_verify.compiled.shard import ShardCounts
 from topo_verify.programs.loader import Mapper
 from topo_verify.robot.events import Event, Finish, MapData, Start
 from topo_verify.robot.simulator import first_percept
@@ -115,8 +115,7 @@ def by_judge(
     if (judge or verdict.judge)(workspace_of(run), case) < 0:
         return None
     return tuple(
-        (layout.STATUSES[case.status[k]], case.judged[k], case.of[k])
-        for k in range(layout.CLAIM_COUNT)
+        (STATUSES[case.status[k]], case.judged[k], case.of[k]) for k in range(layout.CLAIM_COUNT)
     )
 
 

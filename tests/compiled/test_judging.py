@@ -26,10 +26,10 @@ from tests.compiled.judged import (
     sampled,
 )
 from topo_verify import CATALOGUE, World, worlds
+from topo_verify.campaign.compiled_shard import examine_range
 from topo_verify.checkers import CLAIMS
 from topo_verify.compiled.events import BY_FOLDING, REJECT, TWO_OF_S, UNLIKE, spans
 from topo_verify.compiled.faults import PLANTED
-from topo_verify.compiled.shard import examine_range
 from topo_verify.compiled.workspace import TRACE
 from topo_verify.faults import FAULTS
 from topo_verify.world.enumeration import rank_order

@@ -7,6 +7,7 @@ campaign.py        Campaign: worlds, mappers, limits, what is kept, as data; its
 store.py           Store: the SQLite file from which a campaign resumes
 backend.py         where shards are examined; what a lost worker means
 compiled.py        a shard by the compiled engine, a part of it judged again by the checkers
+compiled_shard.py  the engine's counts in a range of worlds; open verdicts go to the checkers
 run.py             the one way to run a mapper in a world, and the engines
 judge.py           the judgement of a run by every claim
 targets.py         what a TARGET means, and the text of a callable

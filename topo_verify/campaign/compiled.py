@@ -59,8 +59,8 @@ from topo_verify.robot.events import Event, Finish, Trace
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
+    from topo_verify.campaign.compiled_shard import ShardCounts, Snapshot
     from topo_verify.compiled.native_run import NativeCalls
-    from topo_verify.compiled.shard import ShardCounts, Snapshot
 
 SAMPLE = 1000
 """Average number of worlds between two steps that the checkers judge as well."""
@@ -319,7 +319,7 @@ class _CompiledShard:
             InternalError: they are not.
         """
         if (rank, which) not in self._known:
-            from topo_verify.compiled.shard import run_digest
+            from topo_verify.campaign.compiled_shard import run_digest
 
             self._checked.add(rank)
             target, limits = self._mappers[which], self._campaign.limits
@@ -367,7 +367,7 @@ def _snapshots(
     campaign: Campaign, ranks: Shard, calls: NativeCalls | None = None
 ) -> list[Snapshot]:
     """The counts of the engine in some worlds: behind each step, and behind the last world."""
-    from topo_verify.compiled.shard import examine_steps
+    from topo_verify.campaign.compiled_shard import examine_steps
 
     assert isinstance(campaign.worlds, Ranks)
     return [

@@ -13,7 +13,7 @@ keep the names of the file that theirs mirrors.
     folding.py      folding.py                exploration.py  exploration.py
     pruning.py, enumeration.py                world/enumeration/
     judging/        the ten claims                checkers/
-    tally.py        a range of worlds in one kernel; shard.py for use from Python
+    tally.py        a range of worlds in one kernel; campaign/compiled_shard.py for use from Python
     explore.py      one run in one world of any size, for use from Python
     native.py       a native mapper in the place of `explore`: native_call.py, native_run.py
 

@@ -20,8 +20,8 @@ import pytest
 from tests.helpers import EMPTY, edited, trace_of, worlds
 from tests.proofs.mechanised.conftest import LIMIT
 from topo_verify import CATALOGUE, InputError, World
+from topo_verify.campaign.compiled_shard import examine_range
 from topo_verify.checkers import CLAIMS, Judgement, check
-from topo_verify.compiled.shard import examine_range
 from topo_verify.faults import FAULTS
 from topo_verify.programs.loader import Mapper
 from topo_verify.proofs.mechanised import judge

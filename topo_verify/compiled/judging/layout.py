@@ -6,22 +6,17 @@ open. Sizes are for worlds of up to 12 edges, whose budget is 6,780 moves.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from topo_verify.compiled.events import *
 from topo_verify.compiled.kernel import inlined
 from topo_verify.compiled.names import Fields, Words, WordView
 from topo_verify.compiled.workspace import *
 
-if TYPE_CHECKING:
-    from topo_verify.checkers import Status
-
 CLAIM_COUNT = 10
 
 OK, FAILED, PARTIAL, NOT_DECLARED, UNDECIDED = range(5)
-"""The status of a claim, as a number; `STATUSES` has the names."""
-
-STATUSES: tuple[Status, ...] = ("ok", "failed", "partial", "not-declared", "undecided")
+"""The status of a claim, as a number."""
 
 JUDGE_DARTS = 64
 """S has fewer darts, since sets are masks; else the verdict is open."""

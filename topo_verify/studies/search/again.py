@@ -202,7 +202,7 @@ def _one_process(
     with _program(campaign.mappers[0]) as program:
         program.start()
         if campaign.engine == "compiled":  # it called a native mapper
-            from topo_verify.compiled.shard import CompiledChecks
+            from topo_verify.campaign.compiled_shard import CompiledChecks
 
             checks = CompiledChecks()  # as in the search
             for shard in shards:

@@ -51,6 +51,9 @@ if TYPE_CHECKING:
 
     Numbers = NDArray[np.int64]
 
+STATUSES: tuple[Status, ...] = ("ok", "failed", "partial", "not-declared", "undecided")
+"""The names of the numbers of statuses in `layout`."""
+
 ALL_CLAIMS = len(CLAIMS)
 """The judge's level for all claims."""
 
@@ -111,7 +114,7 @@ class Snapshot(NamedTuple):
     counts: tuple[ShardCounts, ...]
 
 
-def examine_range(
+def examine_range(  # noqa: PLR0913  all that is asked of the engine
     algorithms: Sequence[str],
     edges: int,
     kind: str = "any",
@@ -137,13 +140,15 @@ def examine_range(
             needs too much room.
     """
     require("the compiled engine")
-    shard = _Shard(algorithms, edges, kind, start, stop, claims, stop_at_first, faults or {})
+    shard = _Shard(
+        algorithms, edges, kind, start, stop, claims, stop_at_first=stop_at_first, faults=faults
+    )
     shard.space[shard.layout.at("task.room")] = min(room, ws.TRACE)
     (end,) = shard.examine(())
     return end.counts
 
 
-def examine_steps(
+def examine_steps(  # noqa: PLR0913  all that is asked of the engine
     algorithms: Sequence[str],
     edges: int,
     kind: str,
@@ -163,7 +168,14 @@ def examine_steps(
     """
     require("the compiled engine")
     shard = _Shard(
-        algorithms, edges, kind, start, stop, ALL_CLAIMS, stop_at_first, faults or {}, calls
+        algorithms,
+        edges,
+        kind,
+        start,
+        stop,
+        stop_at_first=stop_at_first,
+        faults=faults,
+        calls=calls,
     )
     return shard.examine(steps)
 
@@ -171,23 +183,24 @@ def examine_steps(
 class _Shard:
     """The arrays of one examination."""
 
-    def __init__(
+    def __init__(  # noqa: PLR0913  as `examine_steps`
         self,
         algorithms: Sequence[str],
         edges: int,
         kind: str,
         start: int,
         stop: int | None,
-        claims: int,
-        stop_at_first: bool,  # noqa: FBT001  only `examine_range` calls it
-        faults: Mapping[str, str],
+        claims: int = ALL_CLAIMS,
+        *,
+        stop_at_first: bool,
+        faults: Mapping[str, str] | None,
         calls: NativeCalls | None = None,
     ) -> None:
         import numpy as np
 
         if claims not in (8, 9, 10):
             raise InputError(f"expected the first 8, 9 or 10 claims, got {claims}")
-        self.names, self.faults = tuple(algorithms), faults
+        self.names, self.faults = tuple(algorithms), faults or {}
         self.layout: ws.WordLayout = ws.FAULTY if faults else ws.SMALL
         self.worlds = prepare(edges, WorldClass.parse(kind), start, stop)
         self.space = np.zeros(self.layout.at("SIZE"), np.int64)
@@ -257,7 +270,7 @@ class _Shard:
         events = (Start(percept=first_percept(world)), *run.events)
         judgements = check(world, events, run.stopped)[: len(self.claims)]
         for k, one in enumerate(judgements):
-            case.status[k] = layout.STATUSES.index(one.status)
+            case.status[k] = STATUSES.index(one.status)
             case.judged[k], case.of[k] = one.judged, one.of
         found = {one.status for one in judgements}
         self.undecided[row] += "undecided" in found and "failed" not in found
@@ -300,7 +313,7 @@ class _Shard:
         statuses: dict[str, dict[str, int]] = {
             claim: {
                 status: row.status[k * tally.STATUS_COUNT + number]
-                for number, status in enumerate(layout.STATUSES)
+                for number, status in enumerate(STATUSES)
             }
             for k, claim in places
         }
@@ -353,7 +366,7 @@ class CompiledChecks:
             return check(world, trace, stopped, strict=strict)
         case = layout.CaseWords(self._case)
         return [
-            Judgement(claim, layout.STATUSES[case.status[k]], int(case.judged[k]), int(case.of[k]))
+            Judgement(claim, STATUSES[case.status[k]], int(case.judged[k]), int(case.of[k]))
             for k, claim in enumerate(CLAIMS)
         ]
 
@@ -400,6 +413,6 @@ def run_digest(rank: int, cost: int, statuses: Iterable[Status], events: Iterabl
     """What one run adds to its algorithm's digest: `enter` in tally.py."""
     mixed = (doors_hash(events) ^ cost) * tally.MIXED
     for status in statuses:
-        mixed = (mixed ^ layout.STATUSES.index(status)) * HASH_PRIME
+        mixed = (mixed ^ STATUSES.index(status)) * HASH_PRIME
     mixed = (mixed ^ rank) * tally.MIXED % (1 << 64)
     return mixed ^ mixed >> 31
