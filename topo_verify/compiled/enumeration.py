@@ -16,14 +16,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from topo_verify.compiled.kernel import WordTable, compiled, entry, inlined
-from topo_verify.compiled.pruning import (
-    begin_pruned,
-    hang_pruned,
-    join_pruned,
-    look_around,
-    undo_hang_pruned,
-    undo_join_pruned,
-)
+from topo_verify.compiled.pruning import *
 from topo_verify.compiled.workspace import *
 from topo_verify.errors import InputError
 from topo_verify.world.enumeration import rank_order

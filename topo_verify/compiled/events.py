@@ -25,19 +25,7 @@ from topo_verify.compiled.kernel import entry
 from topo_verify.compiled.names import Words, WordView, cursor
 from topo_verify.compiled.workspace import P, TraceWords
 from topo_verify.errors import InternalError
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Event,
-    Evidence,
-    Finish,
-    Move,
-    Pose,
-    Record,
-    Reject,
-    RuleName,
-    Start,
-)
+from topo_verify.robot import events as ev
 from topo_verify.robot.percept import PURPOSES, Percept, Purpose
 from topo_verify.robot.simulator import shared_move
 
@@ -46,7 +34,7 @@ MOVE, POSE, REJECT, CONFIRM, AUGMENT, FINISH = range(1, 7)
 WALK, CROSS, VALIDATE, RETRACE = range(4)
 """Indices of `PURPOSES`."""
 
-RULES: tuple[RuleName, ...] = get_args(RuleName)
+RULES: tuple[ev.RuleName, ...] = get_args(ev.RuleName)
 BY_MOTION, BY_PREFIX, BY_HISTORY, BY_RECORDS, BY_FOLDING, BY_PLANAR = range(6)
 
 CONTRADICTIONS = (
@@ -160,30 +148,30 @@ def percept_word(percept: Percept | None) -> int:
     return percept.degree * P + (0 if percept.marker is None else 1 + percept.marker)
 
 
-def words(events: Iterable[Event]) -> list[int]:
+def words(events: Iterable[ev.Event]) -> list[int]:
     """The words of a catalogue algorithm's trace, without start and map."""
     row: list[int] = []
     for event in events:
         match event:
-            case Move(door, percept, purpose):
+            case ev.Move(door, percept, purpose):
                 number = ABSENT if purpose is None else PURPOSES.index(purpose)
                 row += (MOVE, door, percept_word(percept), number)
-            case Pose(edge, hypotheses):
+            case ev.Pose(edge, hypotheses):
                 row += (POSE, edge, len(hypotheses), *hypotheses)
-            case Reject():
+            case ev.Reject():
                 row += _reject_words(event)
-            case Confirm(edge, hypothesis, rule):
+            case ev.Confirm(edge, hypothesis, rule):
                 row += (CONFIRM, edge, hypothesis, RULES.index(rule))
-            case Augment(edge, kind, dart, degree):
+            case ev.Augment(edge, kind, dart, degree):
                 row += (AUGMENT, edge, 1 + KINDS.index(kind), dart, degree)
-            case Finish(cost, _):
+            case ev.Finish(cost, _):
                 row += (FINISH, ABSENT if cost is None else cost)
-            case Start():
+            case ev.Start():
                 pass
     return row
 
 
-def _reject_words(event: Reject) -> tuple[int, ...]:
+def _reject_words(event: ev.Reject) -> tuple[int, ...]:
     why = event.evidence
     doors = () if why.record is None else why.record.doors
     return (
@@ -231,24 +219,24 @@ def spans(trace: Sequence[int]) -> Iterator[tuple[int, int]]:
         at += length
 
 
-def decoded(trace: Sequence[int]) -> Iterator[Event]:
+def decoded(trace: Sequence[int]) -> Iterator[ev.Event]:
     """Yield the events, without start and finish."""
     for at, end in spans(trace):
         kind, *rest = trace[at:end]
         if kind == MOVE:
             yield _move(*rest)
         elif kind == POSE:
-            yield Pose(rest[0], tuple(rest[2:]))
+            yield ev.Pose(rest[0], tuple(rest[2:]))
         elif kind == REJECT:
-            yield Reject(rest[0], rest[1], RULES[rest[3]], _evidence(rest))
+            yield ev.Reject(rest[0], rest[1], RULES[rest[3]], _evidence(rest))
         elif kind == CONFIRM:
-            yield Confirm(rest[0], rest[1], RULES[rest[2]])
+            yield ev.Confirm(rest[0], rest[1], RULES[rest[2]])
         elif kind == AUGMENT:
-            yield Augment(rest[0], KINDS[rest[1] - 1], rest[2], rest[3])
+            yield ev.Augment(rest[0], KINDS[rest[1] - 1], rest[2], rest[3])
 
 
 @lru_cache(maxsize=2**16)
-def _move(door: int, percept: int, purpose: int) -> Move:
+def _move(door: int, percept: int, purpose: int) -> ev.Move:
     return shared_move(door, percept_of(percept), _purpose(purpose))
 
 
@@ -256,14 +244,14 @@ def _purpose(number: int) -> Purpose | None:
     return None if number == ABSENT else PURPOSES[number]
 
 
-def _evidence(rest: Sequence[int]) -> Evidence:
+def _evidence(rest: Sequence[int]) -> ev.Evidence:
     _, _, _, _, step, expected, observed, sequence, at, record, wrong, _, *doors = rest
-    return Evidence(
+    return ev.Evidence(
         step,
         None if expected == ABSENT else percept_of(expected),
         None if observed == ABSENT else percept_of(observed),
         None if sequence == ABSENT else sequence,
         None if at == ABSENT else at,
-        None if record == ABSENT else Record(record, tuple(doors)),
+        None if record == ABSENT else ev.Record(record, tuple(doors)),
         CONTRADICTIONS[wrong] or None,
     )

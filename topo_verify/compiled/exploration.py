@@ -11,43 +11,14 @@ Mirrors: algorithms/exploration.py, line by line. Differs: H is a row of darts; 
 
 from __future__ import annotations
 
-from topo_verify.compiled.chart import (
-    add_vertex,
-    door,
-    join,
-    leave_u,
-    start_chart,
-    tree_of_v0,
-    turn,
-)
+from topo_verify.compiled.chart import *
 from topo_verify.compiled.events import *
-from topo_verify.compiled.evidence import (
-    cite,
-    face,
-    learn_records,
-    observe_sequence,
-    refute_by_face,
-    refute_by_history,
-    refute_by_prefix,
-)
+from topo_verify.compiled.evidence import *
 from topo_verify.compiled.faults import *
-from topo_verify.compiled.folding import (
-    arrive_fold,
-    conclude,
-    learn_fold,
-    observe_fold,
-    refute_by_folding,
-    start_fold,
-)
+from topo_verify.compiled.folding import *
 from topo_verify.compiled.kernel import entry, inlined, kernel
-from topo_verify.compiled.motion import back, choice, cross, forward, nearest, shortest, walk
-from topo_verify.compiled.robot import (
-    declare_augment,
-    declare_confirm,
-    declare_pose,
-    declare_reject,
-    sensed,
-)
+from topo_verify.compiled.motion import *
+from topo_verify.compiled.robot import *
 from topo_verify.compiled.workspace import *
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import os
 import resource
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -127,8 +127,7 @@ def run_world(
         fault: a mistake to plant, by its name in `PLANTED`.
     Raises:
         InputError: numba is missing, no such algorithm or mistake, the world or the run is too
-        large,
-            or free memory is too small for its trace.
+            large, or free memory is too small for its trace.
     """
     require("the compiled engine")
     if algorithm not in KERNELS:
@@ -312,13 +311,23 @@ def trace_of(space: Workspace, layout: ws.WordLayout) -> list[int]:
 
 def place_world(space: Workspace, layout: ws.WordLayout, world: World) -> None:
     """Write a world into a workspace, darts in order of discovery."""
+    degrees, alpha = world.code
+    _place(space, layout, "world", degrees, alpha)
+
+
+def _place(
+    space: Workspace,
+    layout: ws.WordLayout,
+    part: str,
+    degrees: Sequence[int],
+    alpha: Sequence[int],
+) -> None:
     import numpy as np
 
-    degrees, alpha = world.code
     first = np.concatenate(([0], np.cumsum(degrees)))[:-1]
     vertex = np.repeat(np.arange(len(degrees)), degrees)
-    for name, row in (("alpha", alpha), ("vertex", vertex), ("first", first), ("degree", degrees)):
-        at = layout.at(f"world.{name}")
+    for name, row in (("first", first), ("degree", degrees), ("vertex", vertex), ("alpha", alpha)):
+        at = layout.at(f"{part}.{name}")
         space[at : at + len(row)] = row
 
 
@@ -329,8 +338,6 @@ def place_map(space: Workspace, layout: ws.WordLayout, delivered: MapData) -> bo
         False if its darts are not numbered vertex by vertex from the marker's on, or do not match
         its edges in number.
     """
-    import numpy as np
-
     degrees = [len(darts) for darts in delivered.vertices]
     size = sum(degrees)
     numbered = [dart for darts in delivered.vertices for dart in darts] == list(range(size))
@@ -342,11 +349,7 @@ def place_map(space: Workspace, layout: ws.WordLayout, delivered: MapData) -> bo
         if not (0 <= one < size and 0 <= other < size):
             return False
         alpha[one], alpha[other] = other, one
-    first = np.concatenate(([0], np.cumsum(degrees)))[:-1]
-    vertex = np.repeat(np.arange(len(degrees)), degrees)
-    for name, row in (("first", first), ("degree", degrees), ("vertex", vertex), ("alpha", alpha)):
-        at = layout.at(f"chart.{name}")
-        space[at : at + len(row)] = row
+    _place(space, layout, "chart", degrees, alpha)
     space[layout.at("chart.vertices")], space[layout.at("chart.darts")] = len(degrees), size
     return True
 

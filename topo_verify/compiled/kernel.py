@@ -66,27 +66,11 @@ class WordCube(Protocol):
 SOURCES = [
     f"topo_verify.compiled.{name}"
     for name in (
-        "workspace",
-        "pruning",
-        "enumeration",
-        "events",
-        "faults",
-        "robot",
-        "chart",
-        "motion",
-        "evidence",
-        "folding",
-        "exploration",
-        "native",
-        "judging.layout",
-        "judging.justified",
-        "judging.truth",
-        "judging.fold",
-        "judging.entailed",
-        "judging.verdict",
-        "tally",
+        "workspace", "pruning", "enumeration", "events", "faults", "robot", "chart", "motion",
+        "evidence", "folding", "exploration", "native", "judging.layout", "judging.justified",
+        "judging.truth", "judging.fold", "judging.entailed", "judging.verdict", "tally",
     )
-]
+]  # fmt: skip
 """The modules of the twin's kernels and constants."""
 
 

@@ -9,18 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from topo_verify.compiled.events import (
-    ABSENT,
-    AUGMENT,
-    BY_PLANAR,
-    CONFIRM,
-    LOOP,
-    NEW,
-    OTHER_FACE,
-    POSE,
-    REJECT,
-    REJECT_WORDS,
-)
+from topo_verify.compiled.events import *
 from topo_verify.compiled.kernel import callback, entry, inlined, kernel
 from topo_verify.compiled.robot import declare, move, sensed, took
 from topo_verify.compiled.workspace import *

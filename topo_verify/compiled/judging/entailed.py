@@ -10,17 +10,7 @@ each decision is judged on the way.
 from __future__ import annotations
 
 from topo_verify.compiled.events import *
-from topo_verify.compiled.judging.fold import (
-    all_that_follow,
-    find_dart,
-    find_node,
-    fold_move,
-    is_planar_fold,
-    join_ends,
-    lay_out,
-    roll_back,
-    start_judge_fold,
-)
+from topo_verify.compiled.judging.fold import *
 from topo_verify.compiled.judging.layout import *
 from topo_verify.compiled.judging.layout import end_of_trace, event_size, shown
 from topo_verify.compiled.kernel import inlined, kernel

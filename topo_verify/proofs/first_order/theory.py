@@ -35,17 +35,7 @@ sensed. `conformance.py` compares terms and code.
 
 from __future__ import annotations
 
-from topo_verify.proofs.first_order.terms import (
-    BOOL,
-    Symbol,
-    Term,
-    Var,
-    conj,
-    differ,
-    eq,
-    forall,
-    neg,
-)
+from topo_verify.proofs.first_order.terms import *
 
 sigma = Symbol("sigma", ("W",), "W")
 alpha = Symbol("alpha", ("W",), "W")

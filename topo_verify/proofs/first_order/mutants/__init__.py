@@ -16,9 +16,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from topo_verify.proofs.first_order import theory as t
-from topo_verify.proofs.first_order.obligations import OWN, E, H
+from topo_verify.proofs.first_order.obligations import *
 from topo_verify.proofs.first_order.scenes import SceneReplay
-from topo_verify.proofs.first_order.terms import Term, conj, differ, eq, forall, neg, substitute
+from topo_verify.proofs.first_order.terms import *
 
 x, k, b, own, i = t.x, t.k, t.b, t.own, t.i
 

@@ -5,20 +5,10 @@ from __future__ import annotations
 from topo_verify.algorithms import planar
 from topo_verify.algorithms.folding import NodeDart, PartialFold
 from topo_verify.proofs.first_order import theory as t
-from topo_verify.proofs.first_order.mutants import AWAY, BEHIND, TRUE, RuleMutant, x
-from topo_verify.proofs.first_order.obligations import ENTAILED, KEPT, MAPPED, POSED, D, E, H
+from topo_verify.proofs.first_order.mutants import *
+from topo_verify.proofs.first_order.obligations import *
 from topo_verify.proofs.first_order.scenes import SceneReplay, mfirst
-from topo_verify.proofs.first_order.terms import (
-    BOOL,
-    Symbol,
-    Term,
-    conj,
-    differ,
-    eq,
-    forall,
-    neg,
-    substitute,
-)
+from topo_verify.proofs.first_order.terms import *
 
 
 def _plays_not_posed(replay: SceneReplay, rule: Term) -> bool:

@@ -6,32 +6,10 @@ from collections.abc import Callable
 
 from topo_verify.proofs.first_order import theory as t
 from topo_verify.proofs.first_order.conformance import DescribedRule
-from topo_verify.proofs.first_order.mutants import (
-    AWAY,
-    BEHIND,
-    FALSE,
-    HOMEWARD,
-    TRUE,
-    RuleMutant,
-    at_h,
-    b,
-    i,
-    k,
-    own,
-    x,
-)
-from topo_verify.proofs.first_order.obligations import CONFIRMED, ENTAILED, KEPT, OWN, D, E, H
+from topo_verify.proofs.first_order.mutants import *
+from topo_verify.proofs.first_order.obligations import *
 from topo_verify.proofs.first_order.scenes import SceneReplay, mfirst
-from topo_verify.proofs.first_order.terms import (
-    Term,
-    conj,
-    constant,
-    differ,
-    eq,
-    forall,
-    neg,
-    substitute,
-)
+from topo_verify.proofs.first_order.terms import *
 from topo_verify.robot.percept import Percept
 
 

@@ -29,39 +29,8 @@ from __future__ import annotations
 from functools import partial
 
 from topo_verify.proofs.first_order import theory as t
-from topo_verify.proofs.first_order.obligations import (
-    CONFIRMED,
-    ENTAILED,
-    KEPT,
-    MAPPED,
-    POSED,
-    A,
-    B,
-    D,
-    E,
-    H,
-    J,
-    K,
-    Obligation,
-    X,
-    Y,
-    old,
-    phi2,
-)
-from topo_verify.proofs.first_order.terms import (
-    BOOL,
-    Symbol,
-    Term,
-    Var,
-    conj,
-    constant,
-    differ,
-    disj,
-    eq,
-    forall,
-    neg,
-    substitute,
-)
+from topo_verify.proofs.first_order.obligations import *
+from topo_verify.proofs.first_order.terms import *
 
 malpha2 = Symbol("malpha2", ("M",), "M")
 explored2 = Symbol("explored2", ("M",), BOOL)

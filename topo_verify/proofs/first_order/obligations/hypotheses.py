@@ -21,35 +21,8 @@ from collections.abc import Callable
 from functools import partial
 
 from topo_verify.proofs.first_order import theory as t
-from topo_verify.proofs.first_order.obligations import (
-    CONFIRMED,
-    KEPT,
-    OWN,
-    WORD,
-    A,
-    B,
-    D,
-    E,
-    H,
-    J,
-    K,
-    Obligation,
-    R,
-    X,
-    old,
-    phi2,
-)
-from topo_verify.proofs.first_order.terms import (
-    BOOL,
-    Symbol,
-    Term,
-    conj,
-    differ,
-    eq,
-    forall,
-    neg,
-    substitute,
-)
+from topo_verify.proofs.first_order.obligations import *
+from topo_verify.proofs.first_order.terms import *
 from topo_verify.proofs.first_order.theory import k
 
 BOTH = KEPT + CONFIRMED
