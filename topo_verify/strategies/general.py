@@ -44,17 +44,7 @@ def worlds(  # noqa: PLR0913  bounds are optional
         >>> find(worlds(simple=True), lambda world: len(world.vertices) == 3)
         tv.World.from_id('m2/2')
     """
-    return worlds_of(
-        "worlds",
-        min_edges=min_edges,
-        max_edges=max_edges,
-        marker=marker,
-        min_genus=min_genus,
-        max_genus=max_genus,
-        simple=simple,
-        loopless=loopless,
-        max_degree=max_degree,
-    )
+    return worlds_of("worlds", **locals())
 
 
 @shown_as_called
@@ -71,16 +61,7 @@ def planar_worlds(
 
     Args, Raises: as for `worlds`.
     """
-    return worlds_of(
-        "planar_worlds",
-        min_edges=min_edges,
-        max_edges=max_edges,
-        marker=marker,
-        max_genus=0,
-        simple=simple,
-        loopless=loopless,
-        max_degree=max_degree,
-    )
+    return worlds_of("planar_worlds", max_genus=0, **locals())
 
 
 @shown_as_called
@@ -132,14 +113,7 @@ def tree_worlds(
 
     Args, Raises: as for `worlds`.
     """
-    return worlds_of(
-        "tree_worlds",
-        min_edges=min_edges,
-        max_edges=max_edges,
-        marker=marker,
-        max_degree=max_degree,
-        max_cycles=0,
-    )
+    return worlds_of("tree_worlds", max_cycles=0, **locals())
 
 
 @shown_as_called
@@ -158,19 +132,7 @@ def dense_worlds(  # noqa: PLR0913  bounds are optional
 
     Args, Raises: as for `worlds`.
     """
-    return worlds_of(
-        "dense_worlds",
-        min_edges=min_edges,
-        max_edges=max_edges,
-        marker=marker,
-        kinds=CROWDED,
-        min_genus=min_genus,
-        max_genus=max_genus,
-        simple=simple,
-        loopless=loopless,
-        max_degree=max_degree,
-        dense=True,
-    )
+    return worlds_of("dense_worlds", kinds=CROWDED, dense=True, **locals())
 
 
 _SPARE = 8

@@ -34,6 +34,9 @@ def policies(*, random: bool = True) -> SearchStrategy[Policies]:
     return st.builds(Policies, pick=_named(PICKS, random), order=_named(ORDERS, random))
 
 
+_all_policies = policies  # `mappers` has an argument of that name
+
+
 @shown_as_called
 def mappers(
     *,
@@ -58,16 +61,12 @@ def mappers(
     if unknown or not names:
         problem = f"no algorithm {unknown[0]!r}" if unknown else "algorithms is empty"
         raise InputError(f"mappers: {problem}: there are {', '.join(CATALOGUE)}")
-    chosen = _all_policies() if policies is None else policies
-    return st.builds(_with_policies, st.sampled_from(names), chosen)
+    drawn = _all_policies() if policies is None else policies
 
+    def with_policies(name: str, chosen: Policies) -> Algorithm:
+        return CATALOGUE[name].with_policies(pick=chosen.pick, order=chosen.order)
 
-def _all_policies() -> SearchStrategy[Policies]:
-    return policies()
-
-
-def _with_policies(name: str, chosen: Policies) -> Algorithm:
-    return CATALOGUE[name].with_policies(pick=chosen.pick, order=chosen.order)
+    return st.builds(with_policies, st.sampled_from(names), drawn)
 
 
 def _named(names: Iterable[str], random: bool) -> SearchStrategy[str]:  # noqa: FBT001

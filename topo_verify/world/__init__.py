@@ -8,7 +8,6 @@ from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
 # rooted_map.py    World: rotations and a marker; faces, genus, canonical code, ids
-# permutations.py  the cycles of a permutation
 # validation.py    refuses what does not make a world
 # least_cost.py    the least cost of a proof, and a walk of that cost
 # unrooted.py      the number of worlds without their marker

@@ -47,18 +47,27 @@ def load(cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -
     Raises:
         InputError: the file cannot be read, or holds no world.
     """
-    from topo_verify.world.formats import graphml, node_link, planar_code, sumo, world_json
+    from topo_verify.world.formats import files, graphml, node_link, planar_code, sumo, world_json
 
-    kind = format_of_name(path)
-    if kind == "planar_code":
-        return planar_code.load(cls, path, graph=graph)
-    if graph is not None:
+    kind, name = format_of_name(path), shown(path)
+    if graph is not None and kind != "planar_code":
         raise InputError(
-            f"{shown(path)}: graph={graph} is for planar_code (.pc, .plc); the other formats"
+            f"{name}: graph={graph} is for planar_code (.pc, .plc); the other formats"
             " hold one world a file: leave it out"
         )
-    loaders = {"graphml": graphml.load, "sumo": sumo.load, "nx-json": node_link.load}
-    return loaders.get(kind, world_json.load)(cls, path)
+    data = files.read(path)
+    stem = files.stem(path).removesuffix({"sumo": ".net", "nx-json": ".nx"}.get(kind, ""))
+    match kind:
+        case "planar_code":
+            return planar_code.decode(cls, data, name=name, stem=stem, graph=graph)
+        case "graphml":
+            return graphml.decode(cls, data, name=name, stem=stem)
+        case "sumo":
+            return sumo.decode(cls, data, name=name, stem=stem)
+        case "nx-json":
+            return node_link.decode(cls, data, name=name, stem=stem)
+        case _:
+            return world_json.decode(cls, data, name=name, stem=stem)
 
 
 def decode(cls: type[W], text: str | bytes) -> W:
@@ -85,14 +94,14 @@ def save(world: World, path: str | PathLike[str]) -> None:
     Raises:
         InputError: the file cannot be written, or its name says another format.
     """
-    from topo_verify.world.formats import world_json
+    from topo_verify.world.formats import files, world_json
 
     if (kind := format_of_name(path)) != "json":
         raise InputError(
             f"{shown(path)}: expected a name for world JSON, as w.json, got one that is read as"
             f" {kind}: name another file, or use topo-verify world convert"
         )
-    world_json.save(world, path)
+    files.write(path, world_json.encode(world) + "\n")
 
 
 def notebook(world: World) -> str:

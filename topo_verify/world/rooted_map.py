@@ -26,7 +26,6 @@ from topo_verify.errors import InputError
 from topo_verify.world import validation
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.least_cost import least_cost, proof_tour
-from topo_verify.world.permutations import cycles
 
 W = TypeVar("W", bound="World")
 
@@ -385,3 +384,19 @@ class World:
     def _repr_pretty_(self, printer: Any, _: bool) -> None:  # noqa: FBT001  asked by Hypothesis
         small = len(self.edges) <= rank_order.MAX_ID_EDGES
         printer.text(f"tv.World.from_id({self.id!r})" if small else repr(self))
+
+
+def cycles(permutation: Sequence[int], starts: Sequence[int] = ()) -> tuple[tuple[int, ...], ...]:
+    """The cycles, in the order of their starts; those without one by their least dart."""
+    visited = [False] * len(permutation)
+    cycles: list[tuple[int, ...]] = []
+    for start in (*starts, *range(len(permutation))):
+        cycle: list[int] = []
+        dart = start
+        while not visited[dart]:
+            visited[dart] = True
+            cycle.append(dart)
+            dart = permutation[dart]
+        if cycle:
+            cycles.append(tuple(cycle))
+    return tuple(cycles)

@@ -24,8 +24,7 @@ from itertools import combinations, islice
 from typing import Literal, get_args
 
 from topo_verify.errors import InputError, InternalError
-from topo_verify.world.permutations import cycles
-from topo_verify.world.rooted_map import Dart, World
+from topo_verify.world.rooted_map import Dart, World, cycles
 
 MarkerModel = Literal["undirected", "none"]
 """What is sensed of the marker: its place, or nothing."""

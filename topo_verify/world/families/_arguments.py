@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from operator import index
+from random import Random
 from typing import SupportsFloat, SupportsIndex
 
 from topo_verify.errors import InputError
@@ -20,11 +21,6 @@ def integer(family: str, name: str, value: object, least: int) -> int:
     raise InputError(f"{family}: {name} is {value!r}, expected an integer of {least} or more")
 
 
-def marker(family: str, value: object) -> Dart | None:
-    """The value as a dart, or None for one to be drawn."""
-    return None if value is None else integer(family, "marker", value, 0)
-
-
 def share(family: str, name: str, value: object, *, whole: bool) -> float:
     """The value as a plain float in 0 … 1 (1 only if `whole`)."""
     if isinstance(value, SupportsFloat):
@@ -37,11 +33,10 @@ def share(family: str, name: str, value: object, *, whole: bool) -> float:
     raise InputError(f"{family}: {name} is {value!r}, expected {expected}")
 
 
-def size(family: str, size: tuple[int, int], *, darts_each: int) -> tuple[int, int]:
-    """The rows and columns as plain integers; refuses a grid that is too large."""
+def size(family: str, size: tuple[int, int], *, darts_each: int) -> tuple[int, int, int]:
+    """The rows and columns as plain integers, and the number of darts."""
     rows, columns = integer(family, "rows", size[0], 1), integer(family, "columns", size[1], 1)
-    require_darts(family, darts_each * rows * columns)
-    return rows, columns
+    return rows, columns, darts_each * rows * columns
 
 
 def require_darts(family: str, darts: int) -> None:
@@ -51,6 +46,21 @@ def require_darts(family: str, darts: int) -> None:
             f"{family}: so large a world might have more than {MAX_DARTS} darts (two an edge): ask"
             " for a smaller one"
         )
+
+
+def settled(
+    family: str,
+    *places: float,
+    darts: int,
+    marker: Dart | None,
+    seed: int = 0,
+    holes: float = 0.0,
+) -> tuple[str, Dart | None, Random]:
+    """The world's name, the marker (None: to be drawn) and the source of all draws."""
+    seed = integer(family, "seed", seed, 0)
+    require_darts(family, darts)
+    marker = None if marker is None else integer(family, "marker", marker, 0)
+    return name(family, *places, holes=holes, seed=seed, marker=marker), marker, Random(seed)
 
 
 def name(family: str, *places: float, marker: Dart | None, **options: float) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from random import Random
 
 from topo_verify.world.families import _arguments as arguments
 from topo_verify.world.families._rotated_graph import EdgeEnd, Graph, as_world, with_holes
@@ -78,9 +77,10 @@ def hexagonal_torus(rows: int, columns: int, *, marker: Dart | None = None) -> W
     torus of the same size, faces taken as rotations: with north upwards, exits are listed
     anticlockwise.
     """
-    family = "hexagonal_torus"
-    rows, columns = arguments.size(family, (rows, columns), darts_each=6)
-    marker = arguments.marker(family, marker)
+    rows, columns, darts = arguments.size("hexagonal_torus", (rows, columns), darts_each=6)
+    name, marker, _ = arguments.settled(
+        "hexagonal_torus", rows, columns, darts=darts, marker=marker
+    )
     graph: Graph = {}
     for cell in range(rows * columns):
         row, column = divmod(cell, columns)
@@ -95,8 +95,7 @@ def hexagonal_torus(rows: int, columns: int, *, marker: Dart | None = None) -> W
                 EdgeEnd(2 * other + 1 - side, ((cell, other)[side], way), side)
                 for way, other in enumerate(others)
             ]
-    name = arguments.name(family, rows, columns, marker=marker)
-    return as_world(name, graph, 0 if marker is None else marker)
+    return as_world(name, graph, marker or 0)
 
 
 def _wrapped(
@@ -105,11 +104,9 @@ def _wrapped(
     size: tuple[int, int],
     marker: Dart | None,
 ) -> World:
-    rows, columns = arguments.size(family, size, darts_each=2 * len(steps))
-    marker = arguments.marker(family, marker)
-    graph = _grid(rows, columns, steps, wrapped=True)
-    name = arguments.name(family, rows, columns, marker=marker)
-    return as_world(name, graph, 0 if marker is None else marker)
+    rows, columns, darts = arguments.size(family, size, darts_each=2 * len(steps))
+    name, marker, _ = arguments.settled(family, rows, columns, darts=darts, marker=marker)
+    return as_world(name, _grid(rows, columns, steps, wrapped=True), marker or 0)
 
 
 def _drawn(
@@ -122,12 +119,11 @@ def _drawn(
     *,
     wrapped: bool = False,
 ) -> World:
-    rows, columns = arguments.size(family, size, darts_each=2 * len(steps))
+    rows, columns, darts = arguments.size(family, size, darts_each=2 * len(steps))
     holes = arguments.share(family, "holes", holes, whole=False)
-    seed = arguments.integer(family, "seed", seed, 0)
-    marker = arguments.marker(family, marker)
-    name = arguments.name(family, rows, columns, holes=holes, seed=seed, marker=marker)
-    random = Random(seed)
+    name, marker, random = arguments.settled(
+        family, rows, columns, darts=darts, marker=marker, seed=seed, holes=holes
+    )
     graph = with_holes(name, _grid(rows, columns, steps, wrapped=wrapped), holes, random)
     if wrapped:  # no drawing in the plane
         return as_world(name, graph, marker, random)

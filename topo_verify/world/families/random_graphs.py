@@ -30,16 +30,14 @@ def regular(
     degree = arguments.integer(family, "degree", degree, 1)
     nodes = arguments.integer(family, "nodes", nodes, degree + 1)
     holes = arguments.share(family, "holes", holes, whole=False)
-    seed = arguments.integer(family, "seed", seed, 0)
-    arguments.require_darts(family, nodes * degree)
+    name, marker, random = arguments.settled(
+        family, nodes, degree, darts=nodes * degree, marker=marker, seed=seed, holes=holes
+    )
     if nodes * degree % 2:
         raise InputError(
             f"regular: {nodes} nodes of degree {degree} have an odd number of darts, and an edge is"
             " two: make one of the two numbers even"
         )
-    marker = arguments.marker(family, marker)
-    name = arguments.name(family, nodes, degree, holes=holes, seed=seed, marker=marker)
-    random = Random(seed)
     # The order of the draws is a promise: edges, holes, rotations, marker.
     graph = _graph(nodes, _regular_edges(nodes, degree, random))
     return _rotated(name, graphs.with_holes(name, graph, holes, random), marker, random)
@@ -57,25 +55,21 @@ def dense(nodes: int, probability: float, *, seed: int = 0, marker: Dart | None 
     """
     family = "dense"
     nodes = arguments.integer(family, "nodes", nodes, 1)
-    seed = arguments.integer(family, "seed", seed, 0)
     probability = arguments.share(family, "probability", probability, whole=True)
-    arguments.require_darts(family, nodes * (nodes - 1))
-    marker = arguments.marker(family, marker)
-    name = arguments.name(family, nodes, probability, seed=seed, marker=marker)
-    random = Random(seed)
+    name, marker, random = arguments.settled(
+        family, nodes, probability, darts=nodes * (nodes - 1), marker=marker, seed=seed
+    )
     edges = [pair for pair in combinations(range(nodes), 2) if random.random() < probability]
     return _rotated(name, _graph(nodes, edges), marker, random)
 
 
 def complete(nodes: int, *, seed: int = 0, marker: Dart | None = None) -> World:
     """Every two nodes joined; random rotations. Arguments and errors as for `dense`."""
-    family = "complete"
-    nodes = arguments.integer(family, "nodes", nodes, 1)
-    seed = arguments.integer(family, "seed", seed, 0)
-    arguments.require_darts(family, nodes * (nodes - 1))
-    marker = arguments.marker(family, marker)
-    name = arguments.name(family, nodes, seed=seed, marker=marker)
-    return _rotated(name, _graph(nodes, combinations(range(nodes), 2)), marker, Random(seed))
+    nodes = arguments.integer("complete", "nodes", nodes, 1)
+    name, marker, random = arguments.settled(
+        "complete", nodes, darts=nodes * (nodes - 1), marker=marker, seed=seed
+    )
+    return _rotated(name, _graph(nodes, combinations(range(nodes), 2)), marker, random)
 
 
 def complete_bipartite(
@@ -92,12 +86,11 @@ def complete_bipartite(
     family = "complete_bipartite"
     left = arguments.integer(family, "left", left, 1)
     right = arguments.integer(family, "right", right, 1)
-    seed = arguments.integer(family, "seed", seed, 0)
-    arguments.require_darts(family, 2 * left * right)
-    marker = arguments.marker(family, marker)
-    name = arguments.name(family, left, right, seed=seed, marker=marker)
+    name, marker, random = arguments.settled(
+        family, left, right, darts=2 * left * right, marker=marker, seed=seed
+    )
     edges = product(range(left), range(left, left + right))
-    return _rotated(name, _graph(left + right, edges), marker, Random(seed))
+    return _rotated(name, _graph(left + right, edges), marker, random)
 
 
 def _regular_edges(nodes: int, degree: int, random: Random) -> Iterable[tuple[int, int]]:

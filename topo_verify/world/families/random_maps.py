@@ -49,9 +49,11 @@ def random_tree(edges: int, *, seed: int = 0, marker: Dart | None = None) -> Wor
     Raises:
         InputError: an argument is out of range, or more than `MAX_DARTS` darts.
     """
-    edges, seed, marker = _checked("random_tree", edges, seed, marker)
-    name = arguments.name("random_tree", edges, seed=seed, marker=marker)
-    return _rooted(name, _turning([_walk(_tree(edges, Random(seed)))]), 0, marker)
+    edges = arguments.integer("random_tree", "edges", edges, 0)
+    name, marker, random = arguments.settled(
+        "random_tree", edges, darts=2 * edges, marker=marker, seed=seed
+    )
+    return _rooted(name, _turning([_walk(_tree(edges, random))]), 0, marker)
 
 
 def random_planar(edges: int, *, seed: int = 0, marker: Dart | None = None) -> World:
@@ -59,9 +61,10 @@ def random_planar(edges: int, *, seed: int = 0, marker: Dart | None = None) -> W
 
     Arguments and errors as for `random_tree`.
     """
-    edges, seed, marker = _checked("random_planar", edges, seed, marker)
-    name = arguments.name("random_planar", edges, seed=seed, marker=marker)
-    random = Random(seed)
+    edges = arguments.integer("random_planar", "edges", edges, 0)
+    name, marker, random = arguments.settled(
+        "random_planar", edges, darts=2 * edges, marker=marker, seed=seed
+    )
     word = _tree(edges, random)
     steps = [random.choice((-1, 0, 1)) for _ in range(edges)]
     coin = random.randrange(2)
@@ -84,9 +87,9 @@ def random_genus(edges: int, genus: int, *, seed: int = 0, marker: Dart | None =
     edges = arguments.integer(family, "edges", edges, 2 * genus)
     if edges > MAX_EDGES:
         raise InputError(f"{family}: edges is {edges}, expected {MAX_EDGES} at most")
-    edges, seed, marker = _checked(family, edges, seed, marker)
-    name = arguments.name(family, edges, genus, seed=seed, marker=marker)
-    random = Random(seed)
+    name, marker, random = arguments.settled(
+        family, edges, genus, darts=2 * edges, marker=marker, seed=seed
+    )
     # a handle takes two edges outside the tree: a split and a join
     in_tree = sum(random.randrange(2) for _ in range(edges - 2 * genus))
     kinds = [1] * (edges - in_tree - genus) + [-1] * genus  # of the faces
@@ -97,15 +100,6 @@ def random_genus(edges: int, genus: int, *, seed: int = 0, marker: Dart | None =
         (faces.split if kind > 0 else faces.join)(random)
     root = random.randrange(2 * edges) if edges else 0
     return _rooted(name, _turning(faces.faces), root, marker)
-
-
-def _checked(
-    family: str, edges: int, seed: int, marker: Dart | None
-) -> tuple[int, int, Dart | None]:
-    edges = arguments.integer(family, "edges", edges, 0)
-    seed = arguments.integer(family, "seed", seed, 0)
-    arguments.require_darts(family, 2 * edges)
-    return edges, seed, arguments.marker(family, marker)
 
 
 def _rooted(name: str, sigma: Sequence[Dart], root: Dart, marker: Dart | None) -> World:

@@ -12,6 +12,7 @@ icosahedron.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 
 from topo_verify.errors import InputError
 from topo_verify.world.families import _arguments as arguments
@@ -96,9 +97,7 @@ def _made(
     """
     value, least, darts_each = number
     value = arguments.integer(family, parameter, value, least)
-    arguments.require_darts(family, darts_each * value)
-    marker = arguments.marker(family, marker)
-    name = arguments.name(family, value, marker=marker)
+    name, marker, _ = arguments.settled(family, value, darts=darts_each * value, marker=marker)
     # path(1) has no dart
     exits = graph(value)
     return as_world(name, exits, 0 if marker is None and exits[0] else marker)
@@ -143,15 +142,8 @@ def icosahedron(*, marker: Dart | None = None) -> World:
 
 
 def _named(family: str, world: World, marker: Dart | None) -> World:
-    marker = arguments.marker(family, marker)
-    name = arguments.name(family, marker=marker)
+    name, marker, _ = arguments.settled(family, darts=0, marker=marker)
     try:
-        return World(
-            world.alpha,
-            world.sigma,
-            0 if marker is None else marker,
-            starts=world.starts,
-            name=name,
-        )
+        return replace(world, root=marker or 0, name=name)
     except InputError as error:
         raise InputError(f"{name}: {error}") from error

@@ -17,11 +17,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from io import BytesIO
-from os import PathLike
 from typing import Any, NamedTuple, TypeVar, cast
 
 from topo_verify.errors import InputError, shown
-from topo_verify.world.formats import embedding, files, markup, rotated
+from topo_verify.world.formats import embedding, markup, rotated
 from topo_verify.world.formats.embedding import DrawnEdge, DrawnVertex, Point
 from topo_verify.world.formats.rotated import RotatedEdge, RotatedVertex
 from topo_verify.world.rooted_map import World
@@ -34,15 +33,6 @@ _WANTED = {
     "edge": ("geometry", "darts"),
 }
 """The data that are read."""
-
-
-def load(cls: type[W], path: str | PathLike[str]) -> W:
-    """The world in the file.
-
-    Raises:
-        InputError: as `decode`, or the file cannot be read.
-    """
-    return decode(cls, files.read(path), name=shown(path), stem=files.stem(path))
 
 
 def decode(cls: type[W], data: bytes, *, name: str = "GraphML", stem: str = "") -> W:

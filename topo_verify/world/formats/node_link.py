@@ -11,14 +11,13 @@ of `edges`, is read as well. Other fields are ignored; repeated ones are refused
 
 from __future__ import annotations
 
-from os import PathLike
 from typing import Annotated, Any, TypeVar
 
 import msgspec
 from msgspec import UNSET, Meta, UnsetType
 
 from topo_verify.errors import InputError, shown
-from topo_verify.world.formats import files, rotated, world_json
+from topo_verify.world.formats import rotated, world_json
 from topo_verify.world.formats.rotated import RotatedEdge, RotatedVertex
 from topo_verify.world.rooted_map import World
 
@@ -69,16 +68,6 @@ class _Header(msgspec.Struct):
     """Read first: a newer version may have other fields."""
 
     graph: dict[str, Any]
-
-
-def load(cls: type[W], path: str | PathLike[str]) -> W:
-    """The world in the file, named after the file if it gives no name.
-
-    Raises:
-        InputError: as `decode`, or the file cannot be read.
-    """
-    stem = files.stem(path).removesuffix(".nx")
-    return decode(cls, files.read(path), name=shown(path), stem=stem)
 
 
 def decode(cls: type[W], text: str | bytes, *, name: str = "node-link JSON", stem: str = "") -> W:

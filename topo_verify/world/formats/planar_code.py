@@ -22,11 +22,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from itertools import accumulate
-from os import PathLike
 from typing import TypeVar
 
 from topo_verify.errors import InputError, shown
-from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
@@ -35,15 +33,6 @@ MAX_VERTICES = 2**16 - 1
 """The largest number of two bytes."""
 
 _HEAD = re.compile(rb">>planar_code(?: ?(le|be))? ?<<")
-
-
-def load(cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -> W:
-    """The world in the file, or the one of this number, counted from 0.
-
-    Raises:
-        InputError: as `decode`, or the file cannot be read.
-    """
-    return decode(cls, files.read(path), name=shown(path), graph=graph, stem=files.stem(path))
 
 
 def decode(

@@ -17,25 +17,14 @@ Source: Eclipse SUMO, user documentation, "SUMO Road Networks".
 from __future__ import annotations
 
 import re
-from os import PathLike
 from typing import TypeVar
 
 from topo_verify.errors import InputError, shown
-from topo_verify.world.formats import embedding, files, markup
+from topo_verify.world.formats import embedding, markup
 from topo_verify.world.formats.embedding import DrawnEdge, DrawnVertex, Point
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
-
-
-def load(cls: type[W], path: str | PathLike[str]) -> W:
-    """The world in the file.
-
-    Raises:
-        InputError: as `decode`, or the file cannot be read.
-    """
-    stem = files.stem(path).removesuffix(".net")
-    return decode(cls, files.read(path), name=shown(path), stem=stem)
 
 
 def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str = "") -> W:

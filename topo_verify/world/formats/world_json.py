@@ -19,7 +19,6 @@ from __future__ import annotations
 
 import json
 import re
-from os import PathLike
 from typing import Annotated, Any, Final, Literal, TypeVar
 
 import msgspec
@@ -93,37 +92,16 @@ def schema() -> dict[str, Any]:
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **made}
 
 
-def load(cls: type[W], path: str | PathLike[str]) -> W:
-    """The world in the file, named after the file if it gives no name.
-
-    Raises:
-        InputError: the file cannot be read, is larger than `files.LIMIT`, or holds no world.
-    """
-    name = shown(path)
-    data = _parse(files.read(path), name)
-    return from_data(cls, data, name=name, stem=files.stem(path))
-
-
-def decode(cls: type[W], text: str | bytes, *, name: str = "world JSON") -> W:
+def decode(cls: type[W], text: str | bytes, *, name: str = "world JSON", stem: str = "") -> W:
     """The world in the text; a byte order mark is ignored.
 
     Args:
         name: the name of the input in messages.
+        stem: the name of the world if the text has none.
     Raises:
         InputError: the text holds no world; says where and why.
     """
-    return from_data(cls, _parse(text, name), name=name)
-
-
-def from_data(cls: type[W], data: WorldFile, *, name: str, stem: str = "") -> W:
-    """The world of a decoded file.
-
-    Args:
-        name: the name of the input in messages.
-        stem: the name of the world if the file has none.
-    Raises:
-        InputError: rotations, edges and marker make no world.
-    """
+    data = _parse(text, name)
     try:
         return cls.from_rotations(
             data.vertices,
@@ -260,12 +238,3 @@ def encoded(data: msgspec.Struct) -> str:
         raise InputError(
             f"expected Unicode in the world's name and texts: {error}; replace that character"
         ) from error
-
-
-def save(world: World, path: str | PathLike[str]) -> None:
-    """Write the world to the file, whole or not at all.
-
-    Raises:
-        InputError: as `encode`, or the file cannot be written.
-    """
-    files.write(path, encode(world) + "\n")
