@@ -54,8 +54,7 @@ class World:
         sigma: the next dart clockwise at the same vertex; a permutation.
         root: the dart that the marker points at; None iff m = 0 (one vertex).
         starts: the first dart of each vertex, in their order; default: the least darts, ascending.
-        name, vertex_names, positions, source, licence: not compared. Positions are (x, y) per
-            vertex with y upwards.
+        name, vertex_names, positions, source, licence: not compared; positions have y upwards.
     Raises:
         InputError: the arguments do not make one connected map with a marker; names the dart.
     Complexity: O(m).
@@ -95,10 +94,9 @@ class World:
     ) -> Self:
         """The world from rotations, pairs of darts and the marked dart, as a world file has them.
 
-        Darts may be any distinct integers; they are renumbered in ascending order.
-
         Args:
-            vertices: the darts of each vertex in clockwise order.
+            vertices: the darts of each vertex in clockwise order: any distinct integers, renumbered in
+                ascending order.
             edges: two darts each.
             marker: a dart, or None where there is none.
             about: name, vertex_names, positions, source, licence.
@@ -144,10 +142,10 @@ class World:
 
     @classmethod
     def from_id(cls, text: str) -> Self:
-        """The world with this id, `m<edges>/<rank>`; the inverse of `id`.
+        """The world with this id; the inverse of `id`.
 
         Raises:
-            InputError: the text is not an id, the rank is out of range, or more than 200 edges.
+            InputError: the text is no id, or its rank does not exist.
         """
         return cls.from_code(rank_order.unrank(*rank_order.id_parts(text)), name=text)
 
@@ -292,11 +290,7 @@ class World:
 
     @cached_property
     def id(self) -> str:
-        """`m<edges>/<rank>`, the name of the world up to isomorphism.
-
-        Raises:
-            InputError: more than 200 edges.
-        """
+        """`m<edges>/<rank>`, up to isomorphism. Raises InputError above 200 edges."""
         rank_order.require_id_edges(len(self.edges))
         return f"m{len(self.edges)}/{rank_order.rank(self.code)}"
 
@@ -325,11 +319,7 @@ class World:
         return replace(self, sigma=tuple(back), positions=flipped, name="")
 
     def with_marker(self, root: Dart) -> Self:
-        """The same map with the marker at another dart, unnamed.
-
-        Raises:
-            InputError: there is no such dart.
-        """
+        """The same map with the marker at another dart, unnamed. Raises InputError for no dart."""
         return replace(self, root=root, name="")
 
     def renumbered(self, numbers: Sequence[Dart]) -> Self:
