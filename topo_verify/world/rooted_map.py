@@ -95,8 +95,8 @@ class World:
         """The world from rotations, pairs of darts and the marked dart, as a world file has them.
 
         Args:
-            vertices: the darts of each vertex in clockwise order: any distinct integers, renumbered in
-                ascending order.
+            vertices: the darts of each vertex in clockwise order, any distinct integers; they are
+                renumbered in ascending order.
             edges: two darts each.
             marker: a dart, or None where there is none.
             about: name, vertex_names, positions, source, licence.
