@@ -10,6 +10,7 @@ game/          what the best explorer pays, computed
 reproduce/     the paper's figures
 gap.py         how far a rule is from the best possible
 corpus.py      what WORLDS means
+beside.py      a function called in worker processes beside the campaign
 log_file.py    a robot's log, in JSON Lines or as a CSV table
 log_report.py  what a log proves without its world
 advice.py      where a robot goes next, so that its log proves the map

@@ -16,29 +16,26 @@ larger worlds.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Iterator, Sequence
-from contextlib import closing, contextmanager, suppress
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
-from math import inf
 from statistics import median
 from typing import Literal, get_args
 
 import msgspec
 
-from topo_verify.campaign.pool import Pool
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.run import Engine, explore, planted, require_compiled
-from topo_verify.campaign.work import Loss, Work, in_order
-from topo_verify.campaign.worker import Beat, Handler
 from topo_verify.checkers import CLAIMS
 from topo_verify.checkers.findings import Verdict
 from topo_verify.checkers.replayed_trace import ReplayedTrace
-from topo_verify.errors import InputError, InternalError
+from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS, Fault
 from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.programs.loader import Target
 from topo_verify.robot.events import Augment, Decision, Move, Robot
 from topo_verify.robot.limits import Limits
+from topo_verify.studies.beside import Beside
 from topo_verify.studies.search.search import SearchEntry, search
 from topo_verify.world.rooted_map import World
 
@@ -122,10 +119,11 @@ def try_faults(
     # A worker finds a fault by its name.
     known = all(FAULTS.get(fault.name) is fault for fault in faults)
     if workers and known and len(faults) > 1:
-        with closing(
-            _in_workers(faults, FaultsJob(tuple(by), thorough, engine), workers)
-        ) as entries:
-            for fault, entry in entries:
+        names = [fault.name for fault in faults]
+        arguments = tuple(by), thorough, engine
+        with Beside(tried, names, arguments, result=Caught, workers=workers) as beside:
+            for fault in faults:
+                entry = beside.result(fault.name)
                 yield _to_the_end(fault, entry, workers, thorough=thorough, tell=tell)
     else:
         for fault in faults:
@@ -133,44 +131,9 @@ def try_faults(
             yield _to_the_end(fault, entry, workers, thorough=thorough, tell=tell)
 
 
-class FaultsJob(msgspec.Struct, frozen=True):
-    """What a worker gets before its first fault."""
-
-    by: tuple[Check, ...]
-    thorough: bool
-    engine: Engine
-
-
-def _in_workers(
-    faults: Sequence[Fault], job: FaultsJob, workers: int
-) -> Generator[tuple[Fault, Caught]]:
-    """Each fault with what the checks found in a worker."""
-    work = Work(
-        serve=f"{__name__}:serve_faults",
-        job=job,
-        result=Caught,
-        lost=_lost,
-        silence=inf,  # a thorough check may take an hour
-    )
-    with Pool(work, workers) as pool:
-        names = [fault.name for fault in faults]
-        yield from zip(faults, in_order(pool, names, ahead=len(names)), strict=True)
-
-
-def _lost(name: str, loss: Loss) -> Caught:
-    raise InternalError(f"in a worker, which was to try the fault {name}: {loss}")
-
-
-@contextmanager
-def serve_faults(job: bytes) -> Generator[Handler]:
-    """Put the checks of a `FaultsJob` to one fault after the other."""
-    asked = msgspec.json.decode(job, type=FaultsJob)
-
-    def try_one(name: bytes, _beat: Beat) -> Caught:
-        fault = FAULTS[msgspec.json.decode(name, type=str)]
-        return _begun(fault, by=asked.by, thorough=asked.thorough, engine=asked.engine)
-
-    yield try_one
+def tried(name: str, by: Sequence[Check], thorough: bool, engine: Engine) -> Caught:  # noqa: FBT001  called in a worker
+    """What the checks find of a fault, the search in worlds of up to `COUNTED` edges."""
+    return _begun(FAULTS[name], by=by, thorough=thorough, engine=engine)
 
 
 def _begun(fault: Fault, *, by: Sequence[Check], thorough: bool, engine: Engine) -> Caught:
