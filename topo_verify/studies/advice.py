@@ -1,14 +1,11 @@
 """Advice for a robot whose log does not prove its map yet: which way to go on, and the way back.
 
 The nearest open door is bad advice: behind it lie new open doors, and only the marker tells that
-two places are one. So the mapper `homing` explores **in thought**, from the marker on: the fold of
-the log answers its moves. The robot goes to the first door that the fold does not know, and asks
-again with the longer log.
+two places are one. So the mapper `homing` explores **in thought**: the fold of the log answers its
+moves. The robot goes to the first door that the fold does not know, and asks again.
 
-**This ends.** In the robot's world the mapper makes finitely many moves, and its history proves the
-map. The fold answers one more of them each time.
-
-What this does not show: that no shorter walk proves the map.
+**This ends.** In the robot's world the mapper makes finitely many moves, and the fold answers one
+more of them each time. What this does not show: that no shorter walk proves the map.
 """
 
 from __future__ import annotations
@@ -25,7 +22,7 @@ from topo_verify.studies.log_report import Certificate, way_to
 ADVISER = "homing"
 
 MOST_THOUGHTS = 20_000
-"""Most moves in thought; a log of a million random moves would take hours."""
+"""A log of a million random moves would take hours."""
 
 
 class Advice(msgspec.Struct, frozen=True):
@@ -41,9 +38,9 @@ class Advice(msgspec.Struct, frozen=True):
 
 
 def advice(certificate: Certificate) -> Advice | None:
-    """The advice for an incomplete log; None: the map is proved, or no world shows the log.
+    """The advice for an incomplete log, else None.
 
-    After `MOST_THOUGHTS` moves in thought the walk is empty: go home, and ask again there.
+    After `MOST_THOUGHTS` moves the walk is empty: go home, and ask again there.
     """
     fold = certificate.fold
     if fold is None or certificate.map is not None:

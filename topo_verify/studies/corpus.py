@@ -9,13 +9,7 @@
 | a folder | the world files in it, in the order of their names |
 | any WORLD | this world: a path, `family:…`, an id, `nyc` |
 
-    corpus = corpus_from(["edges<=3", "nyc"])
-    corpus.total, corpus.digest          # 87, and a hash that names exactly these worlds
-    for at in corpus: at.name, at.world
-
-Each iteration enumerates the worlds again, so a corpus may be larger than memory.
-
-Source: docs/semantics.md, section 16.
+A corpus lists its worlds anew each time. Source: docs/semantics.md, section 16.
 """
 
 from __future__ import annotations
@@ -140,7 +134,7 @@ class CorpusWorlds:
 
 
 def corpus_from(texts: Sequence[str] = DEFAULT, *, seed: int = 0) -> Corpus:
-    """The worlds that these texts name, in order; the default corpus if there are none.
+    """The worlds that these texts name, in order; without texts the default corpus.
 
     Raises:
         InputError: a text names no worlds, or a file holds none.
@@ -211,7 +205,7 @@ def _generated(text: str, seed: int) -> CorpusPart:
 
 
 def drawn(asked: str, strategy: str, number: int, seed: int) -> list[World]:
-    """Worlds of a strategy given as text; `asked` is the option that asks for them.
+    """Worlds of a strategy given as text, asked for by the option `asked`.
 
     Raises:
         InputError: there is no such strategy, or it draws no worlds.

@@ -1,17 +1,11 @@
 """Tries all checks on all seeded faults: which finds which, how fast, in which smallest world.
 
     search       every world of 1, 2, … edges up to the first size in which a claim fails
-    properties   property tests on two strategies, five seeds each; the second strategy is tried if
-                 the first leaves a seed without
-    proofs       a theorem whose version with the same mistake the solver refutes; pairs are made
-                 by hand
+    properties   property tests on two strategies, five seeds each
+    proofs       a theorem whose version with the same mistake the solver refutes
 
 A fault is caught if each check that was asked for finds it, and its claim fails in worlds of the
-smallest size. A harmless difference must be found by none. A run that a time limit ended is
-undecided.
-
-What this does not show: that there are no other mistakes; or that harmless differences pass in
-larger worlds.
+smallest size. A harmless difference must be found by none. A run out of time is undecided.
 """
 
 from __future__ import annotations
@@ -73,7 +67,7 @@ class Caught(msgspec.Struct, frozen=True):
 
 
 def named_faults(names: Sequence[str]) -> list[Fault]:
-    """The faults with these names; all, if there are none.
+    """The faults with these names; without names all.
 
     Raises:
         InputError: no fault has one of the names.
@@ -92,7 +86,7 @@ def mapper_of(entry: Caught) -> Target:
 
 
 def warm(faults: Iterable[Fault]) -> None:
-    """Compile the kernels with these mistakes, so that workers find them in the cache."""
+    """Compile the kernels with these mistakes for the cache."""
     require_compiled((), Limits())
     if mapper := next(filter(None, (planted(fault.name) for fault in faults)), None):
         explore(World.from_id("m1/0"), Target(mapper.name, mapper))
@@ -110,10 +104,9 @@ def try_faults(
     """Try the checks on each of these faults, in order.
 
     Args:
-        workers: the number of processes, each with another fault; 0: this one.
-        thorough: count failing worlds of every size, and try harmless differences up to 5 edges.
+        workers: the number of processes; 0: this one.
+        thorough: count failing worlds of every size; harmless differences up to 5 edges.
         engine: runs a fault that has a kernel in worlds of up to `COUNTED` edges.
-        tell: the progress callback, called in the larger worlds.
     """
     faults = list(faults)
     # A worker finds a fault by its name.
@@ -132,7 +125,7 @@ def try_faults(
 
 
 def tried(name: str, by: Sequence[Check], thorough: bool, engine: Engine) -> Caught:  # noqa: FBT001  called in a worker
-    """What the checks find of a fault, the search in worlds of up to `COUNTED` edges."""
+    """What the checks find of a fault, without the larger worlds."""
     return _begun(FAULTS[name], by=by, thorough=thorough, engine=engine)
 
 
@@ -159,7 +152,7 @@ def _to_the_end(
 def entry_of(
     fault: Fault, searched: Smallest | None, drawn: Examples | None, proved: Proof | None
 ) -> Caught:
-    """The entry of a fault: what these checks found, and whether that is right."""
+    """The entry of a fault, given what the checks found."""
     asked: list[bool | None] = []
     if searched is not None:
         caught = bool(searched.failing) if fault.harmless else fault.claim in searched.claims
@@ -186,7 +179,6 @@ def entry_of(
 
 
 def _finds_what_it_must(fault: Fault, caught: bool, undecided: int) -> bool | None:  # noqa: FBT001  private
-    """Whether a check finds a fault, and no harmless difference; None: undecided."""
     if caught:
         return not fault.harmless
     return None if undecided else fault.harmless
@@ -209,7 +201,7 @@ STRATEGIES = (
 """Any worlds, mostly small; and street networks whose ways home lead through places seen before."""
 
 A_SECOND = Limits(move_timeout=1, world_timeout=1)
-"""A mapper that walks in a circle on its map, without moving, fills the memory in a minute."""
+"""A mapper that circles on its map without moving fills the memory in a minute."""
 
 TIMEOUT = 20.0
 """Seconds for a question to the solver."""
@@ -224,7 +216,7 @@ class Smallest(msgspec.Struct, frozen=True):
         undecided: in how many of all searched worlds a run was out of time.
         claims: for each claim that fails there, in how many worlds.
         world: the first of them.
-        convicting: the first in which claim 9 or 10 fails: one run, judged without its world.
+        convicting: the first that claims 9 and 10 alone convict.
         message, replay: what is wrong in `world`, and the command line that shows it again.
     """
 
@@ -244,9 +236,8 @@ class Examples(msgspec.Struct, frozen=True):
     """What property tests found.
 
     Attributes:
-        median_examples: examples needed with the first strategy that succeeds with all seeds, or
-            None.
-        strategy: that strategy, or None.
+        median_examples: examples needed with the first strategy that succeeds with all seeds.
+        strategy: that strategy.
         examples: by strategy, for each seed; None where nothing was found.
         most: the number of examples after which a test gives up.
         undecided: how many examples were cut off.
@@ -347,7 +338,7 @@ class _TooManyEdges(Exception):
 
 
 def examples(fault: Fault, *, seeds: Sequence[int] = SEEDS, most: int = EXAMPLES) -> Examples:
-    """How many examples property tests take to find the fault, for each strategy and seed."""
+    """The examples that property tests take to find the fault, by strategy and seed."""
     numbers: dict[str, tuple[int | None, ...]] = {}
     undecided = 0
     for strategy in STRATEGIES:
@@ -372,7 +363,7 @@ def examples_to_detection(
     from topo_verify.strategies.sample import drawing_no_literals, resolve_strategy
 
     tried = undecided = 0
-    found: int | None = None
+    failed_after: int | None = None
     failing: World | None = None
 
     @hypothesis.seed(seed)
@@ -390,27 +381,26 @@ def examples_to_detection(
     )
     @hypothesis.given(resolve_strategy(strategy))
     def every_claim_holds(world: World) -> None:
-        nonlocal tried, found, failing, undecided
+        nonlocal tried, failed_after, failing, undecided
         if world == failing:  # once more, to be shown
             raise _Failed
         tried += 1
         wrong = fails(fault, world)
         undecided += wrong is None
         if wrong:
-            found, failing = found or tried, world
+            failed_after, failing = failed_after or tried, world
             raise _Failed
 
     with drawing_no_literals(), suppress(_Failed):
         every_claim_holds()
-    return found, undecided
+    return failed_after, undecided
 
 
 def fails(fault: Fault, world: World) -> bool | None:
     """Whether a claim fails in this world; None: the run was cut off, which says nothing.
 
-    A mapper that declares more edges than there are has failed: a wrong map S may grow without end.
-    A harmless mapper may make the moves of claim 7, one with a mistake 4m², twice what the
-    catalogue is known to need.
+    Declaring more edges than there are is failing: a wrong map S may grow without end. A mapper
+    with a mistake may make 4m² moves, twice what the catalogue is known to need.
     """
     edges = len(world.edges)
     bound = world.cost_bound

@@ -1,8 +1,8 @@
 """How far a rule is from the best possible: what it walked though the history had refuted it.
 
 The fold of the history, with e and h joined, may contradict a false hypothesis before the robot
-sets out to test it. The complete rule (`folding`) never walks such a hypothesis. The **gap** is the
-share of the false hypotheses that were refutable so and were walked all the same.
+tests it. The complete rule (`folding`) never walks such a hypothesis. The **gap** is the share of
+the false hypotheses that were walked all the same.
 
 Source: docs/semantics.md, section 11.
 """

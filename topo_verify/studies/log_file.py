@@ -6,9 +6,9 @@
 | 0 | 3 |   |
 | 1 | 2 | 1 |
 
-The first row is the percept at the start. Each further row is a move: the door taken, then the
-percept behind it. An empty `marker` is not in sight. Commas, semicolons or tabs separate the
-columns; other columns and empty rows are ignored. Row 1 has the titles.
+The first row is the percept at the start; each further row is a door and the percept behind it. An
+empty `marker` is not in sight. Commas, semicolons or tabs separate the columns; other columns and
+empty rows are ignored.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def read_log(path: str) -> Trace:
     """The events in a file; `-` is standard input.
 
     Raises:
-        InputError: it cannot be read, or holds no log; the message names the line or the row.
+        InputError: it cannot be read, or holds no log.
     """
     name = "standard input" if path == "-" else path
     with nullcontext(files.standard_input()) if path == "-" else files.opened(path) as stream:

@@ -6,8 +6,7 @@
 
     for door in open_doors(certificate, 100): ...     # at most 100, nearest to the log's end first
 
-The map is proved once no door is open. checkers/certificate.py judges the log and checks that each
-world given out shows it.
+checkers/certificate.py judges the log and checks each world given out.
 """
 
 from __future__ import annotations
@@ -35,8 +34,8 @@ class Certificate:
 
     Attributes:
         map: the one world that shows the log, or None.
-        open_darts: how many darts of the fold were never crossed; 0 if there is a map.
-        vertices, edges: of the map; else of the smaller witness; 0 if no world shows the log.
+        open_darts: darts of the fold that were never crossed.
+        vertices, edges: of the map, else of the smaller witness; 0 if no world shows the log.
         entailed, decisions: how many of the declared decisions follow from the log before them.
         fold: of the log; None if no world shows it.
     """
@@ -74,8 +73,6 @@ class Certificate:
 def certify(trace: Sequence[Event]) -> Certificate:
     """Judge a log without its world.
 
-    Args:
-        trace: at least `start` and `move` events.
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`; or
             its places have more than 2^20 doors together, and more than 16 an event.
@@ -106,7 +103,7 @@ class OpenDoor(msgspec.Struct, frozen=True):
     Attributes:
         event: the first event of the log at which its place was reached.
         door: which door, as counted at that event.
-        walk: a shortest way there from where the log ends, through crossed doors, this door last.
+        walk: a shortest way from where the log ends through crossed doors, this door last.
     """
 
     event: int
@@ -115,7 +112,7 @@ class OpenDoor(msgspec.Struct, frozen=True):
 
 
 def open_doors(certificate: Certificate, most: int | None = None) -> list[OpenDoor]:
-    """The open doors of an incomplete log, breadth-first from its end, at most `most` of them."""
+    """The `most` nearest open doors of an incomplete log."""
     fold = certificate.fold
     if fold is None or not certificate.open_darts:
         return []
@@ -129,7 +126,7 @@ def open_doors(certificate: Certificate, most: int | None = None) -> list[OpenDo
 
 
 def _nearest(fold: Fold) -> Iterator[tuple[int, int, tuple[Door, ...]]]:
-    """Each open dart, nearest to the robot first: a node, its dart, and the doors to take."""
+    """Each open dart by distance: a node, its dart, the doors to take."""
     for node, entry, walk in _places(fold):
         degree = fold.degree(node)
         for door in range(degree):
@@ -139,7 +136,7 @@ def _nearest(fold: Fold) -> Iterator[tuple[int, int, tuple[Door, ...]]]:
 
 
 def way_to(fold: Fold, place: int) -> tuple[tuple[Door, ...], int]:
-    """The doors of a shortest way from where the log ends to a node, and the dart of arrival."""
+    """The doors of a shortest way from the log's end to a node, and the dart of arrival."""
     return next((_doors(walk), entry) for node, entry, walk in _places(fold) if node == place)
 
 
@@ -148,7 +145,7 @@ _Walk = tuple["_Walk", Door] | None
 
 
 def _places(fold: Fold) -> Iterator[tuple[int, int, _Walk]]:
-    """The places, nearest to the robot first: a node, its dart of arrival, the walk."""
+    """The places by distance: a node, its dart of arrival, the walk."""
     start, reference = fold.find(fold.at)
     reached = {start}
     queue: list[tuple[int, int, _Walk]] = [(start, reference, None)]

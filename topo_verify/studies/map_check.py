@@ -4,18 +4,15 @@
     check.verdict        # REFUTED, PROVED or UNKNOWN
     check.onward         # UNKNOWN: the moves that prove it from where the log ends
 
-Only `start` and `move` events count.
-
 An edge of the map's breadth-first tree is **proved** if the fold has crossed it at the end of the
 tree path from v0; a chord, if its loop is closed in the fold. The fold has no open dart just if all
 edges are proved.
 
 **What is minimised.** A plan goes home, perhaps over an unproved edge; then it walks the loops not
-yet proved, the shortest first; it visits hanging trees when it passes them, and does not walk back
-at the end. If every loop is proved, it walks the shortest-path tree from where the robot stands.
-The cheapest plan counts. From the start alone it is the least cost of a proof; in a tree it is
-optimal. In general the optimum is as hard as the travelling salesman problem, so `cost` is an upper
-bound.
+yet proved, the shortest first, and hanging trees when it passes them; it does not walk back at the
+end. If every loop is proved, it walks the shortest-path tree from where the robot stands. The
+cheapest plan counts. It is optimal from the start alone and in a tree; in general the optimum is as
+hard as the travelling salesman problem, so `cost` is an upper bound.
 
 Source: docs/semantics.md, section 11.
 """
@@ -46,9 +43,9 @@ class MapCheck:
     """What a log says of a map, and how to go on.
 
     Attributes:
-        verdict: REFUTED: the map does not show this log. PROVED: it alone does. UNKNOWN: others do.
+        verdict: REFUTED: the map does not show this log. PROVED: it alone does.
         event: the event that refutes the map.
-        unproved: the edges that are not proved yet, each by its two darts in the map.
+        unproved: the unproved edges, each by its two darts in the map.
         onward: the moves that prove an UNKNOWN map from where the log ends.
     """
 
@@ -157,12 +154,12 @@ class _Planner:
         return self.trace(loop) == self.fold.find((0, self.tree.table[1][loop[-1]]))
 
     def open_loops(self) -> list[Dart]:
-        """Chords whose loops are not closed, shortest loop first."""
+        """Open chords, shortest loop first."""
         chords = [chord for chord in self.tree.chords if not self.is_closed(chord)]
         return sorted(chords, key=lambda chord: (self.tree.weight(chord), chord))
 
     def unreached(self) -> list[int]:
-        """Vertices whose tree path the fold has not wholly crossed."""
+        """Vertices whose tree path is not wholly crossed."""
         return [v for v in range(len(self.tree.first)) if self.trace(self.tree.down(v)) is None]
 
     def plan(self, home: Sequence[Dart]) -> list[Dart]:
@@ -230,10 +227,7 @@ def _detours(tree: BreadthFirstTree, at: Dart, chords: Sequence[Dart]) -> list[l
 
 
 def _around(world: World, at: Dart, unproved: Sequence[tuple[Dart, Dart]]) -> tuple[Door, ...]:
-    """A walk over these tree edges, along shortest ways from dart `at`.
-
-    The edges hang off, so every spanning tree has them.
-    """
+    """A walk over these tree edges, which every spanning tree has, along shortest ways."""
     there = world.with_marker(at)
     tree = BreadthFirstTree(there.code)
     number = {dart: place for place, dart in enumerate(_numbering(there, tree))}

@@ -1,21 +1,19 @@
 """From runs to the league table: places, paired intervals, coverage of claims, counterexamples.
 
 A mapper has a place in a suite if it was judged in all its worlds and no claim failed in any run of
-the call. One that breaks a claim anywhere has no place in any suite. Nothing depends on the order
-in which runs finish.
+the call. Nothing depends on the order in which runs finish.
 
 **Intervals.** With F families of equal weight, of which family f has n worlds, mean x and sample
-variance s², the mean is that of the family means, and its standard error the root of Σ s²/n over F.
-An **exact** family, every world of a finite class, has no sampling error. The interval is
-Student's, at 95 %; its degrees of freedom are those of B. L. Welch (Biometrika 34, 1947):
-(Σ a)² / Σ (a² / (n-1)) with a = s²/n. Two mappers are compared by their **paired** differences in
-the same worlds.
+variance s², the standard error of the mean is the root of Σ s²/n over F. An **exact** family, every
+world of a finite class, has none. The interval is Student's, at 95 %; its degrees of freedom are
+those of B. L. Welch (Biometrika 34, 1947): (Σ a)² / Σ (a² / (n-1)) with a = s²/n. Two mappers are
+compared by their **paired** differences in the same worlds.
 
 **Ties.** A mapper shares the place of the one above it unless the interval of its paired difference
 from the first mapper with that place lies above 0.
 
-What this does not show: where a family's ratios are far from normal and its worlds are few, 95 % is
-an approximation. A family of one drawn world has no interval, so it leaves all mappers tied.
+What this does not show: with few worlds far from normal, 95 % is an approximation. A family of one
+drawn world has no interval, so all mappers tie.
 """
 
 from __future__ import annotations
@@ -58,8 +56,6 @@ class LostWorld(msgspec.Struct, frozen=True):
     """A world in which a mapper pays more than the first of the table.
 
     Attributes:
-        least: the least cost of a proof, in edge traversals.
-        cost: what the mapper pays.
         other: what the first of the table pays.
         excess: by how much more it pays, as a multiple of the least cost.
         show: the command line that writes a page with both runs side by side.
@@ -121,7 +117,7 @@ class LeagueEntry(msgspec.Struct, frozen=True, kw_only=True):
         ratio: cost / LB, the mean over families.
         losses: where it loses most against the first of the table, at most `KEPT_LOSSES` worlds.
         rejected_free, rejected_moving: hypotheses, over all worlds.
-        ms_per_move: milliseconds of processor time a move; differs from run to run.
+        ms_per_move: milliseconds of processor time a move; varies from run to run.
     """
 
     mapper: str
@@ -151,12 +147,10 @@ KEPT_LOSSES = 3
 
 @dataclass(frozen=True)
 class League:
-    """What is to be played, and the table of the runs so far.
+    """What is to be played, and the runs so far, by mapper and world.
 
     Attributes:
-        seed: of the drawn worlds.
-        made: the finished rows, by mapper and world.
-        peaks: the most kibibytes of a mapper in a world; None: the system does not tell.
+        peaks: the most kibibytes of a mapper; None: unknown.
     """
 
     mappers: tuple[Target, ...]
@@ -174,7 +168,7 @@ class League:
         return assumes != "planar" or suite.planar
 
     def worlds_of(self, mapper: Target) -> list[str]:
-        """The worlds that a mapper plays, each once, in the order of suites and worlds."""
+        """The worlds that a mapper plays, each once, in order."""
         suites = [suite for suite in self.suites if self.plays(mapper, suite)]
         return list(dict.fromkeys(world for suite in suites for world in suite.worlds(self.seed)))
 
@@ -184,40 +178,41 @@ class League:
         return sum(len(self.worlds_of(mapper)) for mapper in self.mappers)
 
     def _counted(self, mapper: Target) -> dict[str, Row]:
-        """A mapper's finished runs by world, up to the first failing one."""
+        """A mapper's runs up to the first failing one."""
         rows: dict[str, Row] = {}
         for world in self.worlds_of(mapper):
             if (row := self.made.get((mapper.text, world))) is not None:
                 rows[world] = row
-                if row.failed:  # how many come after it depends on the number of workers
+                if row.failed:  # what follows depends on the workers
                     break
         return rows
 
     def memory(self, entry: LeagueEntry) -> float | None:
-        """The mebibytes of a mapper in its most expensive world of a suite, if known."""
+        """The mebibytes of a mapper in its most expensive world, if known."""
         if entry.dearest is None:
             return None
         kibibytes = self.peaks.get((entry.mapper, entry.dearest.world))
         return None if kibibytes is None else round(kibibytes / 1024, 1)
 
     def entries(self) -> list[LeagueEntry]:
-        """The table, suite by suite: the ranked mappers by their places, then the others."""
+        """The table, suite by suite: ranked mappers first."""
         counted = {mapper.text: self._counted(mapper) for mapper in self.mappers}
         return [entry for suite in self.suites for entry in self._table(suite, counted)]
 
     def runs(self, mapper: str, suite: Suite) -> list[Row]:
-        """The finished runs of a mapper in a suite, in the order of its worlds."""
+        """A mapper's finished runs in a suite, in the order of its worlds."""
         runs = (self.made.get((mapper, world)) for world in suite.worlds(self.seed))
         return [run for run in runs if run is not None]
 
     # ------------------------------------------------------------ a suite
 
     def _table(self, suite: Suite, counted: Mapping[str, Mapping[str, Row]]) -> list[LeagueEntry]:
-        mappers = [one.text for one in self.mappers if self.plays(one, suite)]
+        mappers = [entry.text for entry in self.mappers if self.plays(entry, suite)]
         entries = [self._entry(mapper, suite, counted[mapper]) for mapper in mappers]
-        means = {one.mapper: one.ratio.mean for one in entries if one.ratio is not None}
+        means = {entry.mapper: entry.ratio.mean for entry in entries if entry.ratio is not None}
         ranked = sorted(
-            (one for one in entries if one.ratio is not None), key=lambda one: means[one.mapper]
+            (entry for entry in entries if entry.ratio is not None),
+            key=lambda entry: means[entry.mapper],
         )
         placed: list[LeagueEntry] = []
         place = 1
@@ -225,11 +220,10 @@ class League:
             if not self._tied(entry, ranked[place - 1], suite):
                 place = number
             placed.append(self._placed(entry, place, ranked[0], suite))
-        others = [one for one in entries if one.ratio is None]
-        return placed + sorted(others, key=lambda one: one.counterexample is not None)
+        others = [entry for entry in entries if entry.ratio is None]
+        return placed + sorted(others, key=lambda entry: entry.counterexample is not None)
 
     def _entry(self, mapper: str, suite: Suite, rows: Mapping[str, Row]) -> LeagueEntry:
-        """The entry without its place."""
         failure = next((row for row in rows.values() if row.failed), None)
         runs = [rows[world] for world in suite.worlds(self.seed) if world in rows]
         decided = [run for run in runs if run.undecided is None]
@@ -253,7 +247,7 @@ class League:
             rejected_free=sum(run.free for run in decided),
             rejected_moving=sum(run.moving for run in decided),
             ms_per_move=round(1000 * seconds / moves, 4) if moves else None,
-            claims={one.claim: one.status for one in judgements},
+            claims={judgement.claim: judgement.status for judgement in judgements},
             judgements=judgements,
             dearest=_dearest(decided) if whole else None,
             counterexample=None if failure is None else self._counterexample(failure),
@@ -270,18 +264,17 @@ class League:
     def _placed(
         self, entry: LeagueEntry, place: int, best: LeagueEntry, suite: Suite
     ) -> LeagueEntry:
-        """The entry with its place and its distance from the first."""
         behind, losses = None, tuple[LostWorld, ...]()
         if entry is not best:
-            found = self._difference(entry, best, suite)
-            behind = LeagueBehind(best.mapper, found.mean, found.low, found.high)
+            difference = self._difference(entry, best, suite)
+            behind = LeagueBehind(best.mapper, difference.mean, difference.low, difference.high)
             losses = tuple(self._losses(entry.mapper, best.mapper, suite))
         return msgspec.structs.replace(entry, place=place, behind=behind, losses=losses)
 
     def _losses(self, mapper: str, best: str, suite: Suite) -> Iterator[LostWorld]:
         pairs = zip(self.runs(mapper, suite), self.runs(best, suite), strict=True)
         lost = [(ours.ratio - theirs.ratio, ours, theirs) for ours, theirs in pairs]
-        lost.sort(key=lambda one: -one[0])  # equal ones stay in the order of the worlds
+        lost.sort(key=lambda one: -one[0])  # stable
         for excess, ours, theirs in lost[:KEPT_LOSSES]:
             if excess > 0:
                 words = ["topo-verify", "play", ours.world, "--target", best, "--target", mapper]
@@ -290,15 +283,15 @@ class League:
                 yield LostWorld(ours.world, ours.edges, *costs, round(excess, 6), show)
 
     def _counterexample(self, failure: Row) -> LeagueCounterexample:
-        found = failure.findings[0]
-        suite = next(one.name for one in self.suites if failure.world in one.worlds(self.seed))
+        finding = failure.findings[0]
+        suite = next(part.name for part in self.suites if failure.world in part.worlds(self.seed))
         return LeagueCounterexample(
-            suite, failure.world, failure.edges, found.claim, found.message, found.replay
+            suite, failure.world, failure.edges, finding.claim, finding.message, finding.replay
         )
 
 
 def _split(suite: Suite, values: Sequence[T]) -> Iterator[tuple[SuiteFamily, Sequence[T]]]:
-    """The values of a suite's worlds by family."""
+    """A suite's values by family."""
     start = 0
     for family in suite.families:
         yield family, values[start : start + family.size]
@@ -306,8 +299,9 @@ def _split(suite: Suite, values: Sequence[T]) -> Iterator[tuple[SuiteFamily, Seq
 
 
 def _interval(suite: Suite, values: Sequence[float]) -> MeanInterval:
-    """The mean over a suite's families of a value for each world."""
-    return mean_interval([FamilySample(part, one.exact) for one, part in _split(suite, values)])
+    return mean_interval(
+        [FamilySample(part, family.exact) for family, part in _split(suite, values)]
+    )
 
 
 def _costs(family: SuiteFamily, runs: Sequence[Row]) -> FamilyCosts:
@@ -327,7 +321,6 @@ def _dearest(runs: Sequence[Row]) -> DearestWorld:
 # ---------------------------------------------------------------- intervals
 
 LEVEL = 0.95
-"""The share of intervals that hold the true mean."""
 
 
 class MeanInterval(msgspec.Struct, frozen=True):
@@ -350,7 +343,7 @@ class FamilySample(NamedTuple):
 
 
 def mean_interval(families: Sequence[FamilySample]) -> MeanInterval:
-    """The mean over families, and its interval. Each family has at least one value."""
+    """The mean over nonempty families, and its interval."""
     mean = fmean(fmean(family.values) for family in families)
     sampled = [family.values for family in families if not family.exact]
     if any(len(values) < 2 for values in sampled):
@@ -365,15 +358,12 @@ def mean_interval(families: Sequence[FamilySample]) -> MeanInterval:
 
 
 def _rounded(value: float) -> float:
-    # So that a sum taken in another order, on another machine, prints the same digits.
+    # The same digits on every machine.
     return round(value, 6) + 0.0
 
 
 def student(freedom: float) -> float:
-    """The 97.5 % quantile of Student's t distribution for at least 1 degree of freedom.
-
-    A fraction of a degree is dropped, so the interval is a little wider.
-    """
+    """The 97.5 % quantile of Student's t distribution; fractions of a degree are dropped."""
     import scipy.special  # type: ignore[import-untyped]  # pyright: ignore[reportMissingTypeStubs]
 
     return float(scipy.special.stdtrit(int(freedom), (1 + LEVEL) / 2))

@@ -1,11 +1,11 @@
 """The runs of a league: one campaign for each mapper, which ends at its first failing world.
 
-**Memory** is measured apart, as the peak resident set of a fresh process in which the mapper plays
-one world. What this does not show: memory of processes that a program starts.
+**Memory** is the peak resident set of a fresh process in which the mapper plays one world, without
+processes that a program starts.
 
 **Hidden worlds.** A mapper can read the store while others play. So in the rows of drawn worlds a
-hash of the arena's seed and of the world's name replaces the name, and the map is left out. What
-this does not hide: a finding, which tells of its world.
+hash of the arena's seed and of the world's name replaces the name, and the map is left out. A
+finding still tells of its world.
 """
 
 from __future__ import annotations
@@ -34,14 +34,14 @@ from topo_verify.world.resolve import resolve_world
 
 
 def matches(league: League, store: Store | None) -> list[MapperCampaign]:
-    """The campaign of each mapper of the league.
+    """The campaign of each mapper.
 
     Raises:
-        InputError: the store has runs of a mapper that were made with other options or sources.
+        InputError: the store's runs were made with other options or sources.
     """
     every = {name for mapper in league.mappers for name in league.worlds_of(mapper)}
     worlds = {name: resolve_world(name) for name in every}
-    found: list[MapperCampaign] = []
+    campaigns: list[MapperCampaign] = []
     for mapper in league.mappers:
         names = league.worlds_of(mapper)
         campaign = c.Campaign(
@@ -52,17 +52,17 @@ def matches(league: League, store: Store | None) -> list[MapperCampaign]:
             stop=c.Stop(failing=1),
         )
         kept = _kept(league, store, campaign, mapper)
-        found.append(MapperCampaign(campaign, [(name, worlds[name]) for name in names], kept))
-    return found
+        campaigns.append(MapperCampaign(campaign, [(name, worlds[name]) for name in names], kept))
+    return campaigns
 
 
 def _kept(
-    league: League, store: Store | None, campaign: c.Campaign, mapper: Target, what: str = ""
+    league: League, store: Store | None, campaign: c.Campaign, mapper: Target, prefix: str = ""
 ) -> c.ShardMemory | None:
     if store is None:
         return None
     identity = campaign.identity(source_hash([mapper]))
-    name = f"{what}{mapper.text}"
+    name = f"{prefix}{mapper.text}"
     kept = store.campaign(identity, Identity([mapper]).loaded(), name=name, all_rows=True)
     return _Hidden(kept, league.seed)
 
@@ -96,7 +96,7 @@ class _Hidden:
         mark = self._mark(name)
         if mark != name:
             rows = tuple(msgspec.structs.replace(row, map=None) for row in result.rows)
-            tally = msgspec.structs.replace(result.tally, digest="")  # the name can be tried on it
+            tally = msgspec.structs.replace(result.tally, digest="")  # it covers the name
             bare = msgspec.structs.replace(result, tally=tally, rows=rows)
             result = _renamed(bare, name, mark)
         self.memory.put(self._hidden(shard), result)
@@ -109,7 +109,7 @@ class _Hidden:
 
     def _mark(self, name: str) -> str:
         """What replaces the name of a world."""
-        if not self.seed or ",seed=" not in name:  # all the world knows it
+        if not self.seed or ",seed=" not in name:
             return name
         return f"hidden-{sha256(f'{self.seed} {name}'.encode()).hexdigest()[:32]}"
 
@@ -124,27 +124,27 @@ def _renamed(result: c.ShardResult, name: str, other: str) -> c.ShardResult:
 
 
 def measure(league: League, store: Store | None, tell: Progress) -> None:
-    """Note the memory of each ranked mapper in its most expensive world of each suite."""
+    """Note the memory of each ranked mapper in its most expensive worlds."""
     ranked = [entry for entry in league.entries() if entry.place is not None]
     for done, entry in enumerate(ranked):
         assert entry.dearest is not None, "it was in every world"
         name, text = entry.dearest.world, entry.mapper
-        (mapper,) = (one for one in league.mappers if one.text == text)
+        (mapper,) = (target for target in league.mappers if target.text == text)
         alone = serve.CATALOGUE.format(text) if text in NAMED else text
         campaign = c.Campaign(
             worlds=c.ListedWorlds(1), mappers=(alone,), limits=league.limits, in_process=False
         )
         kept = _kept(league, store, campaign, mapper, "memory of ")
         worlds = [(name, resolve_world(name))]
-        with suppress(InputError):  # it cannot be started once more
+        with suppress(InputError):
             for _, result in c.results(campaign, here(look=_peak), worlds, store=kept):
                 league.peaks[text, name] = result.rows[0].note
         tell("memory", done + 1, len(ranked))
 
 
-def _peak(made: Attempt) -> int | None:
+def _peak(attempt: Attempt) -> int | None:
     """The mapper's peak in kibibytes; None: unknown."""
-    process = made.run.mapper.process if isinstance(made.run.mapper, Program) else None
+    process = attempt.run.mapper.process if isinstance(attempt.run.mapper, Program) else None
     with suppress(OSError):
         status = Path(f"/proc/{process}/status").read_text(encoding="ascii", errors="replace")
         if (peak := re.search(r"^VmHWM:\s+(\d+) kB$", status, re.MULTILINE)) is not None:

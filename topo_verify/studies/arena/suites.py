@@ -1,10 +1,8 @@
 """The suites of the arena: named sets of worlds, the same for everybody.
 
-The **families** of a suite weigh the same in its means. A family is drawn (a call with seeds 0, 1,
-…) or **exact**: every world of a finite class, without sampling error.
-
-An arena seed other than 0 draws the worlds anew, by seeds hashed from it: a mapper that does not
-know it cannot have met the worlds before. Exact families stay the same.
+The **families** of a suite weigh the same. A family is drawn (a call with seeds 0, 1, …) or
+**exact**: every world of a finite class, without sampling error. An arena seed other than 0 draws
+new worlds, by seeds hashed from it, which no mapper can have met before.
 """
 
 from __future__ import annotations
@@ -25,9 +23,8 @@ class SuiteFamily:
     """Worlds of one kind.
 
     Attributes:
-        listed: the WORLD arguments of the worlds, given the seed of the arena.
+        listed: the worlds' WORLD arguments, given the seed of the arena.
         exact: they are every world of a finite class.
-        planar: all of them are planar.
     """
 
     name: str
@@ -57,16 +54,16 @@ class Suite:
 
     @property
     def exact(self) -> bool:
-        """Whether these are all worlds of finite classes."""
+        """Whether these are finite classes."""
         return all(family.exact for family in self.families)
 
     def worlds(self, seed: int) -> list[str]:
-        """The WORLD arguments of the worlds, family by family."""
+        """The worlds' WORLD arguments, family by family."""
         return [text for family in self.families for text in family.listed(seed)]
 
 
 def drawn(call: str, number: int, *, planar: bool = False) -> SuiteFamily:
-    """A family with a seed, by its call without one, as `lattice(10,10,holes=0.2)`."""
+    """A family with a seed, by its call without one."""
     head = call.removesuffix(")")
     return SuiteFamily(
         call,
@@ -77,14 +74,13 @@ def drawn(call: str, number: int, *, planar: bool = False) -> SuiteFamily:
 
 
 def _drawn_seed(seed: int, call: str, place: int) -> int:
-    """A world's place in the public suite, else a hash that cannot be guessed."""
     if seed == 0:
         return place
     return int.from_bytes(sha256(f"{seed} {call} {place}".encode()).digest()[:6])
 
 
 def alike(call: str, *markers: int) -> SuiteFamily:
-    """A family whose worlds differ in their marker alone; `markers` has a dart for each."""
+    """A family whose worlds differ in their marker alone."""
     head = call.removesuffix(")")
     texts = [f"family:{head},marker={dart})" for dart in markers] or [f"family:{call}"]
     return SuiteFamily(call, len(texts), lambda _seed: texts, exact=True)

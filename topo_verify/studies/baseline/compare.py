@@ -1,7 +1,6 @@
-"""Compares a mapper with a baseline: where it is wrong, costs more or less, or decides otherwise.
+"""Compares a mapper with a baseline, in its worlds and under its limits.
 
-The mapper runs in the baseline's worlds under the baseline's limits. Each world is of the first
-kind that fits:
+Each world is of the first kind that fits:
 
 | kind | meaning |
 | --- | --- |
@@ -12,8 +11,8 @@ kind that fits:
 | `other_decisions` | right in both, at the same cost, by other moves or other decisions |
 | `equal` | right in both, at the same cost, by the same moves and decisions |
 
-A mapper that declares nothing, then or now, is compared by its moves alone. The tolerance of P
-percent is exceeded in each world where 100·after > (100 + P)·before, in exact arithmetic.
+Without declarations, then or now, moves alone are compared. The tolerance of P percent is exceeded
+in each world where 100·after > (100 + P)·before, in exact arithmetic.
 
 Source: docs/baselines.md.
 """
@@ -44,7 +43,6 @@ KINDS: tuple[ChangeKind, ...] = get_args(ChangeKind)
 Property = Literal["edges", "genus", "shape"]
 
 SIZES = (0, 1, 2, 3, 4, 5, 10, 20, 50, 100, 200)
-"""The most edges in each class of worlds by size."""
 
 HANDLES = 3
 """From this genus on worlds are one class."""
@@ -58,12 +56,10 @@ class Change(msgspec.Struct, frozen=True):
 
     Attributes:
         kind: what has changed.
-        edges, genus: of the world.
         before, after: costs, in edge traversals; None where the run was not right.
         percent: how much more it costs (less if below 0), to a tenth; None without both costs.
         beyond: it exceeds the tolerance.
         message: what is wrong or has changed; "" where the costs say it.
-        replay: the command line that shows the run again.
     """
 
     world: str
@@ -83,7 +79,7 @@ class Group(msgspec.Struct, frozen=True):
 
     Attributes:
         by, value: the property and what it is: edges 6-10, genus 1, shape simple.
-        before, after: the costs where the mapper is right then and now, summed up.
+        before, after: summed costs where the mapper is right then and now.
         kinds: how many worlds are of each kind.
     """
 
@@ -116,7 +112,6 @@ class BaselineSummary(msgspec.Struct, frozen=True):
 
     Attributes:
         tool: the version of topo-verify that recorded it.
-        policies: those of the recording; null: the mapper had none.
         corpus, digest: the worlds, in words and as a digest.
     """
 
@@ -136,8 +131,7 @@ class Comparison(msgspec.Struct, frozen=True, kw_only=True):
         tolerance: in percent, as given.
         beyond: the number of worlds whose cost exceeds the tolerance.
         groups: the same numbers by class of worlds.
-        examples: of each kind but `equal`; the largest changes of cost first, else the smallest
-            worlds.
+        examples: of each kind but `equal`, largest changes of cost first, else smallest worlds.
         wrong: where a claim fails.
         dearer, cheaper: where the cost has changed.
         other_decisions: where the cost is equal and a decision is not.
@@ -178,7 +172,7 @@ class BaselineWorlds:
     def __init__(self, baseline: Baseline, name: str = "baseline") -> None:
         self._baseline, self._name = baseline, name
         for _ in self:
-            pass  # that each can be read is to be known before a mapper runs for the first time
+            pass  # each must be readable before a mapper runs
 
     def __iter__(self) -> Iterator[tuple[str, World]]:
         for line, entry in enumerate(self._baseline.entries, 2):
@@ -197,8 +191,7 @@ def compare(
 
     Args:
         rows: the mapper's, in the order of the baseline; fewer, if they ended early.
-        tolerance: percent by which each world may cost more, exact.
-        name: the file of the baseline.
+        tolerance: in percent; a float may be inexact.
     """
     changes: list[Change] = []
     classes: dict[_Class, list[Change]] = defaultdict(list)
@@ -213,7 +206,7 @@ def compare(
     return Comparison(
         target=target.text,
         worlds=len(changes),
-        **kinds,  # each kind is a field under its own name
+        **kinds,
         tolerance=str(tolerance),
         beyond=sum(change.beyond for change in changes),
         cost=CostChange(before, after),
@@ -221,15 +214,15 @@ def compare(
             name, header.target, header.tool, header.policies, header.corpus, header.digest
         ),
         groups=tuple(
-            Group(one.by, one.value, len(members), *_summed(members))
-            for one, members in sorted(classes.items())
+            Group(world_class.by, world_class.value, len(members), *_summed(members))
+            for world_class, members in sorted(classes.items())
         ),
         examples=tuple(_examples(changes)),
     )
 
 
 def _summed(changes: Sequence[Change]) -> tuple[int, int, dict[ChangeKind, int]]:
-    """Costs before and after where the mapper is right then and now; the worlds of each kind."""
+    """Costs before and after where both are right; the worlds of each kind."""
     right = [(c.before, c.after) for c in changes if c.before is not None and c.after is not None]
     kinds = Counter(change.kind for change in changes)
     before, after = sum(cost for cost, _ in right), sum(cost for _, cost in right)
@@ -245,7 +238,6 @@ def _examples(changes: Sequence[Change]) -> Iterator[Change]:
 
 
 def _argument(entry: BaselineEntry) -> str:
-    """The world's name on the command line of any folder."""
     known = entry.name in NETWORKS or entry.name.startswith("family:")
     return entry.name if known or entry.world.startswith("{") else entry.world
 
@@ -260,11 +252,9 @@ def _change(
     kind = _kind(then, now)
     before = then.cost if then.right else None
     after = now.cost if now is not None and now.right else None
-    # The world without edges costs 0, of which nothing is a percentage.
     percent, beyond = None, False
     if before and after is not None:
         increase = Fraction(100 * (after - before), before)
-        # The exact fraction is compared, not the rounded number that is shown.
         percent, beyond = float(round(increase, 1)), increase > tolerance
     return Change(
         world=then.called,
@@ -304,7 +294,6 @@ def _message(kind: ChangeKind, then: BaselineEntry, row: Row | None) -> str:
 
 
 def _weight(change: Change) -> tuple[float, int]:
-    """Sorts the largest change of cost first, else the smallest world."""
     if change.kind in ("dearer", "cheaper"):
         assert change.before is not None
         assert change.after is not None

@@ -1,9 +1,8 @@
-"""The file of a baseline: the cost and the decisions of a mapper in each world of a corpus.
+"""The file of a baseline: gzip without a time stamp, holding JSON Lines.
 
-It is gzip without a time stamp, holding JSON Lines: a header, then a line for each world, with the
-world itself, so that a comparison needs no corpus. Each line ends with `sum`, a hash of this and
-all earlier lines, so a reader can name the first line that was changed, lost or moved. Sums guard
-against accidents, not against forgery.
+A header comes first, then a line for each world, with the world itself. Each line ends with `sum`,
+a hash of this and all earlier lines, so a reader can name the first line that was changed, lost or
+moved. Sums guard against accidents, not against forgery.
 
 Source: docs/semantics.md, section 14; docs/baselines.md.
 """
@@ -45,8 +44,6 @@ class Header(msgspec.Struct, frozen=True, kw_only=True):
     """The first line of a baseline.
 
     Attributes:
-        tool: the version of topo-verify that recorded it.
-        target, policies: the mapper, and its policies if known.
         worlds, seed: the arguments that gave the corpus.
         corpus, digest, total: its description, hash and number of worlds.
     """
@@ -70,12 +67,10 @@ class BaselineEntry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=Tru
     Attributes:
         world: its id; beyond 200 edges, its JSON.
         name: its name in the corpus, if that differs.
-        cost: edge traversals.
         moves: a hash of the doors, in their order.
-        decisions: a hash of the declared decisions; None if there are none.
-        map: the id of the delivered map (beyond 200 edges `sha256:` and the hash of its code); None
-            if no valid one was delivered.
-        failed: the claims that fail.
+        decisions: a hash of the declared decisions, if any.
+        map: the id of the valid delivered map (beyond 200 edges `sha256:` and the hash of its
+            code).
         undecided: no claim was judged: out of time while it still moved, or declined.
     """
 
@@ -123,7 +118,7 @@ def encode(baseline: Baseline) -> bytes:
             " time has no baseline; give it more time or fewer worlds"
         )
     packed = BytesIO()
-    # No file name and no time in the head of gzip: equal baselines must give equal bytes.
+    # No file name and no time, for equal bytes.
     with gzip.GzipFile("", "wb", fileobj=packed, mtime=0) as file:
         file.writelines(_summed([header, *entries]))
     return packed.getvalue()
@@ -132,7 +127,6 @@ def encode(baseline: Baseline) -> bytes:
 def _summed(lines: Iterable[msgspec.Struct]) -> Iterator[bytes]:
     total = ""
     for line in lines:
-        # Without the closing brace, so that the sum can follow as the last field.
         body = msgspec.json.encode(line)[:-1]
         total = _next_sum(total, body)
         yield body + f',"sum":"{total}"}}\n'.encode()
@@ -158,8 +152,7 @@ def decode(data: bytes, *, name: str = "baseline") -> Baseline:
     """The baseline in these bytes, called `name` in messages.
 
     Raises:
-        InputError: the bytes are no baseline, one of a newer version, or were changed after they
-            were written; the sentence names the line.
+        InputError: the bytes are no baseline, one of a newer version, or were changed.
     """
     lines = _require_sums(_unpacked(data, name), name)
     first = next(lines, None)
@@ -190,11 +183,11 @@ def world_of(entry: BaselineEntry, *, name: str, line: int) -> World:
 
 
 def _unpacked(data: bytes, name: str) -> Iterator[bytes]:
-    """The unpacked lines, lazily, so that a huge file is refused before it fills memory."""
+    """Lazily, so that a huge file is refused before it fills memory."""
     number, size = 1, 0
     try:
         with gzip.GzipFile(fileobj=BytesIO(data)) as file:
-            # A longer line comes in pieces, and the first piece is refused: it has no valid sum.
+            # The first piece of a longer line has no valid sum.
             while line := file.readline(files.LIMIT):
                 size += len(line)
                 if size > MOST_BYTES:
@@ -217,14 +210,14 @@ def _unpacked(data: bytes, name: str) -> Iterator[bytes]:
 
 
 def _require_sums(lines: Iterable[bytes], name: str) -> Iterator[bytes]:
-    """The lines without their sums, after checking each sum."""
+    """The lines without their checked sums."""
     total = ""
     for number, line in enumerate(lines, 1):
-        # The version comes before the sum, which a newer version may compute otherwise.
+        # A newer version may sum otherwise.
         if number == 1:
             _require_version(line, name)
-        found = _SUM.fullmatch(line)
-        body, stated = (found[1], found[2].decode()) if found else (line, "")
+        match = _SUM.fullmatch(line)
+        body, stated = (match[1], match[2].decode()) if match else (line, "")
         total = _next_sum(total, body)
         if stated != total:
             raise InputError(
@@ -235,7 +228,7 @@ def _require_sums(lines: Iterable[bytes], name: str) -> Iterator[bytes]:
 
 
 class _Head(msgspec.Struct):
-    """Decoded first, since a newer version may have other fields."""
+    """Decoded first, since newer versions may differ."""
 
     format: str
     version: int
@@ -269,13 +262,11 @@ def _line(line: bytes, kind: type[S], where: str) -> S:
 
 
 def schema() -> dict[str, Any]:
-    """The JSON Schema of a line, as in `schemas/baseline.schema.json`."""
-    made, components = msgspec.json.schema_components([Header, BaselineEntry])
+    """The JSON Schema of a line."""
+    references, components = msgspec.json.schema_components([Header, BaselineEntry])
     for name in ("Header", "BaselineEntry"):
-        # `_summed` appends it to the struct's own fields.
         components[name]["properties"]["sum"] = {"type": "string", "pattern": "^[0-9a-f]{16}$"}
         components[name]["required"].append("sum")
-    # For msgspec their defaults make them optional, but every file has them.
     components["Header"]["required"] += ["format", "version"]
     title = "a line of a topo-verify baseline: first the header, then an entry a world"
-    return dialect({"title": title, "anyOf": list(made), "$defs": components})
+    return dialect({"title": title, "anyOf": list(references), "$defs": components})

@@ -1,10 +1,8 @@
 """Records a baseline: the rows of a mapper in every world of a corpus, as lines of a file.
 
 **The hash of the decisions** covers each `pose`, `reject`, `confirm` and `augment` with the number
-of moves before it: edge, hypotheses, rule, kind, dart. The evidence of a rejection and the purpose
-of a move say why, not what, and are left out.
-
-What this does not show: a difference between two runs whose 64-bit hashes collide.
+of moves before it. The evidence of a rejection and the purpose of a move say why, not what, and are
+left out. What this does not show: a difference between runs whose 64-bit hashes collide.
 """
 
 from __future__ import annotations
@@ -44,7 +42,7 @@ def baseline_runs(
     engine: Engine = "reference",
     store: Store | None = None,
 ) -> MapperCampaign:
-    """The runs of a mapper in `total` named worlds; they end after `MAX_TIMEOUTS` time-outs.
+    """The runs of a mapper in named worlds; they end after `MAX_TIMEOUTS` time-outs.
 
     Raises:
         InputError: the store holds the runs of another mapper, or under other limits.
@@ -76,12 +74,7 @@ def record(
     seed: int = 0,
     limits: Limits | None = None,
 ) -> Baseline:
-    """The baseline of a mapper in a corpus.
-
-    Args:
-        rows: in the order of the corpus; fewer, if the runs ended early.
-        worlds, seed: the arguments that gave the corpus, for the header.
-    """
+    """The baseline of a mapper in a corpus; fewer `rows` if the runs ended early."""
     header = Header(
         tool=metadata.version("topo-verify"),
         target=target.text,
@@ -93,7 +86,6 @@ def record(
         total=corpus.total,
         limits=limits or Limits(),
     )
-    # The rows come first: there may be fewer of them.
     return Baseline(
         header, tuple(entry_of(row, at.world) for row, at in zip(rows, corpus, strict=False))
     )
@@ -130,12 +122,7 @@ class RecordEntry(msgspec.Struct, frozen=True, kw_only=True):
 def recorded(
     baseline: Baseline, target: Target, failing: Iterable[Row], file: str | None
 ) -> RecordEntry:
-    """The entry that reports on a recording.
-
-    Args:
-        failing: the rows whose findings are shown.
-        file: where the baseline was written, or None.
-    """
+    """The entry that reports on a recording; `failing` has the rows whose findings are shown."""
     header = baseline.header
     right = [entry for entry in baseline.entries if entry.right]
     wrong = sum(bool(entry.failed) for entry in baseline.entries)

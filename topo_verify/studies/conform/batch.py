@@ -3,14 +3,14 @@
     in     {"id": "m5/17", "world": {…world JSON…}}                                a line a world
     out    {"id": "m5/17", "doors": [0, 2, …], "declare": […], "map": {…}, "cost": 12}
 
-The simulated robot walks the run's doors and makes its declarations, and the trace is judged as any
-other. Runs may come in any order. A process receives `CHUNK` worlds and then the end of its input.
+The simulated robot walks the run's doors and makes its declarations; the trace is judged as any
+other. Runs may come in any order.
 
 If a process fails, its unanswered worlds are bisected, down to the one that fails alone. If it is
 silent for the time limit of one world, the finding goes to the first unanswered world.
 
-What this does not show: that the program chose its doors from percepts alone. It receives whole
-worlds; claims 9 and 10 say whether its history proves the map.
+What this does not show: that doors were chosen from percepts alone. Claims 9 and 10 say whether the
+history proves the map.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ class BatchReplay:
         self.misbehaved: Misbehaved | None = None
 
     def __call__(self, robot: Robot) -> DeliveredMap:
-        """Walk the doors of the run, and declare each decision after its number of moves."""
+        """Walk the run's doors, and make each declaration in its place."""
         try:
             if isinstance(self.answer, Misbehaved):
                 raise self.answer
@@ -107,7 +107,7 @@ def _without_a_map(run: ms.BatchRun) -> Misbehaved:
 
 
 def batched(campaign: Campaign, shards: Iterator[Shard], _in_flight: InFlight) -> ShardResults:
-    """The backend: one process at a time, which is given the worlds in their order.
+    """The backend: one process at a time.
 
     Raises:
         InputError: the target is no program.
@@ -118,8 +118,8 @@ def batched(campaign: Campaign, shards: Iterator[Shard], _in_flight: InFlight) -
             worlds = [world for shard in chunk for world in campaign.worlds.worlds(shard)]
             answers = program.answers([(name, world) for _, name, world in worlds])
             for number, (shard, (place, name, world)) in enumerate(zip(chunk, worlds, strict=True)):
-                made = _judged(campaign, name, world, answers.pop(number))
-                yield shard, counted([[row_of(made, name, place, look=look)]])
+                attempt = _judged(campaign, name, world, answers.pop(number))
+                yield shard, counted([[row_of(attempt, name, place, look=look)]])
 
 
 def _judged(campaign: Campaign, name: str, world: World, answer: BatchAnswer) -> Attempt:
@@ -133,7 +133,7 @@ def _judged(campaign: Campaign, name: str, world: World, answer: BatchAnswer) ->
 
 
 class BatchProgram:
-    """Runs a program on batches of worlds. Life cycle: `with` it, `answers` any number of times.
+    """Runs a program on batches of worlds. Life cycle: `with` it, then `answers`.
 
     Raises:
         InputError: the target is no program.
@@ -157,17 +157,17 @@ class BatchProgram:
             places = todo.pop()
             why = self._go({ids[place]: place for place in places}, worlds, done)
             if why is not None and why.kind == "unknown-world":
-                # A run with a wrong id leaves it open which world each of the others belongs to.
+                # Which world the other runs belong to is open.
                 for place in places:
                     done.pop(place, None)
-            left = [place for place in places if place not in done]
-            if why is not None and len(left) > 1 and why.kind != "silent":
-                middle = len(left) // 2
-                todo += [left[middle:], left[:middle]]
-            elif left:
+            unanswered = [place for place in places if place not in done]
+            if why is not None and len(unanswered) > 1 and why.kind != "silent":
+                middle = len(unanswered) // 2
+                todo += [unanswered[middle:], unanswered[:middle]]
+            elif unanswered:
                 assert why is not None, "a program that does not fail has answered everything"
-                done[left[0]] = why
-                todo += [left[1:]] if left[1:] else []
+                done[unanswered[0]] = why
+                todo += [unanswered[1:]] if unanswered[1:] else []
         return done
 
     # ------------------------------------------------------------ a process
@@ -178,10 +178,10 @@ class BatchProgram:
         worlds: Sequence[tuple[str, World]],
         done: dict[int, BatchAnswer],
     ) -> Misbehaved | None:
-        """Send worlds to a fresh process and collect its runs; returns why it failed, if it did."""
+        """Send worlds to a fresh process and collect its runs; why it failed, if it did."""
         self._child = child = Child(self.command, self._reaper)
         try:
-            # Read while writing: a program that waits for its output to be read reads no input.
+            # Read while writing, or both may wait.
             for name, place in list(waiting.items()):
                 data = world_json.to_data(worlds[place][1])
                 child.write(msgspec.json.encode(ms.BatchTask(name, data)) + b"\n")
@@ -236,10 +236,10 @@ def _require_end(child: Child) -> None:
 
 
 def _ids(worlds: Sequence[tuple[str, World]]) -> list[str]:
-    """An id for each world: its name; for a repeated name, with its index."""
-    seen: set[str] = set()
+    """Names, with their index if repeated."""
+    names: set[str] = set()
     ids: list[str] = []
     for place, (name, _) in enumerate(worlds):
-        ids.append(f"{name} ({place})" if name in seen else name)
-        seen.add(name)
+        ids.append(f"{name} ({place})" if name in names else name)
+        names.add(name)
     return ids

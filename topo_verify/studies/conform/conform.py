@@ -5,15 +5,12 @@
     decisions   the run equals that of the reference, event for event
     cost        the cost relative to that of the reference
 
-A run without a map has ONE finding on level `result`, which says what the implementation did
-instead. A world is undecided if the implementation skips it, gives it up, or exceeds its time while
-it still moves; or if something else may have ended its process. After `MAX_TIMEOUTS` time-outs the
-rest of the corpus is not tried.
+A run without a map has one finding, on level `result`. A world is undecided if the implementation
+skips it, gives it up, or exceeds its time while it still moves; or if something else may have ended
+its process.
 
-`look` compares each run with the reference's, in the process that makes it, and writes the
-transcript of a failing world if asked.
-
-What this does not show: that a program behaves in the same way the next time.
+`look` compares each run with the reference's, in the process that makes it, and writes transcripts
+of failing worlds.
 """
 
 from __future__ import annotations
@@ -56,15 +53,15 @@ RESULT = ("percepts-true", "map-isomorphic", "cost-honest", "cost-within-bound")
 """The claims of level `result`; all others belong to `claims`."""
 
 KEPT_OF_WORLD, KEPT_OF_KIND = 5, 10
-"""The most findings that are kept for a world and a level; the most worlds of a kind of finding."""
+"""Findings of a world and a level; worlds of a kind of finding."""
 
 
 class WorldFinding(msgspec.Struct, frozen=True, kw_only=True):
     """A `Finding` with its kind.
 
     Attributes:
-        kind: what the program did instead of delivering a map (docs/reference/programs.md),
-            `move-timeout`, `budget`, `no-map`, `decisions`; else the claim.
+        kind: what the program did instead of delivering a map (docs/oracle.md), `move-timeout`,
+            `budget`, `no-map`, `decisions`; else the claim.
         difference: on level `decisions`, the first difference of the runs.
     """
 
@@ -85,10 +82,8 @@ class WorldOutcome:
     """What a row says on each level.
 
     Attributes:
-        states: by level; `decisions` only if a reference is to be followed.
-        findings: by level, the first ones.
-        why: why the world is undecided, if it is.
-        cost, reference: edge traversals, the implementation's and the reference's.
+        states, findings: by level; `decisions` only beside a reference.
+        why: why the world is undecided.
     """
 
     states: dict[Level, LevelState]
@@ -99,27 +94,22 @@ class WorldOutcome:
 
 
 def outcome_of(row: Row, like: str) -> WorldOutcome:
-    """The outcome in one world.
-
-    Args:
-        row: its note is a `Likeness`; None: a worker was lost each time.
-        like: the algorithm whose decisions it should make; empty: decisions are not compared.
-    """
+    """The outcome in one world; `like` is the algorithm to follow, if any."""
     note = None if row.note is None else msgspec.convert(row.note, Likeness)
-    # A run that lost its worker once has the map of its second try.
     lost = row.ended != "map" and row.map is None
     open_ended = _open_ended(row)
-    findings = [WorldFinding(kind=one.claim, **asdict(one)) for one in row.findings]
-    result = [found for found in findings if found.claim in RESULT]
-    claims = [found for found in findings if found.claim not in RESULT]
+    findings = [WorldFinding(kind=finding.claim, **asdict(finding)) for finding in row.findings]
+    result = [finding for finding in findings if finding.claim in RESULT]
+    claims = [finding for finding in findings if finding.claim not in RESULT]
     if row.ended != "map":
         result = [] if row.lost or open_ended else [_loss(row, note)]
     if lost:
-        # Without a map, claims about the map and the run as a whole add nothing to the one finding.
         claims = [
-            found for found in claims if found.event is not None and found.claim != "map-entailed"
+            finding
+            for finding in claims
+            if finding.event is not None and finding.claim != "map-entailed"
         ]
-    unproved = lost or any(one.status == "undecided" for one in row.claims)
+    unproved = lost or any(finding.status == "undecided" for finding in row.claims)
     states: dict[Level, LevelState] = {
         "result": open_ended or ("failed" if result else "passed"),
         "claims": "failed" if claims else open_ended or ("undecided" if unproved else "passed"),
@@ -143,10 +133,10 @@ def outcome_of(row: Row, like: str) -> WorldOutcome:
 
 
 def _open_ended(row: Row) -> LevelState | None:
-    """The state of a world in which the implementation cannot be judged; None if it can."""
+    """The state of a world in which nothing can be judged."""
     if row.ended in ("skip", "error"):
         return "skipped" if row.ended == "skip" else "errored"
-    # Only this limit leaves it open: a run stopped by another one stands still or walks for ever.
+    # A run stopped by another limit stands still or walks for ever.
     late = row.ended == "world-timeout" or (row.timed_out and row.undecided is not None)
     return "undecided" if late else None
 
@@ -168,7 +158,7 @@ def _likeness(note: Likeness | None, open_ended: LevelState | None, *, lost: boo
     if note.difference is None:
         return "not-declared" if note.silent else "passed"
     if note.difference.seen is None and lost:
-        return open_ended or "undecided"  # the run was cut off before any difference
+        return open_ended or "undecided"
     return "failed"
 
 
@@ -193,12 +183,12 @@ TRANSCRIPT = {"format": "topo-verify/transcript", "version": 1}
 
 
 class Asked(NamedTuple):
-    """What is asked about a run, as texts, which can be handed to other processes.
+    """What is asked about a run, as texts for other processes.
 
     Attributes:
-        like: the algorithm whose decisions it should make; empty: decisions are not compared.
+        like: the algorithm whose decisions it should make, or empty.
         pick, order: policies of the reference.
-        transcript: the folder for transcripts; empty: none is written.
+        transcript: the folder for transcripts, or empty.
     """
 
     like: str = ""
@@ -226,8 +216,8 @@ def look(*texts: str) -> Look:
     asked = Asked(*texts)
     reference = asked.reference
 
-    def noted(made: Attempt) -> Likeness:
-        run, world = made.run, made.run.world
+    def noted(attempt: Attempt) -> Likeness:
+        run, world = attempt.run, attempt.run.world
         like = explore(world, reference)
         note = Likeness(
             like.cost,
@@ -236,31 +226,33 @@ def look(*texts: str) -> Look:
             "" if run.misbehaved is None else run.misbehaved.detail,
         )
         if asked.transcript:
-            row = replace(row_of(made, made.report.world, 0), note=note)
+            row = replace(row_of(attempt, attempt.report.world, 0), note=note)
             outcome = outcome_of(row, asked.like)
             if any(outcome.findings.values()):
-                _keep(asked.transcript, made, outcome)
+                _keep(asked.transcript, attempt, outcome)
         return note
 
     return noted
 
 
-def _keep(folder: str, made: Attempt, outcome: WorldOutcome) -> None:
+def _keep(folder: str, attempt: Attempt, outcome: WorldOutcome) -> None:
     """Write the transcript of one world."""
-    world, run = made.report.world, made.run
-    if made.lines is None:
+    world, run = attempt.report.world, attempt.run
+    if attempt.lines is None:
         text = write_trace(run.kept_trace)
     else:
         head = {**TRANSCRIPT, "world": world, "target": run.algorithm, "stopped": run.stopped}
         rows: list[object] = [head]
-        rows += [{"to" if way == ">" else "from": _text(line)} for way, line in made.lines]
-        rows += [{"found": one.message} for level in outcome.findings.values() for one in level]
+        rows += [{"to" if way == ">" else "from": _text(line)} for way, line in attempt.lines]
+        rows += [
+            {"found": finding.message} for level in outcome.findings.values() for finding in level
+        ]
         text = msgspec.json.Encoder().encode_lines(rows)
     files.write(Path(folder) / f"{file_name(world)}.jsonl", text)
 
 
 def file_name(world: str) -> str:
-    """A file name for a world, valid in every file system and different for each world."""
+    """A file name for a world, valid everywhere and unique."""
     name = re.sub(r"[^A-Za-z0-9_.=,()-]", "-", world)
     plain = re.fullmatch(r"m[0-9]+/[0-9]+", world) or name == world
     tag = "" if plain and len(name) <= 80 else f"-{sha256(world.encode()).hexdigest()[:8]}"
@@ -312,9 +304,9 @@ class LevelResult(msgspec.Struct, frozen=True, kw_only=True):
         worlds: how many there are; each is counted in one of the next seven numbers.
         passed, failed: judged on this level.
         skipped, errored: the program declined the world, or gave it up.
-        undecided: out of time though it moved on; or no map, and so nothing to judge on this level.
+        undecided: out of time though it moved on, or nothing to judge on this level.
         not_declared: the same moves, but no decisions to compare.
-        not_tried: the work ended before, after too many time-outs or by an interrupt.
+        not_tried: the work ended before, by time-outs or an interrupt.
         kinds: in how many worlds each kind of finding is met.
         claims: for each claim of this level, in how many runs it has which status.
         judgements: of each claim of this level: how much was judged in all runs, of how much.
@@ -356,9 +348,9 @@ class _LevelCounts:
     def enter(self, outcome: WorldOutcome, level: Level) -> list[WorldFinding]:
         """Count one world; the findings that are to be kept."""
         self.states[outcome.states[level]] += 1
-        found = outcome.findings.get(level, ())
-        self.kinds.update(dict.fromkeys((one.kind for one in found), 1))
-        return [one for one in found if self.kinds[one.kind] <= KEPT_OF_KIND]
+        findings = outcome.findings.get(level, ())
+        self.kinds.update(dict.fromkeys((finding.kind for finding in findings), 1))
+        return [finding for finding in findings if self.kinds[finding.kind] <= KEPT_OF_KIND]
 
 
 class Conform:
@@ -367,7 +359,6 @@ class Conform:
     Life cycle: `work`, then `level_results`, also if the work was cut off.
 
     Args:
-        campaign: one implementation, and how it is run.
         again: the command line that asks for this again, without the world.
     Raises:
         InputError: there is no such algorithm or policy to compare it with.
@@ -376,7 +367,7 @@ class Conform:
     def __init__(
         self, campaign: c.Campaign, corpus: Corpus, asked: Asked, again: Sequence[str] = ()
     ) -> None:
-        look(*asked)  # before anything is started: the message is then the first
+        look(*asked)
         self.campaign = replace(
             campaign,
             worlds=c.ListedWorlds(corpus.total),
@@ -415,14 +406,13 @@ class Conform:
         self.tried += 1
         outcome = outcome_of(row, self.asked.like)
         for level, counts in self.levels.items():
-            for found in counts.enter(outcome, level):
+            for finding in counts.enter(outcome, level):
                 words = (*self.again, *self._worlds.at(row.place).replay_arguments)
-                again = replace(found, replay=shlex.join(words))
+                again = replace(finding, replay=shlex.join(words))
                 counts.findings.append(again)
         whys = self.levels["result"].whys
         if outcome.why is not None and len(whys) < KEPT_OF_KIND:
             whys.append(f"{row.world}: {outcome.why}")
-        # A run that was not decided decides no claim: it delivered no map, but nothing is wrong.
         if row.claims and outcome.states["result"] in ("passed", "failed"):
             self._counts.enter([row])
         if outcome.states["cost"] == "passed":
@@ -430,16 +420,16 @@ class Conform:
             self.priced.append(WorldCost(row.world, outcome.cost, outcome.reference, ratio))
 
     def level_results(self) -> Iterator[LevelResult]:
-        """The result on each level, of the worlds that were entered so far."""
-        mapper = sum(one.mapper for one in self.priced)
-        paid = sum(one.reference for one in self.priced)
+        """The result on each level, of the worlds so far."""
+        mapper = sum(price.mapper for price in self.priced)
+        paid = sum(price.reference for price in self.priced)
         total = CostRatio(mapper, paid, _ratio(mapper, paid))
         tally = self._counts.tally()
         for level, counts in self.levels.items():
             numbers = {name: counts.states[name] for name in get_args(LevelState)}
             claims = {
-                claim: seen
-                for claim, seen in tally.statuses.items()
+                claim: runs
+                for claim, runs in tally.statuses.items()
                 if level in ("result", "claims") and (claim in RESULT) == (level == "result")
             }
             yield LevelResult(

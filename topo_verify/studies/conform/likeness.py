@@ -1,8 +1,8 @@
 """The first event in which two runs in one world differ.
 
-Compared are the doors and percepts of moves, and every declared decision with its evidence; if the
-mapper declares nothing, the moves alone. Not compared are the purpose of a move; which of several
-contradictions is cited; the map at the end (`map-isomorphic` judges it).
+Compared are the doors and percepts of moves and the declared decisions with their evidence; of a
+silent mapper the moves alone. Not compared are the purpose of a move, which of several
+contradictions is cited, and the map at the end.
 """
 
 from __future__ import annotations
@@ -74,7 +74,6 @@ class Likeness(msgspec.Struct, frozen=True, omit_defaults=True):
     Attributes:
         reference: the cost of the reference, in edge traversals.
         silent: the world has edges, and no decision is declared.
-        difference: the first one, if decisions are compared.
         detail: words that say more of why a program was stopped.
     """
 
@@ -91,20 +90,18 @@ def declares(trace: Iterable[Event]) -> bool:
 
 def first_difference(reference: Trace, mapper: Trace) -> Difference | None:
     """The first difference between the two runs, or None."""
-    # A mapper that declares some decisions must declare all of them: it is compared in full.
     silent = not declares(mapper)
     ours = _events(reference, silent=silent)
     theirs = _events(mapper, silent=silent)
-    for place, (one, other) in enumerate(zip_longest(ours, theirs)):
-        expected = None if one is None else _bare(one[1])
-        seen = None if other is None else _bare(other[1])
-        if expected != seen:
-            # The knowledge comes from the reference: a mapper that declares nothing shows none.
-            upto = len(reference) if one is None else one[0]
+    for place, (ours_now, theirs_now) in enumerate(zip_longest(ours, theirs)):
+        expected = None if ours_now is None else _bare(ours_now[1])
+        observed = None if theirs_now is None else _bare(theirs_now[1])
+        if expected != observed:
+            upto = len(reference) if ours_now is None else ours_now[0]
             return Difference(
-                event=len(mapper) if other is None else other[0],
+                event=len(mapper) if theirs_now is None else theirs_now[0],
                 expected=None if expected is None else event_words(expected),
-                seen=None if seen is None else event_words(seen),
+                seen=None if observed is None else event_words(observed),
                 before=tuple(
                     event_words(event) for _, event in ours[max(0, place - SHOWN) : place]
                 ),
@@ -115,27 +112,24 @@ def first_difference(reference: Trace, mapper: Trace) -> Difference | None:
 
 
 def _events(trace: Trace, *, silent: bool) -> list[tuple[int, Event]]:
-    """The compared events of a run, each with its index."""
     kinds = (Move,) if silent else (Move, Pose, Reject, Confirm, Augment)
     return [(when, event) for when, event in enumerate(trace) if isinstance(event, kinds)]
 
 
 def _bare(event: Event) -> Event:
-    """The event without the fields that are not compared."""
     if isinstance(event, Move):
         return Move(event.door, event.percept)
     if isinstance(event, Reject) and event.rule in ("folding", "planar"):
-        # Several contradictions may follow, and the percepts beside them may be left out.
         return msgspec.structs.replace(event, evidence=Evidence(event.evidence.step))
     return event
 
 
 def _state(trace: Sequence[Event]) -> KnownState:
-    """The knowledge after the first events of the reference."""
+    """What the reference knows after these events."""
     vertices: list[int] = []
     explored: list[tuple[int, int]] = []
     edge: int | None = None
-    left: list[int] = []
+    hypotheses: list[int] = []
     doors: list[int] = []
     for event in trace:
         match event:
@@ -144,14 +138,16 @@ def _state(trace: Sequence[Event]) -> KnownState:
             case Move(door):
                 doors.append(door)
             case Pose():
-                edge, left = event.edge, list(event.hypotheses)
-            case Reject(hypothesis=h) | Confirm(hypothesis=h) if h in left:
-                left.remove(h)
+                edge, hypotheses = event.edge, list(event.hypotheses)
+            case Reject(hypothesis=h) | Confirm(hypothesis=h) if h in hypotheses:
+                hypotheses.remove(h)
             case Augment(end, kind, dart, degree):
                 explored.append((min(end, dart), max(end, dart)))
                 vertices += [degree] if kind == "new" else []
-                edge, left, doors = None, [], []
+                edge, hypotheses, doors = None, [], []
             case _:
                 pass
     moves = sum(isinstance(event, Move) for event in trace)
-    return KnownState(moves, tuple(vertices), tuple(explored), edge, tuple(left), tuple(doors))
+    return KnownState(
+        moves, tuple(vertices), tuple(explored), edge, tuple(hypotheses), tuple(doors)
+    )

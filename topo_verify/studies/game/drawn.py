@@ -11,7 +11,7 @@ from topo_verify.world.least_cost import BreadthFirstTree
 
 
 class Pendant(NamedTuple):
-    """An edge of a pendant tree, by the vertex below it.
+    """An edge of a pendant tree.
 
     Attributes:
         edge: its bit.
@@ -29,7 +29,6 @@ class Rest(NamedTuple):
 
     Attributes:
         uncrossed: the end vertices of edges never crossed, two for each edge.
-        unvisited: the number of vertices never visited.
         trips: the lengths of the shortest missing closed trips, ascending.
         ended, back: the moves on pendant edges never crossed, if the walk begins and may end there;
             if it begins at v0 and ends where it ends best.
@@ -45,10 +44,7 @@ class Rest(NamedTuple):
 
 
 class DrawnWorld:
-    """A world by its canonical code: where folds lie in it, and what they leave to be done.
-
-    Every fold of a history in this world maps into it, dart by dart, in one way.
-    """
+    """A world by its canonical code: where folds lie in it, and what they leave to be done."""
 
     def __init__(self, table: Table) -> None:
         self.table = table
@@ -68,13 +64,12 @@ class DrawnWorld:
         return self.degrees[v], ABSENT if v else -dart % self.degrees[0]
 
     def placed(self, code: FoldCode) -> tuple[int, ...]:
-        """For each dart of the fold its dart here."""
+        """For each dart of the fold its dart here, which is unique."""
         if code not in self._placed:
             degrees, alpha = code
             first, _ = vertices(degrees)
             darts = list[int]()
             for v, degree in enumerate(degrees):
-                # The first dart of every vertex but v0 leads to a vertex before it.
                 entry = self.alpha[darts[alpha[first[v]]]] if v else 0
                 darts += [self.turned(entry, by) for by in range(degree)]
             self._placed[code] = tuple(darts)
@@ -87,8 +82,8 @@ class DrawnWorld:
 
         Every edge must be crossed. Let I be the space (modulo 2) of the closed trips made so far. A
         missing trip adds at most one dimension; those of a lightest basis modulo I are the
-        shortest. The first of them may have `far` of its length behind it; or count the way home
-        and all but the longest. Moves on pendant edges never crossed belong to no trip.
+        shortest. The first may have `far` of its length behind it; or count the way home and all
+        but the longest. Pendant edges belong to no trip.
         """
         rest = self._rest_of(code)
         here = self.vertex[self.placed(code)[at]]
@@ -103,20 +98,17 @@ class DrawnWorld:
         return max(bound, 1)
 
     def visit_bound(self, code: FoldCode, _at: int) -> int:
-        """Least moves to visit every vertex and cross all edges but one.
+        """Least moves to visit every vertex and cross all edges but one, needed where n is known.
 
-        Needed where n is known: another loop could hang on an unvisited vertex, and two uncrossed
-            edges
-        could exchange ends.
+        Another loop could hang on an unvisited vertex; two uncrossed edges could exchange ends.
         """
         rest = self._rest_of(code)
         return max(1, rest.unvisited, len(rest.uncrossed) // 2 - 1)
 
     def crossing_bound(self, code: FoldCode, _at: int) -> int:
-        """Least moves to cross every edge.
+        """Least moves to cross every edge, needed where the world is known to be planar.
 
-        Needed where the world is known to be planar: on an open dart a leaf or a path of two may
-            hang.
+        On an open dart a leaf or a path of two may hang.
         """
         return max(1, len(self._rest_of(code).uncrossed) // 2)
 
@@ -128,32 +120,32 @@ class DrawnWorld:
     def _left_to_do(self, code: FoldCode) -> Rest:
         degrees, alpha = code
         first, vertex = vertices(degrees)
-        darts, seen = self.placed(code), 0
-        way = [0] * len(degrees)  # the edges on a way from v0 to each vertex of the fold, modulo 2
-        made = list[int]()  # a basis of the closed trips
+        darts, crossed_edges = self.placed(code), 0
+        way = [0] * len(degrees)  # from v0 to each vertex, modulo 2
+        basis = list[int]()  # a basis of the closed trips
         for dart, end in enumerate(alpha):
             if dart < end:
                 edge = self._edges[darts[dart]]
-                seen |= edge
+                crossed_edges |= edge
                 if first[vertex[end]] == end and end:
                     way[vertex[end]] = way[vertex[dart]] ^ edge
                 else:
-                    _extended(made, way[vertex[dart]] ^ way[vertex[end]] ^ edge)
-        missing = tuple(length for length, loop in self._loops if _extended(made, loop))
+                    _extended(basis, way[vertex[dart]] ^ way[vertex[end]] ^ edge)
+        missing = tuple(length for length, loop in self._loops if _extended(basis, loop))
         uncrossed = tuple(
-            v for v, edge in zip(self.vertex, self._edges, strict=True) if not edge & seen
+            v for v, edge in zip(self.vertex, self._edges, strict=True) if not edge & crossed_edges
         )
         unvisited = len(self.degrees) - len({self.vertex[dart] for dart in darts})
         far_of = distances(code, 0)
         far = tuple(far_of[v] for v in vertex)
-        return Rest(uncrossed, unvisited, missing, *self._pendant_moves(seen), far)
+        return Rest(uncrossed, unvisited, missing, *self._pendant_moves(crossed_edges), far)
 
-    def _pendant_moves(self, seen: int) -> tuple[int, int]:
+    def _pendant_moves(self, crossed_edges: int) -> tuple[int, int]:
         """`ended` and `back` of `Rest`."""
-        below = dict[int, int]()  # of each vertex of a pendant tree, such edges on the way to it
+        below = dict[int, int]()
         moves = deepest = saved = 0
         for v, (edge, above, attached) in self._pendants.items():
-            is_new = not edge & seen
+            is_new = not edge & crossed_edges
             moves += 2 * is_new
             below[v] = below.get(above, 0) + is_new
             deepest = max(deepest, below[v])
@@ -171,7 +163,7 @@ class DrawnWorld:
 
     @cached_property
     def _loops(self) -> list[tuple[int, int]]:
-        """The loops of the breadth-first tree, shortest first: length, and edges modulo 2."""
+        """Of the breadth-first tree, shortest first: length, and edges modulo 2."""
         loops = list[tuple[int, int]]()
         for chord in self._tree.chords:
             edges = 0
@@ -202,8 +194,8 @@ class DrawnWorld:
 
 def _extended(basis: list[int], vector: int) -> bool:
     """Adds a vector modulo 2 to the basis; whether it was outside its span."""
-    for one in basis:
-        vector = min(vector, vector ^ one)
+    for member in basis:
+        vector = min(vector, vector ^ member)
     if vector:
         basis.append(vector)
         basis.sort(reverse=True)

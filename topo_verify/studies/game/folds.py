@@ -2,14 +2,13 @@
 
 A **fold code** is the fold of a history (docs/semantics.md, section 11) in the numbering of the
 canonical code (section 12): the degrees of its vertices, and the other end of each dart, `OPEN`
-where it was never crossed. The marker points at dart 0; only vertex 0 saw it. Two histories have
-one code exactly if their folds are isomorphic.
+where it was never crossed. The marker points at dart 0, and only vertex 0 saw it.
 
-**What proves the map.** A world in which the history happens lies below the fold: its visited part
-is a quotient of the fold, and beyond the open darts there may be anything that the class allows. So
-the quotients decide whether one world of the class is left.
+**What proves the map.** In a world below the fold, the visited part is a quotient of the fold, and
+beyond the open darts there may be anything that the class allows. So the quotients decide whether
+one world is left.
 
-Written apart from `checkers.Fold`, which a test compares with it.
+Written apart from `checkers.Fold`, with which a test compares it.
 """
 
 from __future__ import annotations
@@ -50,24 +49,24 @@ def distances(code: FoldCode, start: int) -> list[int]:
     """The distance of each vertex from `start` along crossed edges."""
     degrees, alpha = code
     first, vertex = vertices(degrees)
-    found = {start: 0}
+    distance = {start: 0}
     queue = [start]
     for v in queue:
         for dart in range(first[v], first[v] + degrees[v]):
-            if (end := alpha[dart]) != OPEN and vertex[end] not in found:
-                found[vertex[end]] = found[v] + 1
+            if (end := alpha[dart]) != OPEN and vertex[end] not in distance:
+                distance[vertex[end]] = distance[v] + 1
                 queue.append(vertex[end])
-    return [found[v] for v in range(len(degrees))]
+    return [distance[v] for v in range(len(degrees))]
 
 
-def crossed(code: FoldCode, dart: int, seen: Sight) -> tuple[FoldCode, int]:
+def crossed(code: FoldCode, dart: int, sight: Sight) -> tuple[FoldCode, int]:
     """The fold after an open dart was crossed and this was seen; and the dart of arrival.
 
-    Without the marker the place is a new vertex of the fold. With it the place is v0; if its edge
-    is known already, the two known ends are one dart, and so on.
+    With the marker the place is v0; if its edge is known already, the two known ends are one dart,
+    and so on.
     """
     degrees, alpha = code
-    degree, marker = seen
+    degree, marker = sight
     sigma, ends = _sigma(degrees), list(alpha)
     if marker == ABSENT:
         arrival = len(ends)
@@ -83,8 +82,8 @@ def crossed(code: FoldCode, dart: int, seen: Sight) -> tuple[FoldCode, int]:
 
 
 def quotients(code: FoldCode) -> Iterator[FoldCode]:
-    """The fold, and every fold that arises from it by identifying vertices, each once."""
-    found, todo = {code}, [code]
+    """The fold, and every fold that arises by identifying vertices, each once."""
+    known, todo = {code}, [code]
     while todo:
         yield (code := todo.pop())
         degrees, alpha = code
@@ -92,17 +91,17 @@ def quotients(code: FoldCode) -> Iterator[FoldCode]:
         for u, v in combinations(range(1, len(degrees)), 2):  # v0 is no other vertex
             for turn in range(degrees[u] if degrees[u] == degrees[v] else 0):
                 merged = _quotient(degrees, alpha, first[u], first[v] + turn)
-                if merged is not None and merged not in found:
-                    found.add(merged)
+                if merged is not None and merged not in known:
+                    known.add(merged)
                     todo.append(merged)
 
 
 def _quotient(
-    degrees: tuple[int, ...], alpha: tuple[int, ...], one: int, other: int
+    degrees: tuple[int, ...], alpha: tuple[int, ...], first_dart: int, twin: int
 ) -> FoldCode | None:
     """The fold in which two darts are one; None if that contradicts."""
     first, vertex = vertices(degrees)
-    sigma, ends, names = _identified(_sigma(degrees), list(alpha), one, other)
+    sigma, ends, names = _identified(_sigma(degrees), list(alpha), first_dart, twin)
     for v, start in enumerate(first):
         if len({names[dart] for dart in range(start, start + degrees[v])}) < degrees[v]:
             return None  # a vertex would be itself, turned
@@ -121,20 +120,20 @@ def _sigma(degrees: Sequence[int]) -> list[int]:
 
 
 def _identified(
-    sigma: list[int], ends: list[int], one: int, other: int
+    sigma: list[int], ends: list[int], dart: int, twin: int
 ) -> tuple[list[int], list[int], list[int]]:
     """Sigma, alpha and the name of each dart after identifying two darts and all that follows.
 
-    A dart is named by the least one it is identified with; only names have a sigma and an alpha.
+    A name is the least of the identified darts; only names have a sigma and an alpha.
     """
     parent = list(range(len(sigma)))
 
-    def name(dart: int) -> int:
-        while parent[dart] != dart:
-            dart = parent[dart]
-        return dart
+    def name(d: int) -> int:
+        while parent[d] != d:
+            d = parent[d]
+        return d
 
-    pairs = [(one, other)]
+    pairs = [(dart, twin)]
     while pairs:
         a, b = sorted(map(name, pairs.pop()))
         if a == b:
@@ -147,7 +146,7 @@ def _identified(
             pairs.append((ends[a], ends[b]))
     names = list(map(name, parent))
     return (
-        [names[dart] for dart in sigma],
+        [names[d] for d in sigma],
         [OPEN if end == OPEN else names[end] for end in ends],
         names,
     )
@@ -177,16 +176,15 @@ def _numbered(sigma: Sequence[int], ends: Sequence[int], at: int) -> tuple[FoldC
 
 
 def is_closed(code: FoldCode) -> bool:
-    """Whether one world fits, of all worlds: no dart is open (docs/semantics.md, section 11)."""
+    """Whether one world fits: no dart is open (docs/semantics.md, section 11)."""
     return OPEN not in code[1]
 
 
 def is_single_of_vertices(code: FoldCode, n: int) -> bool:
-    """Whether one world fits, of all worlds with n vertices.
+    """Whether one world with n vertices fits.
 
-    A quotient with n vertices lies in one of them for each way to join its open darts in pairs. One
-    with fewer and an open dart lies in any number, since an unseen vertex may have any number of
-    loops.
+    A quotient with n vertices lies in one for each way to pair its open darts. One with fewer and
+    an open dart lies in any number, since an unseen vertex may have any number of loops.
     """
     if is_closed(code):
         return True
@@ -203,7 +201,7 @@ def is_single_of_vertices(code: FoldCode, n: int) -> bool:
 
 
 def is_single_planar(code: FoldCode) -> bool:
-    """Whether one world fits, of all planar worlds.
+    """Whether one planar world fits.
 
     A planar quotient with an open dart lies in at least two: hang a leaf on each, or a path of two.
     """
@@ -216,7 +214,7 @@ def is_single_planar(code: FoldCode) -> bool:
 
 
 def is_planar(code: FoldCode) -> bool:
-    """Whether the fold is planar; leaves on open darts do not matter."""
+    """Whether the fold is planar, whatever leaves hang on it."""
     degrees, alpha = code
     first, vertex = vertices(degrees)
     todo, faces = set(range(len(alpha))), 0

@@ -1,7 +1,6 @@
 """The rules of two games: the history proves the map among all worlds, or among those of a class.
 
-`ProofRules`: the map is proved among worlds of any size. Knowledge of the open worlds beside the
-fold may guide the robot, but ends no game.
+`ProofRules`: the map is proved among worlds of any size.
 
     state       the fold of the history, where the robot stands in it, the open worlds
     choice      an open dart: go there along crossed edges, the shortest way, and cross it
@@ -15,9 +14,8 @@ fold may guide the robot, but ends no game.
     answer      the percept behind it
     the end     one world of the class is left
 
-**Bound.** By partition refinement: two darts that look alike, as do, door by door, the darts behind
-them, for k moves need k moves to be told apart. A world is told from all others at the end, so also
-from the one hardest to tell from it.
+**Bound.** By partition refinement: darts that look alike for k moves, door by door, need k moves to
+be told apart. A world must be told from the one hardest to tell from it.
 """
 
 from __future__ import annotations
@@ -42,13 +40,7 @@ from topo_verify.studies.game.search import GameChoice
 
 
 class FoldState(NamedTuple):
-    """A state of `ProofRules`.
-
-    Attributes:
-        code: the fold of the history.
-        at: the robot's reference dart there.
-        open: the numbers of the open worlds, ascending.
-    """
+    """A state of `ProofRules`: a fold, the robot's reference dart, the open worlds ascending."""
 
     code: FoldCode
     at: int
@@ -68,7 +60,7 @@ class GameEnding(NamedTuple):
 
 
 class ProofRules:
-    """The rules (`search.Rules`) of the game among all worlds; `worlds` are open at the start."""
+    """The rules (`search.Rules`) of the game among all worlds."""
 
     def __init__(self, worlds: Sequence[DrawnWorld], ending: GameEnding) -> None:
         self._worlds, self._ending = worlds, ending
@@ -77,13 +69,13 @@ class ProofRules:
 
     def starts(self) -> list[FoldState]:
         """The states after the first percept."""
-        seen = defaultdict[int, list[int]](list)
+        by_degree = defaultdict[int, list[int]](list)
         for number, world in enumerate(self._worlds):
-            seen[world.degrees[0]].append(number)
-        return list(self._open((first_fold(degree), 0, held) for degree, held in seen.items()))
+            by_degree[world.degrees[0]].append(number)
+        return list(self._open((first_fold(degree), 0, held) for degree, held in by_degree.items()))
 
     def choices(self, state: FoldState) -> Iterator[GameChoice[FoldState]]:
-        """Each open dart of the fold."""
+        """The open darts of the fold."""
         _, vertex = vertices(state.code[0])
         far = distances(state.code, vertex[state.at])
         for dart in open_darts(state.code):
@@ -94,7 +86,7 @@ class ProofRules:
         return len(state.open)
 
     def parts(self, state: FoldState) -> list[FoldState]:
-        """The worlds whose numbers have the first differing bit, and the others."""
+        """Split at the first differing bit of the worlds' numbers."""
         held = state.open
         if len(held) == 1:
             return []
@@ -108,12 +100,12 @@ class ProofRules:
             yield self._ending.bound(self._worlds[number], state.code, state.at)
 
     def _answers(self, state: FoldState, dart: int) -> Iterator[tuple[FoldCode, int, list[int]]]:
-        """For each possible percept: the fold then, the robot's dart, the worlds."""
-        seen = defaultdict[Sight, list[int]](list)
+        """By percept: the fold then, the robot's dart, the worlds."""
+        by_sight = defaultdict[Sight, list[int]](list)
         for number in state.open:
             world = self._worlds[number]
-            seen[world.sight(world.alpha[world.placed(state.code)[dart]])].append(number)
-        for sight, held in seen.items():
+            by_sight[world.sight(world.alpha[world.placed(state.code)[dart]])].append(number)
+        for sight, held in by_sight.items():
             key = state.code, dart, sight
             if key not in self._crossed:
                 self._crossed[key] = crossed(*key)
@@ -133,15 +125,14 @@ class ProofRules:
 # ---------------------------------------------------------------- a finite class
 
 ClassState = tuple[tuple[int, int], ...]
-"""The numbers of the worlds left, ascending, each with the robot's dart in it."""
+"""The worlds left, ascending, each with the robot's dart."""
 
 
 class ClassRules:
     """The rules (`search.Rules`) of the game in a finite class.
 
     Args:
-        worlds: the class.
-        counted: the numbers of those whose costs count; the robot does not know them.
+        counted: the numbers of the worlds whose costs count, unknown to the robot.
     """
 
     def __init__(self, worlds: Sequence[DrawnWorld], counted: frozenset[int]) -> None:
@@ -154,7 +145,7 @@ class ClassRules:
         return self._open([(number, 0) for number in range(len(self._worlds))])
 
     def choices(self, state: ClassState) -> Iterator[GameChoice[ClassState]]:
-        """Each door by which the robot can leave."""
+        """The doors by which the robot can leave."""
         number, dart = state[0]
         degree, _ = self._worlds[number].sight(dart)
         for door in range(degree):
@@ -166,22 +157,22 @@ class ClassRules:
         return sum(number in self._counted for number, _ in state)
 
     def parts(self, _state: ClassState) -> list[ClassState]:
-        """No parts: splitting would not improve the bounds."""
+        """None: splitting would not improve the bounds."""
         return []
 
     def bounds(self, state: ClassState) -> Iterator[int]:
-        """For each world that counts, the moves to tell it from the one hardest to tell from it."""
+        """For each counting world, the moves to tell it from all others."""
         darts = [self._first[number] + dart for number, dart in state]
         held = [
             dart for dart, (number, _) in zip(darts, state, strict=True) if number in self._counted
         ]
-        left = dict.fromkeys(held, 0)
+        needed = dict.fromkeys(held, 0)
         for moves, looks in enumerate(self._looks, start=1):
             alike = Counter(looks[dart] for dart in darts)
             if not (twins := [dart for dart in held if alike[looks[dart]] > 1]):
                 break
-            left.update(dict.fromkeys(twins, moves))
-        yield from left.values()
+            needed.update(dict.fromkeys(twins, moves))
+        yield from needed.values()
 
     def _behind(self, number: int, dart: int, door: int) -> int:
         world = self._worlds[number]
@@ -189,18 +180,15 @@ class ClassRules:
 
     def _open(self, places: Sequence[tuple[int, int]]) -> list[ClassState]:
         """The places by percept, without single ones and those that do not count."""
-        seen = defaultdict[Sight, list[tuple[int, int]]](list)
+        by_sight = defaultdict[Sight, list[tuple[int, int]]](list)
         for number, dart in places:
-            seen[self._worlds[number].sight(dart)].append((number, dart))
-        states = map(tuple, seen.values())
+            by_sight[self._worlds[number].sight(dart)].append((number, dart))
+        states = map(tuple, by_sight.values())
         return [state for state in states if len(state) > 1 and self.worlds(state)]
 
 
 def _refined(worlds: Sequence[DrawnWorld]) -> list[list[int]]:
-    """For k = 0, 1, … the class of each dart: equal just if k moves cannot tell two apart.
-
-    The darts of all worlds are numbered in turn. The last list is stable.
-    """
+    """For k = 0, 1, … the class of each dart of all worlds: equal just if k moves cannot tell."""
     first = list(accumulate((len(world.alpha) for world in worlds), initial=0))
     behind = [
         [

@@ -6,13 +6,12 @@ ends the game. The value of a state is
     worst case   least over the choices of   moves + the greatest value over the answers
     sum          least over the choices of   moves · worlds + the sum of the values
 
-where `worlds` is how many worlds the state leaves open. The sum divided by the number of worlds at
-the start is the mean.
+where `worlds` is how many worlds the state leaves open.
 
 **Search.** To decide whether a value is at most a limit, only choices whose lower bound is within
 the limit matter. The limit is the state's own lower bound; if the answer is no, the least value
-still possible is the next one. So bounds rise until one is the value. Every move costs, so this
-ends. The number of states is limited, not the time, so that two calls end alike.
+still possible is the next one. So bounds rise until one is the value. The number of states is
+limited, not the time, so that two calls end alike.
 
 **Parts.** Playing against a part of the worlds costs no more than against all, and the sum is at
 least the sum over the parts. So the values of parts are a lower bound.
@@ -51,7 +50,7 @@ class Rules(Protocol[S]):
     """The rules of a game."""
 
     def choices(self, state: S, /) -> Iterable[GameChoice[S]]:
-        """What the robot may do next; one choice ends every game that can be ended."""
+        """What the robot may do next."""
         ...
 
     def worlds(self, state: S, /) -> int:
@@ -63,15 +62,15 @@ class Rules(Protocol[S]):
         ...
 
     def bounds(self, state: S, /) -> Iterable[int]:
-        """Of a state without parts: for each world a lower bound on the cost, at least 1."""
+        """Of a state without parts: a positive lower bound for each world."""
         ...
 
 
 class Solver(Generic[S]):
-    """The values of the states of a game, for one of the two aims.
+    """The values of the states of a game.
 
     Args:
-        mean: the least sum is sought, in place of the least worst case.
+        mean: minimise the sum, not the worst case.
         most_states: the number of states at which the search is cut short.
     """
 
@@ -99,12 +98,12 @@ class Solver(Generic[S]):
         if bound <= limit and state not in self._parted:
             bound = self._by_parts(state, bound, limit)
         while bound <= limit and state not in self._solved:
-            found = self._attempt(state, bound)
-            if found < bound:
-                raise InternalError(f"{state} has the value {found}, below its bound {bound}")
-            if found == bound:
+            value = self._attempt(state, bound)
+            if value < bound:
+                raise InternalError(f"{state} has the value {value}, below its bound {bound}")
+            if value == bound:
                 self._solved.add(state)
-            self._bound[state] = bound = found
+            self._bound[state] = bound = value
         return bound
 
     def bound(self, state: S) -> float:
@@ -116,7 +115,6 @@ class Solver(Generic[S]):
         return self._bound[state]
 
     def _by_parts(self, state: S, bound: float, limit: float) -> float:
-        """A lower bound from the parts, as many as bring it above the limit."""
         parts = self._rules.parts(state)
         bound = self._bound[state] = max(bound, self._answers(parts, 0, limit))
         if bound <= limit:
@@ -124,7 +122,7 @@ class Solver(Generic[S]):
         return bound
 
     def _attempt(self, state: S, limit: float) -> float:
-        """The value if it is at most the limit; else a lower bound above the limit."""
+        """The value up to the limit; else a lower bound above it."""
         if state not in self._choices:
             if self.states > self._most_states:
                 raise _OutOfStates

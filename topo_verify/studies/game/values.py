@@ -1,7 +1,6 @@
 """The values of the games on the worlds with m edges: what the best robot pays.
 
-What a robot **knows** says when its game ends. What is **drawn** says in which worlds its cost
-counts. Each value may need another robot.
+What a robot **knows** says when its game ends; what is **drawn**, in which worlds its cost counts.
 
     nothing         the history has to prove the map among all worlds: no dart of its fold is open.
                     No sound mapper pays less: the best robot assumes m edges until refuted
@@ -129,7 +128,7 @@ def drawn_worlds(edges: int, drawn: DrawnClass) -> list[World]:
 
 
 def game_values(edges: int, *, most_states: float = MOST_STATES) -> Iterator[GameValue]:
-    """The values of the games with this number of edges, in the order of `GAMES`."""
+    """The values of all games with this number of edges."""
     for drawn, knows in GAMES:
         if knows not in ENDLESS or edges <= MOST_ENDLESS:
             yield game_value(edges, knows, drawn, most_states=most_states)
@@ -183,9 +182,9 @@ def _games(edges: int, knows: Knowledge, drawn: DrawnClass) -> Iterator[ProofRul
             yield ClassRules(counted, frozenset(range(len(counted))))
 
 
-def _by_vertices(found: Sequence[DrawnWorld]) -> dict[int, list[DrawnWorld]]:
+def _by_vertices(drawn: Sequence[DrawnWorld]) -> dict[int, list[DrawnWorld]]:
     groups = defaultdict[int, list[DrawnWorld]](list)
-    for world in found:
+    for world in drawn:
         groups[len(world.degrees)].append(world)
     return groups
 
@@ -244,10 +243,8 @@ PLAYERS = tuple(NAMED)
 
 
 def mapper_costs(mapper: str, edges: int, values: Iterable[GameValue] = ()) -> MapperCosts:
-    """The costs of a mapper of the catalogue in the worlds with this number of edges.
+    """The costs of a mapper of the catalogue beside the values of the games.
 
-    Args:
-        values: of the games with this number of edges.
     Raises:
         InternalError: the mapper is sound and costs less than the best robot.
     """

@@ -1,9 +1,8 @@
 """The paper's figures as data: families of graphs, sizes, lines, and the numbers in its text.
 
-H. Wang, M. Jenkin and P. Dymond, section IV. The text states the families ("lattice graphs with
-random holes", "regular graphs with random holes"), 20 % holes, 30 graphs a point, and costs for the
-10×10 lattice alone. The other sizes, the degree of the regular graphs, the marker's place and the
-policies are our choice.
+H. Wang, M. Jenkin and P. Dymond, section IV. The text states the families, 20 % holes, 30 graphs a
+point, and costs for the 10×10 lattice alone. The other sizes, the degree of the regular graphs, the
+marker's place and the policies are our choice.
 """
 
 from __future__ import annotations
@@ -24,8 +23,6 @@ SEEDS = 1000
 """Graph g of a point is drawn with seed `SEEDS·seed + g`, so two seeds share no graph."""
 
 EDGES, LEAST = "edges", "least-cost"
-"""Lines that no mapper walks: the number m of edges, and the least cost of a proof."""
-
 YARDSTICKS = (EDGES, LEAST)
 
 SettingName = Literal["lattice", "dense"]
@@ -36,10 +33,9 @@ class Setting:
     """A family of graphs that grows.
 
     Attributes:
-        measure: what `size` counts, with its unit.
+        measure: what `size` counts.
         family: the WORLD argument for a size and a seed.
-        sizes, quick: the sizes of the points; those with `--quick`.
-        large: further sizes, for the compiled engine.
+        sizes, quick, large: sizes of the points; with `--quick`; for the compiled engine.
     """
 
     name: SettingName
@@ -81,8 +77,7 @@ class Figure:
     """One figure of the paper, with our yardsticks.
 
     Attributes:
-        name: as `--figure` takes it: `3`, `6a`.
-        lines: the algorithms, in the order of the results; `YARDSTICKS` come after them.
+        lines: the algorithms; `YARDSTICKS` come after them.
         stated: what the text states, by algorithm and size.
     """
 
@@ -168,7 +163,7 @@ def chosen_figures(text: str) -> list[Figure]:
     Raises:
         InputError: there is no such figure.
     """
-    found: dict[str, Figure] = {}
+    chosen: dict[str, Figure] = {}
     for word in (part.strip().lower() for part in text.split(",")):
         fitting = {
             name: figure
@@ -180,8 +175,8 @@ def chosen_figures(text: str) -> list[Figure]:
                 f"--figure {word!r}: expected all, 6 or one of {', '.join(FIGURES)}; several with"
                 " commas"
             )
-        found |= fitting
-    return [figure for name, figure in FIGURES.items() if name in found]
+        chosen |= fitting
+    return [figure for name, figure in FIGURES.items() if name in chosen]
 
 
 # ---------------------------------------------------------------- policies
@@ -207,7 +202,7 @@ PAIRS = (
     ),
     PolicyPair("random(0)", "random(0)"),
 )
-"""What `--policies` tries: every deterministic pair, and a random one."""
+"""Every deterministic pair, and a random one."""
 
 
 # ---------------------------------------------------------------- the plan
@@ -215,15 +210,7 @@ PAIRS = (
 
 @dataclass(frozen=True)
 class FigureExtent:
-    """How much of the figures is run.
-
-    Attributes:
-        graphs: graphs a point.
-        quick: the small sizes only.
-        policies: the pairs of policies.
-        seed: of the graphs.
-        large: the large sizes, too.
-    """
+    """How much of the figures is run; `graphs` counts those of a point."""
 
     graphs: int = GRAPHS
     quick: bool = False

@@ -1,15 +1,13 @@
 """Points of the figures: the runs that they need, means and standard errors, growth, CSV.
 
-**Runs.** There is one campaign for each line, judged by every claim. In worlds of more than `LARGE`
-edges the compiled engine keeps no trace, so only the claims on map and cost are judged. A run that
-is out of time, or whose worker was killed, is not kept: the next call tries it again.
+**Runs.** There is one campaign for each line. In worlds of more than `LARGE` edges the compiled
+engine keeps no trace, so only the claims on map and cost are judged. A run that is out of time, or
+whose worker was killed, is not kept.
 
-The standard error of a mean is the sample's standard deviation over √graphs. Sums of integers are
-exact, so the same runs give the same bytes in any order.
+The standard error of a mean is the sample's standard deviation over √graphs.
 
 **Growth.** `mean ≈ c·m^exponent` is fitted by least squares of log(mean) on log(mean m), one
-observation a size. Its standard error is that of the slope. What this does not show: that the cost
-is a power of m.
+observation a size. What this does not show: that the cost is a power of m.
 """
 
 from __future__ import annotations
@@ -78,8 +76,8 @@ class FigurePoint(msgspec.Struct, frozen=True):
         size: the side of a lattice, or the nodes of a dense graph, before holes.
         graphs: how many graphs the mean is over.
         mean, stderr: the cost in edge traversals, and its standard error; None for one graph.
-        paper: the cost that the paper's text states for this point, or None.
-        stated: how the text puts it, or None.
+        paper: the cost that the paper's text states for this point.
+        stated: how the text puts it.
         pick, order: the policies; None for a yardstick.
         edges: the mean of m.
         held: claims that held in each run; of: claims that were asked of each. 0 for a yardstick.
@@ -114,7 +112,7 @@ class FigurePoint(msgspec.Struct, frozen=True):
 
     @property
     def is_reference(self) -> bool:
-        """Whether it is on the line of the reference policies, or a yardstick."""
+        """Whether its policies are the reference, if any."""
         return self.pair in (None, REFERENCE)
 
 
@@ -156,7 +154,7 @@ def _rows(
         PlannedRun(world, algorithm, pair.pick, pair.order)
         for world in extent.worlds(figure.setting, size)
     ]
-    return [runs[one] for one in wanted] if all(one in runs for one in wanted) else []
+    return [runs[run] for run in wanted] if all(run in runs for run in wanted) else []
 
 
 def _point(
@@ -245,11 +243,7 @@ def points_csv(points: Iterable[FigurePoint]) -> str:
 
 
 def growth_csv(points: Iterable[FigurePoint], setting_of: Mapping[str, str]) -> str:
-    """The growth of every line as CSV, each line once.
-
-    Args:
-        setting_of: which graphs each figure is of.
-    """
+    """The growth of every line as CSV, each line once."""
     rows = [
         (
             setting_of[point.figure],
@@ -283,12 +277,7 @@ LIMITS = Limits(move_timeout=60.0, world_timeout=600.0)
 
 
 class PlannedRun(NamedTuple):
-    """A run that a point needs.
-
-    Attributes:
-        world: a WORLD argument.
-        algorithm: a name of the catalogue.
-    """
+    """A run that a point needs; `world` is a WORLD argument."""
 
     world: str
     algorithm: str
@@ -299,7 +288,7 @@ class PlannedRun(NamedTuple):
 def line_campaigns(
     figures: Sequence[Figure], extent: FigureExtent, engine: Engine, store: Store
 ) -> list[MapperCampaign]:
-    """A campaign for each algorithm of the figures, in all the graphs that they need it in.
+    """A campaign for each algorithm, in all the graphs that the figures need it in.
 
     Raises:
         InputError: the store has runs of other sources, or of another engine.
@@ -353,14 +342,14 @@ def every_pair(
 def without_large_traces(
     target: Target, world: World, once: Callable[[Target], Attempt]
 ) -> Iterator[Attempt]:
-    """The run of an algorithm by the compiled engine; in a large world without its trace."""
+    """The run of an algorithm by the compiled engine, without its trace in a large world."""
     assert isinstance(target.mapper, CompiledAlgorithm)
     mapper = replace(target.mapper, trace=len(world.edges) <= LARGE)
     yield once(Target(target.text, mapper))
 
 
 def runs_of(row: Row) -> Iterator[PlannedRun]:
-    """The runs that a row is about; of a lost worker those of each pair of policies."""
+    """The runs that a row is about: of a lost worker those of each pair."""
     pairs = PAIRS if row.policies is None else (row.policies,)
     for pair in pairs:
         yield PlannedRun(row.world, row.mapper, pair.pick, pair.order)

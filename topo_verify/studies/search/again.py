@@ -1,9 +1,8 @@
 """Worlds run again, alone and in another order: does the mapper remember the worlds before?
 
-A mapper that keeps something from world to world may be right or wrong for reasons that no one
-world shows. So the counterexample, up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by
-a seed, are run again, each in a fresh process. If none fails, `ROW` worlds, or all, are run by one
-process in a shuffled order: no worker of a search meets as many.
+So the counterexample, up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed, are
+run again, each in a fresh process. If none fails, `ROW` worlds, or all, are run by one process in a
+shuffled order: no worker of a search meets as many.
 
     a failing world passes alone    `not-deterministic`: only after other worlds
     another world fails alone       `not-deterministic`, too; and so in the row
@@ -40,10 +39,10 @@ MOST = SAMPLE
 ROW = 1000
 
 LONGEST = 64
-"""The most worlds before a failing one that are tried to make it fail again."""
+"""Worlds before a failing one that are tried to make it fail again."""
 
 NEAR = 2**14
-"""How many ranks back to look for them; a class may have few."""
+"""Ranks back to look for them; a class may have few."""
 
 CLAIM = "not-deterministic"
 
@@ -81,19 +80,19 @@ class RunAgain(msgspec.Struct, frozen=True):
         """The failures as failing rows."""
         return tuple(
             Row(
-                world=f"m{one.edges}/{one.rank}",
-                edges=one.edges,
-                place=one.rank,
+                world=f"m{failure.edges}/{failure.rank}",
+                edges=failure.edges,
+                place=failure.rank,
                 least=0,
-                mapper=one.target,
-                findings=one.findings,
+                mapper=failure.target,
+                findings=failure.findings,
             )
-            for one in self.failures
+            for failure in self.failures
         )
 
 
 def run_again(campaign: c.Campaign, rows: Sequence[Row], tell: Progress | None = None) -> RunAgain:
-    """Run some worlds of a search again, alone and in a row; `rows` are its notable rows."""
+    """Run some worlds of a search again, alone and in a row, given its notable rows."""
     before = _drawn(rows, campaign)
     tell = tell or no_progress
 
@@ -108,7 +107,6 @@ def run_again(campaign: c.Campaign, rows: Sequence[Row], tell: Progress | None =
         if now.late or now.lost:
             continue
         if bool(row.failed) != bool(now.failed):
-            # To look for a command that shows it takes long: once is enough.
             failures.append(_failure(campaign, row, now, search=not failures))
         elif not row.timed_out and now.digest != row.digest:
             others.append(row.world)
@@ -141,7 +139,7 @@ def _drawn(rows: Sequence[Row], campaign: c.Campaign) -> list[Row]:
         alike = [row for row in drawn if bool(row.failed) == fails][:MOST]
         first += [row for row in alike if row not in first]
     if calls_native(campaign):
-        ends = (one for one in (rows[:1] + rows[-1:]) if not one.timed_out)
+        ends = (row for row in (rows[:1] + rows[-1:]) if not row.timed_out)
         first += [row for row in ends if row not in first]
     return first
 
@@ -150,7 +148,7 @@ def row_of(campaign: c.Campaign) -> list[str]:
     """Shuffled worlds of the class, the same for either engine."""
     assert isinstance(campaign.worlds, c.Ranks)
     lots = Random(f"{campaign.seed} row")
-    # The shards of the reference: to list half a million worlds of the engine's takes seconds.
+    # The reference's shards: the engine's are too large to list.
     shards = list(c.Ranks(campaign.worlds.edges, campaign.worlds.kind).shards())
     row: list[str] = []
     for shard in lots.sample(shards, len(shards)):
@@ -171,7 +169,7 @@ def _rows(
     tell: Progress = no_progress,
     stop: c.Stop | None = None,
 ) -> list[Row]:
-    """The rows of the mapper in these worlds, in this order."""
+    """The rows of the mapper in these worlds."""
     listed = c.ListedWorlds(len(worlds))
     once = msgspec.structs.replace(campaign, worlds=listed, keep="all", stop=stop or c.Stop())
     named = [(name, World.from_id(name)) for name in worlds]
@@ -181,12 +179,11 @@ def _rows(
 def _alone(
     campaign: c.Campaign, shards: Iterator[c.Shard], _in_flight: c.InFlight
 ) -> c.ShardResults:
-    """Each shard in a fresh process of the mapper."""
     text = campaign.mappers[0]
     if text.startswith(PREFIX):
         for shard in shards:
             with _program(text) as program:
-                program.start()  # here, where no time limit counts it
+                program.start()  # before any time limit
                 yield shard, c.examine(campaign, (program.target,), shard)
         return
     with Foreign(text, fresh=True) as program:
@@ -198,13 +195,12 @@ def _alone(
 def _one_process(
     campaign: c.Campaign, shards: Iterator[c.Shard], in_flight: c.InFlight
 ) -> c.ShardResults:
-    """All shards in one process of the mapper."""
     with _program(campaign.mappers[0]) as program:
         program.start()
-        if campaign.engine == "compiled":  # it called a native mapper
+        if campaign.engine == "compiled":
             from topo_verify.campaign.compiled_shard import CompiledChecks
 
-            checks = CompiledChecks()  # as in the search
+            checks = CompiledChecks()
             for shard in shards:
                 yield shard, c.examine(campaign, (program.target,), shard, known=checks)
             return
@@ -255,7 +251,7 @@ def _unlike(campaign: c.Campaign, row: Row, message: str, replay: str) -> Unlike
 
 
 def _reproduced(campaign: c.Campaign, world: str, before: Sequence[str]) -> str | None:
-    """A command that makes a world fail behind others in one process; None if none was found."""
+    """A command that makes a world fail behind others in one process, if found."""
     number = 1
     while before and number <= LONGEST:
         row = [*before[-number:], world]
@@ -271,7 +267,7 @@ def _reproduced(campaign: c.Campaign, world: str, before: Sequence[str]) -> str 
 
 
 def _before(campaign: c.Campaign, row: Row) -> list[str]:
-    """The last worlds of the class before one, in their order."""
+    """The last worlds of the class before one."""
     assert isinstance(campaign.worlds, c.Ranks)
     worlds: list[str] = []
     for edges in range(row.edges, 0, -1):

@@ -3,8 +3,7 @@
 reference    the reference policies alone (and a mapper without policies)
 all          every named pick policy with every named order policy, `random` with a few seeds
 every        every choice that any policy could make, by searching states (`states/`): a vertex
-             with four loops has over a hundred million runs; and every named policy, in worlds
-             of up to 4 edges
+             with four loops has over a hundred million runs
 """
 
 from __future__ import annotations
@@ -39,7 +38,6 @@ WAYS: dict[Choices, str | None] = {
 """The `ways` of a campaign."""
 
 SEEDS = 3
-"""Seeds of `random` among all policies."""
 
 Once = Callable[[Target], Attempt]
 """Makes one run of a mapper in the world at hand, and judges it."""
@@ -70,18 +68,18 @@ def require_choices(targets: Iterable[Target], choices: Choices, edges: int) -> 
 
 
 def reports_of(campaign: Campaign, target: Target, world: World) -> Iterator[Report]:
-    """The reports of a mapper's runs in a world, one for each way of choosing."""
+    """The reports of a mapper in a world, one for each way of choosing."""
     ways = {WAYS["all"]: by_name, WAYS["every"]: every}[campaign.ways]
 
     def once(variant: Target) -> Attempt:
         where = world_argument(world)
         return attempt(world, variant, campaign.limits, where=where, witness=False)
 
-    return (made.report for made in ways(target, world, once))
+    return (run.report for run in ways(target, world, once))
 
 
 def named(target: Target) -> tuple[Target, ...]:
-    """The mapper with each pair of named policies, the reference policies first."""
+    """The mapper with each pair of named policies, reference first."""
     assert isinstance(target.mapper, Algorithm)
     return _named(target.text, target.mapper)
 

@@ -1,8 +1,5 @@
 """The search: a mapper in every world of a class, up to the smallest counterexample or EXHAUSTED.
 
-`search` does it in one call. `Search` does it in steps, with a store, and keeps its results when it
-is cut off.
-
 EXHAUSTED compares two numbers that are computed apart: in how many worlds mappers ran, and how many
 there are (`WorldClass.count`). A difference is a bug of ours.
 """
@@ -138,11 +135,11 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
 
     Attributes:
         edges: worlds of 1 to this many are asked for.
-        checked: in how many worlds every run was judged; undecided worlds are left out.
+        checked: in how many worlds every run was judged.
         counterexample: the smallest, by (edges, rank).
         claims: of each claim that fails, in how many worlds, and the smallest.
         not_declared: the claims that no run declared anything about.
-        from_ledger: in how many worlds mappers ran before, as the store says; in the rest, now.
+        from_ledger: in how many worlds mappers ran before, as the store says.
         lost: worlds in which a worker was lost, perhaps not by the mapper's fault.
         run_again: what came of the worlds that were run again, alone and in a row.
         engine: what ran and judged; judged_by: the same in words.
@@ -184,7 +181,7 @@ def search_campaign(  # noqa: PLR0913  an argument an option
     in_process: bool = True,
     engine: Engine | None = None,
 ) -> c.Campaign:
-    """The campaign of a search; `engine` None: compiled for a native mapper, else reference.
+    """The campaign of a search; default engine: compiled for a native mapper, else reference.
 
     Raises:
         InputError: a mapper has no such policies, or the engine cannot run it.
@@ -236,12 +233,11 @@ def search(  # noqa: PLR0913  an argument an option
 
     Args:
         target: a callable or a TARGET. A text that names several runs them in each world together.
-        world_class: default: all worlds.
         keep_going: do not stop at the first counterexample.
         policies: which choices an algorithm of the catalogue is tried with; `choices.py`.
         workers: number of worker processes; 0: this one. Workers are handed the TARGET's text.
-        dask: the address of a Dask scheduler, or `local`: its workers in place of processes here.
-        engine: what runs algorithms of the catalogue and native mappers; `campaign/compiled.py`.
+        dask: the address of a Dask scheduler, or `local`.
+        engine: what runs algorithms of the catalogue and native mappers.
     Raises:
         InputError: no such mapper; nothing knows how many worlds the class has; and the like.
         InternalError: mappers ran in another number of worlds than there are.
@@ -274,7 +270,7 @@ def search(  # noqa: PLR0913  an argument an option
 
 
 def _require_texts(mappers: Sequence[Target]) -> None:
-    """Raise an InputError unless other processes can find these mappers by their texts."""
+    """Raise an InputError unless other processes can find these mappers."""
     for mapper in mappers:
         if isinstance(mapper.mapper, Program):
             continue
@@ -296,8 +292,7 @@ class Search:
     """A search in steps. Life cycle: `work`, then `entry`, also if the work was cut off.
 
     Args:
-        campaign: of `search_campaign`.
-        mappers: its targets, as they run in this process.
+        mappers: the campaign's targets, as they run in this process.
         store: the results of finished shards.
     Raises:
         InputError: nothing knows how many worlds there are.
@@ -362,10 +357,7 @@ class Search:
 
     @property
     def failing(self) -> list[Row]:
-        """The failing rows that are kept, in the order of their worlds.
-
-        A row that differed when it was run again replaces the first one.
-        """
+        """The failing rows in order; rows of runs again replace the first ones."""
         rows = {(row.edges, row.place, row.turn): row for row in self.rows if row.failed}
         for row in () if self.again is None else self.again.rows:
             rows[row.edges, row.place, row.turn] = row

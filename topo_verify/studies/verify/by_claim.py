@@ -1,7 +1,5 @@
 """One mapper in every world of 1 to N edges, with a verdict for each claim.
 
-For each claim that fails the first failing world is kept, which is one of the smallest.
-
 | verdict | meaning |
 | --- | --- |
 | `holds` | the claim holds in every world |
@@ -38,7 +36,7 @@ class ClaimResults:
     Attributes:
         first: the first finding of each claim that fails.
         raised: by the world of such a finding: the line at which the mapper raised an exception.
-        reports: by the world of such a finding: the report, which has the walk.
+        reports: by the world of such a finding.
     """
 
     edges: int
@@ -49,26 +47,26 @@ class ClaimResults:
 
     def verdict(self, claim: str) -> ClaimVerdict:
         """The verdict on one claim."""
-        seen = self.part.claims[claim]
-        if seen["failed"]:
+        runs = self.part.claims[claim]
+        if runs["failed"]:
             return "fails"
-        # The numbers of one claim add up to fewer runs than worlds if a run was undecided.
-        if sum(seen.values()) < self.part.total or seen["undecided"]:
+        # Fewer runs than worlds if a run was undecided.
+        if sum(runs.values()) < self.part.total or runs["undecided"]:
             return "undecided"
-        return "holds" if seen["ok"] == self.part.total else "not-declared"
+        return "holds" if runs["ok"] == self.part.total else "not-declared"
 
     def text(self, claim: str) -> str:
-        """The verdict in words: in how many worlds, first in which, why, and the replay command."""
-        seen, worlds = self.part.claims[claim], self.part.total
+        """The verdict in words."""
+        runs, worlds = self.part.claims[claim], self.part.total
         match self.verdict(claim):
             case "fails":
-                return self._failure(claim, seen["failed"])
+                return self._failure(claim, runs["failed"])
             case "undecided":
                 return shown(f"{claim} is undecided: {self.part.summary}", limit=LINE)
-            case "not-declared" if not seen["ok"] + seen["partial"]:
+            case "not-declared" if not runs["ok"] + runs["partial"]:
                 return f"{claim}: not judged, since the mapper declares none of its decisions"
             case "not-declared":
-                some = f"in {seen['ok']:,} of {worlds:,} worlds, where it holds"
+                some = f"in {runs['ok']:,} of {worlds:,} worlds, where it holds"
                 return f"{claim}: the mapper declares its decisions {some}, and not all in others"
             case "holds":
                 return f"{claim} holds in {worlds:,} worlds of 1 to {self.edges} edges"
@@ -129,13 +127,12 @@ def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:
     raised: dict[str, str] = {}
     reports: dict[str, Report] = {}
 
-    def look(made: Attempt) -> None:
-        # Worlds come smallest first, so the first finding of a claim is in a smallest world.
-        for finding in () if undecided(made.run, made.report) else made.report.findings:
+    def look(attempt: Attempt) -> None:
+        for finding in () if undecided(attempt.run, attempt.report) else attempt.report.findings:
             if first.setdefault(finding.claim, finding) is finding:
-                reports.setdefault(finding.world, made.report)
-                if made.run.error is not None:
-                    raised[finding.world] = _place(made.run.error)
+                reports.setdefault(finding.world, attempt.report)
+                if attempt.run.error is not None:
+                    raised[finding.world] = _place(attempt.run.error)
 
     trials = Trials(
         name=target.text,

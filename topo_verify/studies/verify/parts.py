@@ -4,9 +4,7 @@
 compares three numbers that are computed otherwise: the sum of completions F, a recurrence in the
 number of edges, and Tutte's number of planar worlds.
 
-**proofs.** The inductive theorems, the negatives and the mutants. They are about the rules of the
-catalogue, not about a user's mapper; tests compare the algorithms with these rules, decision by
-decision. What this does not show: see docs/proofs.md.
+**proofs.** The inductive theorems, the negatives and the mutants, about the rules of the catalogue.
 """
 
 from __future__ import annotations
@@ -53,8 +51,7 @@ class Part(msgspec.Struct, frozen=True):
 
     Attributes:
         part: its name.
-        verdict: PROVED: of worlds of any size. EXHAUSTED: every world of a finite class, `checked`
-            equals `total`.
+        verdict: PROVED: of worlds of any size. EXHAUSTED: every world of a finite class.
         ok: there is no finding, and every world was judged.
         checked, total: the worlds that were decided, and all worlds of the part.
         summary: one sentence.
@@ -105,10 +102,10 @@ class WorldCounts:
         self.wrong: list[Finding] = []
 
     def work(self, tell: Progress) -> None:
-        """Enumerate the worlds, by their number of edges, and compare the numbers."""
+        """Enumerate the worlds of each size, and compare the numbers."""
         before = 0
         for edges in range(1, self.edges + 1):
-            different: set[rank_order.Table] = set()  # a set: a table that comes twice counts once
+            different: set[rank_order.Table] = set()
             planar = 0
             for table in rank_order.tables(edges):
                 different.add(table)
@@ -122,15 +119,15 @@ class WorldCounts:
             self._compare(edges, "the recurrence", number, len(different))
             self._compare(edges, "the planar formula", rank_order.count_planar(edges), planar)
 
-    def _compare(self, edges: int, source: str, expected: int, seen: int) -> None:
-        if expected != seen:
+    def _compare(self, edges: int, source: str, expected: int, number: int) -> None:
+        if expected != number:
             self.wrong.append(
                 Finding(
                     claim="counts",
                     event=None,
                     expected=expected,
-                    seen=seen,
-                    message=f"with {plural(edges, 'edge')} {seen} worlds are listed, {source} says"
+                    seen=number,
+                    message=f"with {plural(edges, 'edge')} {number} worlds are listed, {source} says"
                     f" {expected}",
                     world=f"m{edges}",
                     replay=f"topo-verify world count --edges {edges}",
@@ -160,16 +157,11 @@ class WorldCounts:
 # ---------------------------------------------------------------- theorems
 
 TIMEOUT = 20.0
-"""Seconds for each question to Z3; each takes less than one."""
+"""Seconds for each question to Z3."""
 
 
 class Proofs:
-    """Proves the theorems that take seconds. A `PartJob`.
-
-    Args:
-        theorems: default: all inductive ones, negatives and mutants.
-        quick: only the inductive ones, which take two seconds.
-    """
+    """Proves the theorems that take seconds; `quick`: the inductive ones alone. A `PartJob`."""
 
     def __init__(self, theorems: Iterable[Theorem] | None = None, *, quick: bool = False) -> None:
         self._quick = quick
@@ -192,7 +184,7 @@ class Proofs:
     def part(self, *, interrupted: bool = False) -> Part:
         """The result so far."""
         standings = Counter(theorem.status(outcome) for theorem, outcome in self.done)
-        # No theorem at all (an interrupt before the first) is not a proof of anything.
+        # No theorem proves nothing.
         whole = len(self.done) == self.total > 0 and not interrupted
         verdict: Verdict = "UNKNOWN"
         if standings["failed"]:
@@ -218,7 +210,10 @@ class Proofs:
         ok = Counter[str](theorem.kind for theorem, outcome in self.done if theorem.ok(outcome))
         all_of = Counter[str](theorem.kind for theorem, _ in self.done)
         replays = [outcome.replayed for _, outcome in self.done if outcome.replayed is not None]
-        came, found = sum(one[0] for one in replays), sum(one[1] for one in replays)
+        confirmed, models = (
+            sum(replay[0] for replay in replays),
+            sum(replay[1] for replay in replays),
+        )
         forms = {
             "inductive": "{} of {} theorems proved for any size",
             "bounded": "{} of {} exhausted",
@@ -226,7 +221,7 @@ class Proofs:
             "mutant": "{} of {} mutants refuted",
         }
         words = [form.format(ok[kind], n) for kind, form in forms.items() if (n := all_of[kind])]
-        words += [f"{came} of {found} models replayed"] if found else []
+        words += [f"{confirmed} of {models} models replayed"] if models else []
         undecided = [t.name for t, outcome in self.done if t.status(outcome) == "open"]
         if undecided:
             words.append(f"not decided: {', '.join(undecided[:3])}")

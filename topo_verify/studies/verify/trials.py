@@ -3,9 +3,8 @@
 A part goes on after a counterexample, to count the failing worlds. It stops early after a few
 time-outs, and, if asked to, after a few failing worlds.
 
-Where the compiled engine is installed, `small-worlds` goes one size further for algorithms of the
-catalogue. The engine must count in the smaller sizes what the checkers counted; a difference is a
-bug of ours.
+With the compiled engine, `small-worlds` goes one size further for algorithms of the catalogue. The
+engine must count in the smaller sizes what the checkers counted.
 
 Algorithms of the catalogue run in worker processes: the small worlds in one campaign, the worlds of
 all later parts in another (`Together`), so that no processor idles at the end of a part.
@@ -50,9 +49,7 @@ class Trials:
         about: which worlds these are, in words that follow "792 worlds".
         total: the number of worlds, counted apart from them.
         worlds: each with its name, smallest first.
-        finite: the worlds are all of a finite class.
         max_failing: stop after this many failing worlds.
-        look: called for every run.
         together: runs the mappers, in the worlds of other parts as well; None: they run here.
     """
 
@@ -77,14 +74,14 @@ class Trials:
         return c.Stop(self.max_failing, MAX_TIMEOUTS)
 
     def work(self, tell: Progress) -> None:
-        """Run the mappers in one world after the other, until too many time out or fail."""
+        """Run the mappers until too many worlds time out or fail."""
         if self.together is not None:
             self.together.work(self, tell)
             return
         campaign = _campaign(c.ListedWorlds(self.total), self.targets, self.limits, self.stop)
         backend = here(self.targets, look=self.look)
-        told = _naming(self.name, tell)
-        for _, result in c.results(campaign, backend, self.worlds, tell=told):
+        tell_part = _naming(self.name, tell)
+        for _, result in c.results(campaign, backend, self.worlds, tell=tell_part):
             self.enter(result.tally, result.rows)
 
     def enter(self, tally: Tally, rows: Sequence[Row]) -> None:
@@ -161,7 +158,7 @@ class Trials:
 class Together:
     """Runs algorithms of the catalogue in the worlds of several parts, in worker processes.
 
-    Life cycle: `with` it, which ends the workers; `work` of each part, in any order.
+    Life cycle: `with` it, then `work` of each part, in any order.
     """
 
     def __init__(self, parts: Sequence[Trials]) -> None:
@@ -202,12 +199,12 @@ def _naming(name: str, tell: Progress) -> Progress:
 
 
 def with_ids(worlds: Iterable[World]) -> list[tuple[str, World]]:
-    """Worlds with the names by which the command line finds them again."""
+    """Worlds with their names on the command line."""
     return [(world_argument(world), world) for world in worlds]
 
 
 def part_claims(statuses: dict[str, dict[str, int]]) -> dict[str, dict[str, int]]:
-    """For each claim, in how many runs it has which of the statuses that a part reports."""
+    """For each claim, in how many runs it has which status."""
     return {
         claim: {status: statuses.get(claim, {}).get(status, 0) for status in get_args(Status)}
         for claim in CLAIMS
@@ -226,14 +223,14 @@ def claims_in_words(claims: dict[str, dict[str, int]]) -> str:
 
 
 class EngineCounts(msgspec.Struct, frozen=True):
-    """What the compiled engine counts in small worlds: the tally of each size, and notable rows."""
+    """The engine's tally of each size of small worlds, and notable rows."""
 
     tallies: dict[int, Tally]
     rows: tuple[Row, ...]
 
 
 def engine_counts(edges: int, targets: Sequence[Target]) -> EngineCounts:
-    """The engine's counts in every world of 1 to `edges` edges, in this process.
+    """The engine's counts in every world of 1 to `edges` edges.
 
     Raises:
         InternalError: the engine and the checkers disagree in a world that both judge.
@@ -251,11 +248,9 @@ def engine_counts(edges: int, targets: Sequence[Target]) -> EngineCounts:
 class SmallWorlds(Trials):
     """Runs every mapper in every world of 1 to `edges` edges. A `PartJob`.
 
-    A user's mapper runs in this process, so that Ctrl-C reaches it.
-
     Args:
         further: counts one size more by the compiled engine.
-        workers: number of worker processes; 0: this one.
+        workers: number of worker processes; 0: this one, so that Ctrl-C reaches a user's mapper.
     """
 
     def __init__(
@@ -328,7 +323,7 @@ class SmallWorlds(Trials):
 class CostTrial(Trials):
     """Runs every mapper in one world and reports what each pays there. A `PartJob`.
 
-    A user's mapper is shown beside the catalogue. The verdict is SAMPLED at best.
+    A user's mapper is shown beside the catalogue.
     """
 
     def __init__(

@@ -11,9 +11,6 @@
 | `generated-worlds` | 160 worlds as property tests draw them, 20 of each strategy | 40 |
 | `street-network` | a real street network, and the cost of each mapper there | the same |
 
-For algorithms of the catalogue all processors work from the start: theorems, the compiled engine
-and the drawing of worlds in processes of their own (`Beside`), the runs in worker processes.
-
 Uniformly drawn worlds have few vertices and many handles. Lattices, trees and worlds with many
 similar places are rare among them; the strategies draw these on purpose.
 """
@@ -72,15 +69,10 @@ def verify(
 
     On KeyboardInterrupt the current part is yielded with its results so far; then the exception is
     raised again.
-
-    Args:
-        quick: use the smaller sizes.
-        seed: of the sampled worlds.
-        limits: of each run of a mapper.
     """
     with ExitStack() as stack:
         beside = None
-        if not quick and all(CATALOGUE.get(one.text) == one.mapper for one in targets):
+        if not quick and all(CATALOGUE.get(target.text) == target.mapper for target in targets):
             names = ",".join(target.text for target in targets)
             calls = Beside(
                 task_result, TASKS, (names, seed), result=BesideResult, workers=len(TASKS)
@@ -96,7 +88,7 @@ def verify(
 
 
 def left_out(targets: Sequence[Target]) -> tuple[str, ...]:
-    """The parts that are not done for these mappers: none if one is of the catalogue."""
+    """The parts that are left out for these mappers."""
     ours = any(CATALOGUE.get(target.text) == target.mapper for target in targets)
     return () if ours else ("counts", "proofs")
 
@@ -126,7 +118,7 @@ def _jobs(
     street = CostTrial("street-network", "nyc", resolve_world("nyc"), targets, limits)
     if beside is None:
         yield sampled
-    # Drawing takes seconds: this generator gets here only when the parts above are done.
+    # Drawing takes seconds.
     if beside is None:
         worlds = generated_worlds(5 if quick else EACH, seed)
     else:
@@ -136,7 +128,7 @@ def _jobs(
     if beside is None:
         yield from (generated, street)
         return
-    # The longest task first: it must not be the last to end.
+    # The longest task first.
     with Together((street, sampled, generated)) as together:
         for part in (sampled, generated, street):
             part.together = together
@@ -170,7 +162,7 @@ class BesideResult(msgspec.Struct, frozen=True):
 
 
 TASKS = ("engine", "proofs", "drawing")
-"""The tasks that need no other part first, each done in its own process."""
+"""Done in processes of their own from the start."""
 
 
 def task_result(task: str, targets: str, seed: int) -> BesideResult:

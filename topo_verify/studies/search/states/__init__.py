@@ -4,11 +4,8 @@ script.py    one run of a mapper that is told its choices one by one
 memory.py    when two moments of two runs are the same state
 graph.py     the reference: the states of a world and the choices between them, for every rule
 every.py     a search's runs in one world, and the range of its costs
-kernel.py    a faster model for worlds of 5 and 6 edges and rules without memory, compiled
+kernel.py    a faster model for rules without memory, compiled; tests compare it with graph.py
 behind.py    what may happen behind one e, for the kernel
 best.py      a cheapest and a most expensive run, from the kernel's tables
 table.py     a world as the kernel takes it, and what the kernel found
-
-Tests compare kernel.py with graph.py in both costs, and in states and choices without what tells
-runs of the same S apart.
 """

@@ -5,8 +5,6 @@
 
 Judged in every state: the true hypothesis is neither killed nor found to differ on its way (claim
 3), and no other way home shows what it should (4). Rejections rest on a percept that differs (8).
-
-`world` and S are as in `kernel.py`.
 """
 
 from __future__ import annotations
@@ -15,14 +13,11 @@ from topo_verify.compiled.kernel import WordTable, entry, kernel
 from topo_verify.compiled.names import Words
 
 NONE, PREFIX, HISTORY = 0, 1, 2
-"""The rules, as numbers."""
 
 VERTICES, UNKNOWN, NEVER = 8, 15, 1 << 40
-"""The most vertices in a key; what stands for no dart, and for no cost."""
+"""Most vertices in a key; no dart; no cost."""
 
 GOOD, KILLED, DIFFERS, CONFIRMED, FULL = 0, 1, 2, 3, 4
-"""What is wrong: a true hypothesis rejected by the rule, by motion; a false one confirmed. `FULL`:
-`kernel.py` has no room."""
 
 
 @kernel
@@ -37,7 +32,7 @@ def turned(world: WordTable, dart: int, door: int) -> int:
 def outward(
     world: WordTable, explored: int, entries: int, root: int, tree: Words, depth: Words,
 ) -> None:  # fmt: skip
-    """Breadth-first search on S: of each vertex its dart towards the root, and its distance."""
+    """Breadth-first search on S: each vertex's dart towards the root, and its distance."""
     for vertex in range(VERTICES):
         depth[vertex], tree[vertex] = -1, -1
     depth[root] = 0
@@ -192,7 +187,7 @@ def price(row: WordTable, place: int, last: int, count: int, overlap: int) -> in
     if last == count:
         return walked
     shared = shared_doors(row, place, last)
-    if shared == row[place, 0]:  # it was walked already, and stands where it ends
+    if shared == row[place, 0]:  # walked already
         return 0
     return row[last, 1] - shared + walked - shared
 
@@ -214,7 +209,7 @@ def same_walk(row: WordTable, place: int) -> int:
 def ordered(
     row: WordTable, kills: Words, facts: Words, overlap: int, best: WordTable, ends: Words,
 ) -> None:  # fmt: skip
-    """The range of the costs behind e, and the number of states, over all that may be tried.
+    """The range of the costs behind e, and the number of states.
 
     `best[remaining * (count + 1) + last]` gets the least and the most that is still to be paid.
     """
@@ -232,10 +227,10 @@ def ordered(
             for place in range(count):
                 if allowed >> place & 1:
                     ways += 1
-                    left = remaining & ~kills[place]
-                    if row[place, 2] >= 0 and left:
+                    remaining_then = remaining & ~kills[place]
+                    if row[place, 2] >= 0 and remaining_then:
                         after = same_walk(row, place) if overlap and row[place, 1] else count
-                        best[left * wide + after, 0] = NEVER
+                        best[remaining_then * wide + after, 0] = NEVER
             if ways > 1:
                 ends[2] += 1
                 ends[3] += ways
@@ -259,16 +254,16 @@ def tried(
     row: WordTable, kills: Words, count: int, overlap: int, best: WordTable, remaining: int,
     last: int, place: int,
 ) -> tuple[int, int]:  # fmt: skip
-    """The least and the most that is paid from a state on if this hypothesis is tried."""
+    """The least and the most that is paid from a state on by trying this hypothesis."""
     paid = price(row, place, last, count, overlap)
     if row[place, 2] < 0:
         return paid, paid
-    left = remaining & ~kills[place]
-    if not left:  # the robot goes back to vu
+    remaining_then = remaining & ~kills[place]
+    if not remaining_then:  # the robot goes back to vu
         paid += row[place, 1] if overlap else 0
         return paid, paid
     after = same_walk(row, place) if overlap and row[place, 1] else count
-    index = left * (count + 1) + after
+    index = remaining_then * (count + 1) + after
     return paid + best[index, 0], paid + best[index, 1]
 
 
@@ -277,7 +272,7 @@ def behind(
     world: WordTable, explored: int, entries: int, tree: Words, e: int, rule: int, overlap: int,
     darts: Words, row: WordTable, kills: Words, facts: Words, best: WordTable, ends: Words,
 ) -> None:  # fmt: skip
-    """All that may happen behind e: `facts` and `ends` say what is wrong, the costs, the counts."""
+    """All that may happen behind e: `facts` and `ends` get what is wrong, costs, counts."""
     pose(world, explored, entries, tree, e, rule, darts, row, kills, facts)
     if facts[0] == 0:
         ends[0], ends[1], ends[2], ends[3] = 0, 0, 0, 0

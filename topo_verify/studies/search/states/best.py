@@ -72,8 +72,8 @@ class Tables:
             vertex = int(self.world[1, e])
             if not explored >> e & 1 and entries >> 4 * vertex & 15 != b.UNKNOWN:
                 number, there = divmod(int(self._low[here, e, 2]), b.VERTICES)
-                left = self._low[here, e, end] + self._cost[number, there, end]
-                if self._depth[vertex] + 1 + left == self._cost[here, at, end]:
+                to_pay = self._low[here, e, end] + self._cost[number, there, end]
+                if self._depth[vertex] + 1 + to_pay == self._cost[here, at, end]:
                     return e
         raise AssertionError("some way has the least cost")
 
@@ -85,13 +85,13 @@ class Tables:
             mask = self._tie(self._row, remaining, last, count, self._overlap and not free)
             allowed = [place for place in range(count) if mask >> place & 1]
             if free:  # the true one first, or last
-                place = min(allowed, key=lambda one: (one == true) == bool(end))
+                place = min(allowed, key=lambda option: (option == true) == bool(end))
             else:
                 index = remaining * (count + 1) + last
                 place = next(
-                    one
-                    for one in allowed
-                    if self._paid(remaining, last, one)[end] == self._best[index, end]
+                    option
+                    for option in allowed
+                    if self._paid(remaining, last, option)[end] == self._best[index, end]
                 )
             yield int(self._darts[place])
             if self._row[place, 2] < 0:

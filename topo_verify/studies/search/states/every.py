@@ -2,12 +2,11 @@
 
     worlds of up to 4 edges   decided by the mapper: its states are found by running it, and each
                               choice lies on a run that is judged by every claim; `graph.py`
-    5 and 6 edges             decided by a model (`kernel.py`) of the rules `none`, `prefix` and
-                              `history`, which judges claims 3 and 4 in each state; the cheapest and
-                              the most expensive run are the mapper's, judged by every claim
+    5 and 6 edges             decided by a model (`kernel.py`), which judges claims 3 and 4 in each
+                              state; the cheapest and the most expensive run are the mapper's,
+                              judged by every claim
 
-Every named policy runs, too, in a world that the mapper decides, and the reference policies in a
-larger one: the script replaces the policies' code.
+Named policies run, too: the script replaces their code.
 
 The model is not the mapper, so a search that it decides is SAMPLED. If the mapper's two runs cost
 something else, that is a bug of ours. If the model finds something wrong, running the mapper must
@@ -44,7 +43,6 @@ from topo_verify.studies.search.states.script import (
 from topo_verify.world.rooted_map import World
 
 Decider = Literal["mapper", "model"]
-"""The code that is shipped, or a second one."""
 
 MOST_BY_MAPPER = 4
 
@@ -73,7 +71,7 @@ def decided_by(edges: int) -> Decider:
 
 
 def require_edges(text: str, algorithm: Algorithm, edges: int) -> None:
-    """Raise an InputError unless every choice can be searched in worlds with `edges` edges."""
+    """Raise an InputError unless every choice can be searched in such worlds."""
     known = table.is_known(algorithm)
     most = MOST_BY_MODEL if known else MOST_BY_MAPPER
     if edges > most:
@@ -87,7 +85,7 @@ def require_edges(text: str, algorithm: Algorithm, edges: int) -> None:
 
 
 def judged_by(edges: int) -> str:
-    """What judged the choices in worlds with `edges` edges, in words."""
+    """What judged the choices in such worlds, in words."""
     if decided_by(edges) == "mapper":
         return "every claim, on a run for each choice"
     return "a model: claims 3 and 4 in each state; every claim on three runs of the mapper"
@@ -110,24 +108,21 @@ def every_choice(
     """
     algorithm = cast("Algorithm", target.mapper)
     if decided_by(len(world.edges)) == "mapper":
-        found, runs = _by_running(target.text, algorithm, world, run)
+        costs, runs = _by_running(target.text, algorithm, world, run)
     else:
-        found, runs = _by_kernel(target.text, algorithm, world, run)
+        costs, runs = _by_kernel(target.text, algorithm, world, run)
         named = named[:1]
     by_name = [run(variant) for variant in named]
-    if found is not None and all(made.report.ok for made in by_name):
+    if costs is not None and all(attempt.report.ok for attempt in by_name):
         reference = by_name[0].run.cost
-        saved = MostSaved(world_argument(world), reference, found.cheapest)
-        costs = PolicyCosts(1, *found[:3], reference, found.dearest, saved)
-        by_name[-1] = replace(by_name[-1], choices=costs)
+        saved = MostSaved(world_argument(world), reference, costs.cheapest)
+        policy_costs = PolicyCosts(1, *costs[:3], reference, costs.dearest, saved)
+        by_name[-1] = replace(by_name[-1], choices=policy_costs)
     yield from (*runs, *by_name)
 
 
 def cost_range(graph: StateGraph) -> CostRange:
-    """The range of the costs of a completed graph.
-
-    The cost so far is in the state, so each possible cost is that of a run made.
-    """
+    """The range of the costs of a completed graph, whose states include the cost so far."""
     costs = [path.tried.run.cost for path in graph.paths]
     return CostRange(len(graph.nodes), graph.choices, min(costs), max(costs))
 
@@ -146,33 +141,33 @@ def _by_running(
 def _by_kernel(
     text: str, algorithm: Algorithm, world: World, run: Run
 ) -> tuple[CostRange | None, list[Attempt]]:
-    found = table.found_in(world, algorithm)
-    if found.wrong:
+    model = table.found_in(world, algorithm)
+    if model.wrong:
         return _require_failing(world, *_by_running(text, algorithm, world, run))
     runs: list[Attempt] = []
-    for order, cost in ((found.cheap, found.cheapest), (found.dear, found.dearest)):
-        made = RecordedChoices(table.Ordered(world, order))
-        tried = run(Target(text, scripted(algorithm, made)))
+    for order, cost in ((model.cheap, model.cheapest), (model.dear, model.dearest)):
+        chooser = RecordedChoices(table.Ordered(world, order))
+        tried = run(Target(text, scripted(algorithm, chooser)))
         if not tried.report.ok:  # here, by other choices than the model judged
             return _by_running(text, algorithm, world, run)
         if tried.run.cost != cost:
             raise InternalError(
                 f"{text} in {world_argument(world)} costs {tried.run.cost} where the model says"
-                f" {cost}: --choices {choices_text(made.choices)}"
+                f" {cost}: --choices {choices_text(chooser.choices)}"
             )
         runs.append(tried)
-    return CostRange(*found[1:5]), runs
+    return CostRange(*model[1:5]), runs
 
 
 def _require_failing(
-    world: World, found: CostRange | None, runs: list[Attempt]
+    world: World, costs: CostRange | None, runs: list[Attempt]
 ) -> tuple[CostRange | None, list[Attempt]]:
-    if found is not None:
+    if costs is not None:
         raise InternalError(
             f"the model finds a claim false in {world_argument(world)}, and no run of the mapper"
             " shows it"
         )
-    return found, runs
+    return costs, runs
 
 
 # ---------------------------------------------------------------- runs that can be had again
@@ -195,7 +190,7 @@ class RecordedChoices:
 
 
 def replayable(tried: Attempt, text: str, choices: tuple[int, ...]) -> Attempt:
-    """The run; its findings name the command that makes the same choices again."""
+    """The run, whose findings name the command that makes the same choices."""
     if tried.report.ok:
         return tried
     report = with_choices(tried.report, text, choices, tried.run.limits)
@@ -203,7 +198,7 @@ def replayable(tried: Attempt, text: str, choices: tuple[int, ...]) -> Attempt:
 
 
 def with_choices(report: Report, text: str, choices: tuple[int, ...], limits: Limits) -> Report:
-    """The report; its findings name the command that makes the same choices again."""
+    """The report, whose findings name the command that makes the same choices."""
     chosen = choices_text(choices)
     words = ["topo-verify", "explore", report.world, "--target", text, "--choices", chosen]
     replay = shlex.join([*words, *limits.options])
@@ -245,5 +240,5 @@ class ListedChoices:
         return replace(run, mapper=None)
 
     def named(self, report: Report, limits: Limits) -> Report:
-        """The report; its findings name the command that makes the same choices."""
+        """The report, whose findings name the command that makes the same choices."""
         return with_choices(report, self.target.text, self._choices, limits)

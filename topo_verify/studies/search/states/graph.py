@@ -1,12 +1,8 @@
 """All states of one world and the choices between them, found by running the mapper.
 
-`StateGraph` runs the mapper with a list of choices until every way of every state lies on a judged
-run. A state met before is not searched again: states are few where runs are beyond counting.
-
-One run for a way suffices (`memory.py`): two moments are one state only if all that the mapper
-keeps is equal, and all of the past that a later judgement depends on. So what follows on one run is
-what follows on any other. `StateGraph` checks that a known state has as many ways and moves as
-before.
+`StateGraph` runs the mapper with lists of choices until every way of every state lies on a judged
+run. One run for a way suffices (`memory.py`): what follows on one run is what follows on any other.
+The graph checks that a known state has as many ways and moves as before.
 """
 
 from __future__ import annotations
@@ -25,8 +21,7 @@ from topo_verify.studies.search.states.script import ChoicePoint, scripted
 from topo_verify.world.rooted_map import World
 
 END, LOST = -1, -2
-"""Behind a way there is no state: the run ends; or S is no map, since a claim has failed, or the
-clock stopped the run."""
+"""The run ends; a claim has failed, or the clock stopped the run."""
 
 
 @dataclass
@@ -72,11 +67,8 @@ class StateGraph:
 
     Args:
         judged: runs a mapper in the world and judges it.
-
     Attributes:
         start: the first state, `END` or `LOST`; None before the first run.
-        nodes: the states, in the order in which they were met.
-        paths: the runs.
     """
 
     algorithm: Algorithm
@@ -106,14 +98,14 @@ class StateGraph:
         broken: Exception | None = None
 
         def chooser(moment: ChoicePoint) -> int:
-            # What is raised here would count as the mapper's own: so it is kept until the end.
+            # Raised at the end: here it would count as the mapper's.
             nonlocal lost, broken
             number = LOST
             try:
                 number = LOST if lost else self._number(moment, passed)
-            except Exception as error:  # noqa: BLE001  whatever is wrong, it is raised below
+            except Exception as error:  # noqa: BLE001  raised below
                 broken = broken or error
-            if number == LOST:  # the run ends as it may
+            if number == LOST:
                 lost = True
                 return 0
             way = self.nodes[number].open or 0
@@ -127,7 +119,7 @@ class StateGraph:
             raise broken
         lost = lost or tried.run.limit in ("move-timeout", "world-timeout")
         self._lead(passed, LOST if lost else END)
-        return JudgedPath(tuple(one.taken for one in passed), tried, tuple(passed))
+        return JudgedPath(tuple(step.taken for step in passed), tried, tuple(passed))
 
     def _number(self, moment: ChoicePoint, passed: Sequence[_Passed]) -> int:
         """The number of the state at a moment, or `LOST`."""
@@ -135,7 +127,7 @@ class StateGraph:
         if number is None and (kept := state(moment, self.world)) is not None:
             number = self._numbers.setdefault(kept, len(self.nodes))
             if number == len(self.nodes):
-                taken = tuple(one.taken for one in passed)
+                taken = tuple(step.taken for step in passed)
                 self.nodes.append(ChoiceState(taken, moment.moves, [None] * len(moment.ways)))
             self._lead(passed, number)
         if number in (None, LOST):
@@ -170,14 +162,11 @@ class StateGraph:
     # ------------------------------------------------------------ the shortest failing choices
 
     def shortest_failing(self) -> JudgedPath | None:
-        """The run with the fewest choices up to its first finding; None if no claim fails.
-
-        It is run again, by a shortest way to the failing state.
-        """
+        """The run with the fewest choices up to its first finding, if a claim fails."""
         failing = [path for path in self.paths if not path.tried.report.ok]
         culprits = dict.fromkeys(_culprit(path) for path in failing)
         ways = self._shortest()
-        rows = [() if one is None else (*ways[one[0]], one[1]) for one in culprits]
+        rows = [() if culprit is None else (*ways[culprit[0]], culprit[1]) for culprit in culprits]
         for row in sorted(rows, key=lambda row: (len(row), row)):
             path = self.run(row)
             if not path.tried.report.ok:
@@ -186,18 +175,18 @@ class StateGraph:
 
     def _shortest(self) -> dict[int, tuple[int, ...]]:
         """The fewest ways from the start to each state."""
-        found: dict[int, tuple[int, ...]] = {}
+        shortest: dict[int, tuple[int, ...]] = {}
         queue: deque[tuple[int, tuple[int, ...]]] = deque()
         if self.start is not None:
             queue.append((self.start, ()))
         while queue:
             number, choices = queue.popleft()
-            if number in (END, LOST) or number in found:
+            if number in (END, LOST) or number in shortest:
                 continue
-            found[number] = choices
+            shortest[number] = choices
             for way, to in self._taken(number):
                 queue.append((to, (*choices, way)))
-        return found
+        return shortest
 
     def _taken(self, number: int) -> Iterator[tuple[int, int]]:
         ways = self.nodes[number].ways
@@ -205,9 +194,9 @@ class StateGraph:
 
 
 def _culprit(path: JudgedPath) -> tuple[int, int] | None:
-    """The state and the way behind which a claim first fails; None: before any choice."""
+    """The state and way behind which a claim first fails; None: before any choice."""
     last = len(path.tried.run.trace)
     findings = path.tried.report.findings
     first = min(last if finding.event is None else finding.event for finding in findings)
-    before = [one for one in path.passed if one.events <= first]
+    before = [step for step in path.passed if step.events <= first]
     return (before[-1].node, before[-1].taken) if before else None

@@ -26,12 +26,10 @@ from topo_verify.studies.search.states.behind import (
 )
 
 STATES = WordLayout("states", {}, sources=(behind.__module__, __name__))
-"""The layout for `compiled/kernel.py`, without a workspace."""
 
 MOST_DARTS = 14
 
 KEY, REACHED, PLACE, SLOT = 0, 1, 2, 3
-"""Rows of the workspace: of each S its key, where the robot may stand, its slot; and the slots."""
 
 ROOM = 1 << 14
 

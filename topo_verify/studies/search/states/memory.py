@@ -3,12 +3,11 @@
 Two moments are one state only if these are equal:
 
     what the mapper keeps       of each of its running functions: the place in its code, and each
-                                local variable that it may still read: S, U, H, the sequences, what
-                                the rule remembers, the cost
+                                local variable that it may still read
     what the judgement keeps    all of the past on which the judgement of later events depends
 
 A deterministic mapper goes on alike from equal variables at the same place of the world with the
-same choices, so the same events follow. They are judged alike, too:
+same choices. The events are judged alike, too:
 
     1, 5, 6, 7  by the robot's place in the world, its moves so far, and S as it was declared
     2, 3, 4     by S, the pose, and the hypotheses that were neither rejected nor confirmed
@@ -17,8 +16,7 @@ same choices, so the same events follow. They are judged alike, too:
 
 What this does not see: module variables, the iterator of a `for` loop that a choice interrupts (the
 mapper has none), what a C object hides from `pickle`. And claim 10 judges a decision of
-`folding+planar` with the prior of the run that was made, since a rejection by rule `planar`
-declares it for the whole run.
+`folding+planar` with the prior of the run that was made.
 """
 
 from __future__ import annotations
@@ -42,7 +40,6 @@ from topo_verify.studies.search.states.script import ChoicePoint, MeteredRobot, 
 from topo_verify.world.rooted_map import World
 
 State = Hashable
-"""Equal only where two moments of one mapper in one world are the same state."""
 
 
 def state(moment: ChoicePoint, world: World) -> State | None:
@@ -88,7 +85,7 @@ def _kept(frame: FrameType | None) -> bytes:
 def _read(code: CodeType, place: int) -> frozenset[str]:
     """The local variables that a function may still read after the call at this place.
 
-    A conservative liveness analysis; with an exception handler, all of them.
+    Conservative; all of them with an exception handler.
     """
     every = frozenset((*code.co_varnames, *code.co_cellvars, *code.co_freevars))
     if code.co_exceptiontable:
@@ -115,7 +112,7 @@ def _read(code: CodeType, place: int) -> frozenset[str]:
 
 
 def _judged(world: World, trace: Sequence[Event]) -> Hashable | None:
-    """What the judgement of later events knows of the past; None if a claim has failed."""
+    """What the judgement of later events depends on; None if a claim has failed."""
     run = ReplayedTrace(world, trace)
     if run.illegal is not None or run.spoiled is not None:
         return None
@@ -144,7 +141,7 @@ def _behind(run: ReplayedTrace) -> Hashable:
 
 
 def _records(run: ReplayedTrace) -> Hashable:
-    """What the sequences of earlier edges showed behind darts that are unexplored now."""
+    """What earlier sequences showed behind darts that are unexplored now."""
     rests = (
         run.records.trace(KnownDart(event.dart), sequence, when + 1)
         for when, event, pose, _, sequences in run.rounds
@@ -156,7 +153,7 @@ def _records(run: ReplayedTrace) -> Hashable:
 
 
 def _places(fold: Fold) -> Iterator[Hashable]:
-    """The places of a fold in the order found from v0: what each door leads to."""
+    """The places of a fold from v0 on: what each door leads to."""
     numbers: dict[int, tuple[int, int]] = {}  # of a node: its number, and its dart found
     queue: list[Place] = []
 
@@ -165,8 +162,8 @@ def _places(fold: Fold) -> Iterator[Hashable]:
         if node not in numbers:
             numbers[node] = len(queue), dart
             queue.append((node, dart))
-        found, first = numbers[node]
-        return found, (dart - first) % fold.degree(node)
+        known, first = numbers[node]
+        return known, (dart - first) % fold.degree(node)
 
     number((0, 0))  # v0's dart with the marker
     for node, dart in queue:  # grows as it goes

@@ -1,14 +1,13 @@
 """One run of an algorithm that is told its choices one by one.
 
 Two things are open: between two edges, which e comes next; behind e, which hypothesis is tried next
-among those that the motion allows (`overlap`: those with the longest common prefix). The paper
-orders H first; but any sequence of tries is an order of H. So a run is a list of numbers,
-`--choices 0,2,1`: at each moment with more than one way, which way is taken, counted from 0 in the
-order of the darts of S. Behind the end of the list the first way is taken.
+among those that the motion allows (`overlap`: those with the longest common prefix). Any sequence
+of tries is an order of H. So a run is a list of numbers, `--choices 0,2,1`: at each moment with
+more than one way, which way is taken, counted from 0 in the order of the darts of S. Behind the end
+of the list the first way is taken.
 
 What this does not show: other ways to walk. Which shortest path is taken stays that of
-docs/semantics.md, section 5. And H is declared in ascending order, as are rejections without
-motion.
+docs/semantics.md, section 5.
 """
 
 from __future__ import annotations
@@ -32,10 +31,8 @@ class ChoicePoint(NamedTuple):
     """A moment of a run at which there is something to choose.
 
     Attributes:
-        chart: S; e has left U.
         e: the edge that was crossed; None: it is still to be chosen.
         ways: the darts of S among which to choose.
-        trace, moves: the run so far.
         frame: the function of the mapper that asks.
     """
 
@@ -100,9 +97,11 @@ class ScriptedPolicies:
             self.algorithm.motion([h, *(o for o in by_dart if o is not h)], last) for h in by_dart
         )
         allowed = [
-            one for h, one in zip(by_dart, firsts, strict=True) if one.hypothesis.dart == h.dart
+            choice
+            for h, choice in zip(by_dart, firsts, strict=True)
+            if choice.hypothesis.dart == h.dart
         ]
-        ways = tuple(one.hypothesis.dart for one in allowed)
+        ways = tuple(choice.hypothesis.dart for choice in allowed)
         return allowed[ways.index(self._chosen(self.e, ways, currentframe()))]
 
     def _chosen(
@@ -132,7 +131,7 @@ def scripted(algorithm: Algorithm, chooser: Chooser) -> Callable[[Robot], Survey
 class Listed:
     """Makes the choices of a list, then the first way each time. Life cycle: a run, `require_all`.
 
-    A number that no way has counts as 0 during the run: an exception would be the mapper's.
+    A wrong number counts as 0 during the run: an exception would be the mapper's.
     """
 
     def __init__(self, choices: Sequence[int]) -> None:

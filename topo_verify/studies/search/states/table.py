@@ -32,8 +32,7 @@ class KernelFound(NamedTuple):
 
     Attributes:
         wrong: what is wrong in some state, as a number of `behind.py`; 0: nothing.
-        states, choices, cheapest, dearest: as in a `CostRange`.
-        cheap, dear: a run that has these costs.
+        cheap, dear: runs with the least and the highest cost.
         maps: how many S there are.
     """
 
@@ -62,19 +61,19 @@ def require_kernel() -> None:
 
 
 def found_in(
-    world: World, algorithm: Algorithm, seen: Sequence[Percept] | None = None
+    world: World, algorithm: Algorithm, shown: Sequence[Percept] | None = None
 ) -> KernelFound:
     """What the kernel finds in a world whose darts are numbered as in its code.
 
     Args:
         seen: the percept with each dart as the reference dart; default: the true ones.
     Raises:
-        InternalError: the world has more states than there is room for.
+        InternalError: the world has too many states.
     """
     size, tables = len(world.alpha), _tables()
     assert world.root == 0, "a world whose darts are numbered as in its code"
     table = tables.world
-    for dart, percept in enumerate(seen or percepts(world)):
+    for dart, percept in enumerate(shown or percepts(world)):
         table[0, dart], table[1, dart] = world.alpha[dart], world.vertex_of[dart]
         table[2, dart] = 32 * percept.degree + (-1 if percept.marker is None else percept.marker)
     for vertex, rotation in enumerate(world.vertices):
@@ -122,15 +121,15 @@ def world_darts(chart: Chart, world: World) -> list[Dart] | None:
     for v, _, back in chart.outward(0):
         if back is not None:
             up = chart.across(back)
-            left = darts[up]
-            assert left is not None, "the search goes outward"
-            entries[v] = exit_dart(world, world.alpha[left], chart.first[v] - back)
+            at = darts[up]
+            assert at is not None, "the search goes outward"
+            entries[v] = exit_dart(world, world.alpha[at], chart.first[v] - back)
         if world.degrees[world.vertex_of[entries[v]]] != chart.degree[v]:
             return None
         for door, dart in enumerate(chart.darts(v)):
             darts[dart] = exit_dart(world, entries[v], door)
-    found = [dart for dart in darts if dart is not None]
-    if len(set(found)) < len(darts):  # a vertex is out of reach, or stands in S twice
+    placed = [dart for dart in darts if dart is not None]
+    if len(set(placed)) < len(darts):  # a vertex is out of reach, or stands in S twice
         return None
-    pairs = ((found[d], other) for d, other in enumerate(chart.alpha) if other is not None)
-    return found if all(world.alpha[dart] == found[other] for dart, other in pairs) else None
+    pairs = ((placed[d], other) for d, other in enumerate(chart.alpha) if other is not None)
+    return placed if all(world.alpha[dart] == placed[other] for dart, other in pairs) else None
