@@ -127,8 +127,8 @@ class WorldCounts:
                     event=None,
                     expected=expected,
                     seen=number,
-                    message=f"with {plural(edges, 'edge')} {number} worlds are listed, {source} says"
-                    f" {expected}",
+                    message=f"with {plural(edges, 'edge')} {number} worlds are listed,"
+                    f" {source} says {expected}",
                     world=f"m{edges}",
                     replay=f"topo-verify world count --edges {edges}",
                 )
