@@ -19,7 +19,7 @@ import re
 import shlex
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, get_args
@@ -336,23 +336,6 @@ class LevelResult(msgspec.Struct, frozen=True, kw_only=True):
     why: tuple[str, ...] = ()
 
 
-@dataclass
-class _LevelCounts:
-    """Counts the states of worlds on one level, and keeps the first findings of each kind."""
-
-    states: Counter[LevelState] = field(default_factory=Counter[LevelState])
-    kinds: Counter[str] = field(default_factory=Counter[str])
-    findings: list[WorldFinding] = field(default_factory=list[WorldFinding])
-    whys: list[str] = field(default_factory=list[str])
-
-    def enter(self, outcome: WorldOutcome, level: Level) -> list[WorldFinding]:
-        """Count one world; the findings that are to be kept."""
-        self.states[outcome.states[level]] += 1
-        findings = outcome.findings.get(level, ())
-        self.kinds.update(dict.fromkeys((finding.kind for finding in findings), 1))
-        return [finding for finding in findings if self.kinds[finding.kind] <= KEPT_OF_KIND]
-
-
 class Conform:
     """An implementation in every world of a corpus.
 
@@ -377,9 +360,11 @@ class Conform:
             asked=tuple(asked),
         )
         self.corpus, self.asked, self.again = corpus, asked, again
-        self.levels: dict[Level, _LevelCounts] = {
-            level: _LevelCounts() for level in LEVELS if self.asked.like or level != "decisions"
-        }
+        levels = [level for level in LEVELS if asked.like or level != "decisions"]
+        self._states = {level: Counter[LevelState]() for level in levels}
+        self._kinds = {level: Counter[str]() for level in levels}
+        self._findings = {level: list[WorldFinding]() for level in levels}
+        self._whys: list[str] = []
         self._counts = Counts()
         self.priced: list[WorldCost] = []
         self.tried = 0
@@ -405,14 +390,16 @@ class Conform:
         """Count one world; places must not decrease."""
         self.tried += 1
         outcome = outcome_of(row, self.asked.like)
-        for level, counts in self.levels.items():
-            for finding in counts.enter(outcome, level):
-                words = (*self.again, *self._worlds.at(row.place).replay_arguments)
-                again = replace(finding, replay=shlex.join(words))
-                counts.findings.append(again)
-        whys = self.levels["result"].whys
-        if outcome.why is not None and len(whys) < KEPT_OF_KIND:
-            whys.append(f"{row.world}: {outcome.why}")
+        for level, state in outcome.states.items():
+            self._states[level][state] += 1
+            findings = outcome.findings.get(level, ())
+            self._kinds[level].update([*dict.fromkeys(finding.kind for finding in findings)])
+            for finding in findings:
+                if self._kinds[level][finding.kind] <= KEPT_OF_KIND:
+                    words = (*self.again, *self._worlds.at(row.place).replay_arguments)
+                    self._findings[level].append(replace(finding, replay=shlex.join(words)))
+        if outcome.why is not None and len(self._whys) < KEPT_OF_KIND:
+            self._whys.append(f"{row.world}: {outcome.why}")
         if row.claims and outcome.states["result"] in ("passed", "failed"):
             self._counts.enter([row])
         if outcome.states["cost"] == "passed":
@@ -425,8 +412,8 @@ class Conform:
         paid = sum(price.reference for price in self.priced)
         total = CostRatio(mapper, paid, _ratio(mapper, paid))
         tally = self._counts.tally()
-        for level, counts in self.levels.items():
-            numbers = {name: counts.states[name] for name in get_args(LevelState)}
+        for level, states in self._states.items():
+            numbers = {name: states[name] for name in get_args(LevelState)}
             claims = {
                 claim: runs
                 for claim, runs in tally.statuses.items()
@@ -440,13 +427,13 @@ class Conform:
                 **{name.replace("-", "_"): number for name, number in numbers.items()},
                 not_tried=self.corpus.total - self.tried,
                 verdict=self._verdict(numbers),
-                kinds=dict(counts.kinds),
+                kinds=dict(self._kinds[level]),
                 claims=claims,
                 judgements=replace(tally, statuses=claims).judgements(),
-                findings=tuple(counts.findings),
+                findings=tuple(self._findings[level]),
                 cost=total,
                 priced=tuple(self.priced) if level == "cost" else (),
-                why=tuple(counts.whys),
+                why=tuple(self._whys) if level == "result" else (),
             )
 
     def _verdict(self, numbers: dict[LevelState, int]) -> Verdict:

@@ -49,6 +49,10 @@ class GameChoice(NamedTuple, Generic[S]):
 class Rules(Protocol[S]):
     """The rules of a game."""
 
+    def starts(self) -> Sequence[S]:
+        """The states after the first percept."""
+        ...
+
     def choices(self, state: S, /) -> Iterable[GameChoice[S]]:
         """What the robot may do next."""
         ...

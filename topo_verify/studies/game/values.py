@@ -14,9 +14,9 @@ What a robot **knows** says when its game ends; what is **drawn**, in which worl
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
-from typing import Literal, TypeVar
+from typing import Any, Literal
 
 import msgspec
 
@@ -30,8 +30,6 @@ from topo_verify.studies.game.rules import ClassRules, GameEnding, ProofRules
 from topo_verify.studies.game.search import Least, Rules, Solver
 from topo_verify.world.enumeration.pruned import worlds
 from topo_verify.world.rooted_map import World
-
-S = TypeVar("S", bound=Hashable)
 
 Knowledge = Literal["nothing", "n", "planar", "m", "m and n", "m and planar"]
 
@@ -158,7 +156,7 @@ def game_value(
     )
 
 
-def _games(edges: int, knows: Knowledge, drawn: DrawnClass) -> Iterator[ProofRules | ClassRules]:
+def _games(edges: int, knows: Knowledge, drawn: DrawnClass) -> Iterator[Rules[Any]]:
     """The rules of the games, one for each thing that the robot may be told."""
     counted = [DrawnWorld(world.code) for world in drawn_worlds(edges, drawn)]
     match knows:
@@ -189,51 +187,31 @@ def _by_vertices(drawn: Sequence[DrawnWorld]) -> dict[int, list[DrawnWorld]]:
     return groups
 
 
-def _least(
-    games: Sequence[ProofRules | ClassRules], *, mean: bool, most_states: float
-) -> tuple[Least, int]:
-    met: list[tuple[Least, int]] = []
-    for rules in games:
-        met += _by_start(rules, mean=mean, most_states=most_states)
-    return _joined(met, mean=mean)
-
-
-def _joined(met: Sequence[tuple[Least, int]], *, mean: bool) -> tuple[Least, int]:
-    costs = [one.cost for one, _ in met]
-    cost = sum(costs) if mean else max(costs, default=0)
-    is_value = all(one.is_value for one, _ in met)
-    return Least(cost, is_value=is_value), sum(states for _, states in met)
-
-
-def _by_start(
-    rules: ProofRules | ClassRules, *, mean: bool, most_states: float
-) -> Iterator[tuple[Least, int]]:
-    if isinstance(rules, ProofRules):
-        most_states = min(most_states, MOST_FOLDS)
-        yield from (
-            _after(rules, start, mean=mean, most_states=most_states) for start in rules.starts()
-        )
-    else:
-        yield from (
-            _after(rules, start, mean=mean, most_states=most_states) for start in rules.starts()
-        )
-
-
-def _after(rules: Rules[S], start: S, *, mean: bool, most_states: float) -> tuple[Least, int]:
-    """The value of a state, and the states met.
+def _least(games: Sequence[Rules[Any]], *, mean: bool, most_states: float) -> tuple[Least, int]:
+    """The value over all games and their first percepts, and the states met.
 
     A forced first move is made here, so each answer is searched apart: if one search is cut short,
     the others still tell their values.
     """
-    forced = tuple(rules.choices(start))
-    paid = forced[0].moves if len(forced) == 1 else 0
-    met: list[tuple[Least, int]] = []
-    for state in forced[0].left if paid else (start,):
-        solver = Solver(rules, mean=mean, most_states=most_states)
-        met.append((solver.least(state), solver.states))
-    (cost, is_value), states = _joined(met, mean=mean)
-    paid *= rules.worlds(start) if mean else 1
-    return Least(paid + cost, is_value=is_value), states
+    total = states = 0
+    is_value = True
+    for rules in games:
+        most = min(most_states, MOST_FOLDS) if isinstance(rules, ProofRules) else most_states
+        for start in rules.starts():
+            forced = tuple(rules.choices(start))
+            paid = forced[0].moves if len(forced) == 1 else 0
+            costs: list[int] = []
+            for state in forced[0].left if paid else (start,):
+                solver = Solver(rules, mean=mean, most_states=most)
+                least = solver.least(state)
+                costs.append(least.cost)
+                is_value &= least.is_value
+                states += solver.states
+            if mean:
+                total += paid * rules.worlds(start) + sum(costs)
+            else:
+                total = max(total, paid + max(costs, default=0))
+    return Least(total, is_value=is_value), states
 
 
 # ---------------------------------------------------------------- what the catalogue pays

@@ -19,7 +19,7 @@ from topo_verify.campaign.run import explore
 from topo_verify.errors import InputError, InternalError
 from topo_verify.programs.loader import Target
 from topo_verify.robot.simulator import percepts
-from topo_verify.studies.search.states import behind, every, graph, kernel, table
+from topo_verify.studies.search.states import every, graph, kernel, table
 from topo_verify.studies.search.states.every import (
     cost_range,
     every_choice,
@@ -224,27 +224,27 @@ def seen_in_3_edges(name: str) -> set[int]:
 @pytest.mark.usefixtures("uncompiled")
 @pytest.mark.parametrize("name", KNOWN)
 def test_as_plain_python_it_finds_nothing_wrong(name: str) -> None:
-    assert seen_in_3_edges(name) == {behind.GOOD}
+    assert seen_in_3_edges(name) == {kernel.GOOD}
 
 
 @pytest.mark.filterwarnings("ignore:overflow encountered")  # a hash wraps around
 @pytest.mark.usefixtures("uncompiled")
 def test_a_rule_that_rejects_what_is_true_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(behind, "refutes", Mock(return_value=True))
-    assert seen_in_3_edges("enhancement-ii") == {behind.GOOD, behind.KILLED}
-    assert seen_in_3_edges("basic") == {behind.GOOD}  # which asks no rule
+    monkeypatch.setattr(kernel, "refutes", Mock(return_value=True))
+    assert seen_in_3_edges("enhancement-ii") == {kernel.GOOD, kernel.KILLED}
+    assert seen_in_3_edges("basic") == {kernel.GOOD}  # which asks no rule
 
 
 @pytest.mark.filterwarnings("ignore:overflow encountered")  # a hash wraps around
 @pytest.mark.usefixtures("uncompiled")
 def test_a_true_way_home_that_differs_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
-    right: Callable[..., int] = behind.walk_home
+    right: Callable[..., int] = kernel.walk_home
 
     def differs(*arguments: object) -> int:
         return max(0, right(*arguments))
 
-    monkeypatch.setattr(behind, "walk_home", differs)
-    assert seen_in_3_edges("basic") == {behind.GOOD, behind.DIFFERS}
+    monkeypatch.setattr(kernel, "walk_home", differs)
+    assert seen_in_3_edges("basic") == {kernel.GOOD, kernel.DIFFERS}
 
 
 @pytest.mark.filterwarnings("ignore:overflow encountered")  # a hash wraps around

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from topo_verify.compiled.kernel import compiled
-from topo_verify.studies.search.states import behind as b
 from topo_verify.studies.search.states import kernel as k
 from topo_verify.world.rooted_map import Dart
 
@@ -23,20 +22,20 @@ class Tables:
         self.world = _ints(5, k.MOST_DARTS)
         self.found = _ints(6)
         self._work = _ints(4, 4 * k.ROOM, fill=-1)
-        self._cost = _ints(k.ROOM, b.VERTICES, 2)
+        self._cost = _ints(k.ROOM, k.VERTICES, 2)
         self._low = _ints(k.ROOM, k.MOST_DARTS, 3)
         self._darts = _ints(k.MOST_DARTS)
         self._row = _ints(k.MOST_DARTS, 3 * k.MOST_DARTS + 3)
         self._kills = _ints(k.MOST_DARTS)
         self._best = _ints((1 << k.MOST_DARTS - 1) * k.MOST_DARTS, 2)
         self._facts, self._ends = _ints(4), _ints(4)
-        self._tree = _ints(b.VERTICES)
-        self._depth = _ints(b.VERTICES)
-        self._size, self._rule, self._overlap = 0, b.NONE, False
+        self._tree = _ints(k.VERTICES)
+        self._depth = _ints(k.VERTICES)
+        self._size, self._rule, self._overlap = 0, k.NONE, False
         self._search_world = compiled(k.search_world, k.STATES)
-        self._outward, self._behind = compiled(b.outward, k.STATES), compiled(b.behind, k.STATES)
-        self._tie, self._same_walk = compiled(b.tie, k.STATES), compiled(b.same_walk, k.STATES)
-        self._try = compiled(b.tried, k.STATES)
+        self._outward, self._behind = compiled(k.outward, k.STATES), compiled(k.behind, k.STATES)
+        self._tie, self._same_walk = compiled(k.tie, k.STATES), compiled(k.same_walk, k.STATES)
+        self._try = compiled(k.tried, k.STATES)
 
     def search(self, size: int, rule: int, *, overlap: bool) -> None:
         """Search the states of the world in the table, which has `size` darts."""
@@ -63,15 +62,15 @@ class Tables:
                 self._darts, self._row, self._kills, self._facts, self._best, self._ends,
             )  # fmt: skip
             yield e, *self._tried(end)
-            here, at = divmod(int(self._low[here, e, 2]), b.VERTICES)
+            here, at = divmod(int(self._low[here, e, 2]), k.VERTICES)
 
     def _pick(self, explored: int, entries: int, here: int, at: int, end: int) -> Dart:
         """The first e with which the cost can be reached."""
         self._outward(self.world, explored, entries, at, self._tree, self._depth)
         for e in range(self._size):
             vertex = int(self.world[1, e])
-            if not explored >> e & 1 and entries >> 4 * vertex & 15 != b.UNKNOWN:
-                number, there = divmod(int(self._low[here, e, 2]), b.VERTICES)
+            if not explored >> e & 1 and entries >> 4 * vertex & 15 != k.UNKNOWN:
+                number, there = divmod(int(self._low[here, e, 2]), k.VERTICES)
                 to_pay = self._low[here, e, end] + self._cost[number, there, end]
                 if self._depth[vertex] + 1 + to_pay == self._cost[here, at, end]:
                     return e
@@ -80,7 +79,7 @@ class Tables:
     def _tried(self, end: int) -> Iterator[Dart]:
         count, true = int(self._facts[0]), int(self._facts[1])
         remaining, last = (1 << count) - 1, count
-        free = bool(self._facts[2]) or (self._rule == b.NONE and not self._overlap)
+        free = bool(self._facts[2]) or (self._rule == k.NONE and not self._overlap)
         while remaining:
             mask = self._tie(self._row, remaining, last, count, self._overlap and not free)
             allowed = [place for place in range(count) if mask >> place & 1]

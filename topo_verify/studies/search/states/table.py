@@ -31,7 +31,7 @@ class KernelFound(NamedTuple):
     """What the kernel found in one world.
 
     Attributes:
-        wrong: what is wrong in some state, as a number of `behind.py`; 0: nothing.
+        wrong: what is wrong in some state, as a number of `kernel.py`; 0: nothing.
         cheap, dear: runs with the least and the highest cost.
         maps: how many S there are.
     """
@@ -80,7 +80,7 @@ def found_in(
         table[3, vertex], table[4, vertex] = rotation[0], len(rotation)
     tables.search(size, RULES.index(algorithm.rule), overlap=algorithm.motion is overlap)
     wrong, states, choices, least, most, maps = (int(tables.found[place]) for place in range(6))
-    from topo_verify.studies.search.states.behind import FULL
+    from topo_verify.studies.search.states.kernel import FULL
 
     if wrong == FULL:
         raise InternalError(f"{world.text} has too many states for the kernel")
