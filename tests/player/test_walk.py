@@ -14,8 +14,7 @@ from tests.player.played import playback_of as played
 from topo_verify import CATALOGUE, Percept, Robot, World
 from topo_verify.checkers import Finding, Judgement
 from topo_verify.checkers.darts import KnownDart
-from topo_verify.faults.hypotheses import leaves_out_the_darts_of_vk
-from topo_verify.faults.motion import goes_on_as_if_just_come_in, sets_out_unturned
+from topo_verify.faults import FAULTS
 from topo_verify.player.detours import circle, turns, way_home
 from topo_verify.player.scenes import Playback
 from topo_verify.player.walk import Extent, is_shown, lines, parting
@@ -32,7 +31,7 @@ def text(playback: Playback, width: int = 200, extent: Extent | None = None) -> 
 @pytest.fixture(scope="module")
 def unturned() -> Playback:
     """A mapper that forgets, at the first door after a way back, that it is turned."""
-    return played("m3/8", sets_out_unturned.mapper)
+    return played("m3/8", FAULTS["sets-out-unturned"].mapper)
 
 
 def walks(robot: Robot) -> object:
@@ -63,7 +62,7 @@ def test_a_door_counted_from_the_wrong_dart_is_told(unturned: Playback) -> None:
 
 
 def test_an_edge_that_was_not_crossed_is_told_with_the_door_that_leads_to_it() -> None:
-    run = played("m3/8", goes_on_as_if_just_come_in.mapper)
+    run = played("m3/8", FAULTS["goes-on-as-if-just-come-in"].mapper)
     assert "door 4 at event 13 led out by v1:5; edge 3 (v1:3) was behind door 2 there" in text(run)
 
 
@@ -209,7 +208,7 @@ def test_a_confirmation_against_what_was_seen_says_what_it_should_have_been() ->
 
 
 def test_behind_a_false_augmentation_nothing_is_held_against_the_true_map() -> None:
-    wrong = played("m4/204", leaves_out_the_darts_of_vk.mapper)
+    wrong = played("m4/204", FAULTS["leaves-out-the-darts-of-vk"].mapper)
     shown = text(wrong, extent=ALL)
     spoiled = wrong.replayed.spoiled
     assert shown.count("(from here on the mapper's map is false;") == 1

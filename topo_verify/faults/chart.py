@@ -5,28 +5,26 @@ from __future__ import annotations
 from functools import partial
 
 from topo_verify.algorithms.chart import Chart
-from topo_verify.faults.fault import Fault, mapper
+from topo_verify.faults.fault import planted
 from topo_verify.robot.events import MapDart
 from topo_verify.robot.percept import Door
 
-fault = partial(Fault, part="chart")
+fault = partial(planted, "chart")
 
 
-class _NextDart(Chart):
+@fault("basic", "Chart", claim="map-isomorphic")
+class joins_by_the_second_dart(Chart):
+    """a new vertex is joined one dart clockwise of the one by which it was entered"""
+
     def join(self, e: MapDart, other: MapDart) -> None:
         new = self.first[-1] == other > 0 and e < other
         super().join(e, self.turn(other, 1) if new else other)
 
 
-joins_by_the_second_dart = fault(
-    name="joins-by-the-second-dart",
-    why="a new vertex is joined one dart clockwise of the one by which it was entered",
-    claim="map-isomorphic",
-    mapper=mapper("basic", Chart=_NextDart),
-)
+@fault("basic", "Chart", claim="map-isomorphic")
+class joins_a_loop_one_way(Chart):
+    """on S, an edge to an older vertex can be crossed from one end only"""
 
-
-class _OneWay(Chart):
     def join(self, e: MapDart, other: MapDart) -> None:
         # Not at the newest vertex, which the robot must leave.
         older = self.vertex[other] < len(self.first) - 1
@@ -35,39 +33,21 @@ class _OneWay(Chart):
             self.alpha[other] = None
 
 
-joins_a_loop_one_way = fault(
-    name="joins-a-loop-one-way",
-    why="on S, an edge to an older vertex can be crossed from one end only",
-    claim="map-isomorphic",
-    mapper=mapper("basic", Chart=_OneWay),
-)
+@fault("basic", "Chart", claim="map-isomorphic")
+class counts_doors_anticlockwise(Chart):
+    """the door from one dart to another is counted the wrong way round"""
 
-
-class _Anticlockwise(Chart):
     def door(self, dart: MapDart, exit_dart: MapDart) -> Door:
         return super().door(exit_dart, dart)
 
 
-counts_doors_anticlockwise = fault(
-    name="counts-doors-anticlockwise",
-    why="the door from one dart to another is counted the wrong way round",
-    claim="map-isomorphic",
-    mapper=mapper("basic", Chart=_Anticlockwise),
-)
+@fault("enhancement-ii", "Chart", claim="map-isomorphic")
+class stops_at_the_last_dart(Chart):
+    """a turn past the last dart of a vertex ends there and does not go on from the first"""
 
-
-class _Unreduced(Chart):
     def turn(self, dart: MapDart, door: Door) -> MapDart:
         first = self.first[self.vertex[dart]]
         return first + min(dart - first + door % self.degree[self.vertex[dart]], self._last(dart))
 
     def _last(self, dart: MapDart) -> int:
         return self.degree[self.vertex[dart]] - 1
-
-
-stops_at_the_last_dart = fault(
-    name="stops-at-the-last-dart",
-    why="a turn past the last dart of a vertex ends there and does not go on from the first",
-    claim="map-isomorphic",
-    mapper=mapper("enhancement-ii", Chart=_Unreduced),
-)

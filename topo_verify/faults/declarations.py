@@ -5,30 +5,28 @@ from __future__ import annotations
 from functools import partial
 
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.faults.fault import Fault, ForwardingRobot
+from topo_verify.faults.fault import ForwardingRobot, planted
 from topo_verify.robot.events import Decision, Evidence, Reject
 from topo_verify.robot.percept import Percept
 
-fault = partial(Fault, part="declarations")
+fault = partial(planted, "declarations")
 
 basic = CATALOGUE["basic"]
 
 
-class _SilentOnRejections(ForwardingRobot):
+@fault("basic", "robot", claim="true-hypothesis-kept")
+class leaves_out_every_reject(ForwardingRobot):
+    """no rejection is declared, so hypotheses are posed and never heard of again"""
+
     def declare(self, event: Decision) -> None:
         if not isinstance(event, Reject):
             super().declare(event)
 
 
-leaves_out_every_reject = fault(
-    name="leaves-out-every-reject",
-    why="no rejection is declared, so hypotheses are posed and never heard of again",
-    claim="true-hypothesis-kept",
-    mapper=lambda robot: basic(_SilentOnRejections(robot)),
-)
+@fault("basic", "robot", claim="true-hypothesis-kept")
+class leaves_out_every_second_reject(ForwardingRobot):
+    """every second rejection is not declared"""
 
-
-class _SilentOnEverySecond(ForwardingRobot):
     rejections = 0
 
     def declare(self, event: Decision) -> None:
@@ -37,15 +35,10 @@ class _SilentOnEverySecond(ForwardingRobot):
             super().declare(event)
 
 
-leaves_out_every_second_reject = fault(
-    name="leaves-out-every-second-reject",
-    why="every second rejection is not declared",
-    claim="true-hypothesis-kept",
-    mapper=lambda robot: basic(_SilentOnEverySecond(robot)),
-)
+@fault("basic", "robot", claim="rejection-justified")
+class calls_every_rejection_folding(ForwardingRobot):
+    """each rejection by walking is declared as one by folding, with evidence that is made up"""
 
-
-class _CitesNonsense(ForwardingRobot):
     def declare(self, event: Decision) -> None:
         if isinstance(event, Reject):
             percept = Percept(424242, None)
@@ -53,24 +46,11 @@ class _CitesNonsense(ForwardingRobot):
         super().declare(event)
 
 
-calls_every_rejection_folding = fault(
-    name="calls-every-rejection-folding",
-    why="each rejection by walking is declared as one by folding, with evidence that is made up",
-    claim="rejection-justified",
-    mapper=lambda robot: basic(_CitesNonsense(robot)),
-)
+@fault("basic", "robot", claim="rejection-justified")
+class rejects_under_another_label(ForwardingRobot):
+    """each rejection by walking is declared as one by folding, with evidence of nothing"""
 
-
-class _CitesNothing(ForwardingRobot):
     def declare(self, event: Decision) -> None:
         if isinstance(event, Reject):
             event = Reject(event.edge, event.hypothesis, "folding", Evidence(999))
         super().declare(event)
-
-
-rejects_under_another_label = fault(
-    name="rejects-under-another-label",
-    why="each rejection by walking is declared as one by folding, with evidence of nothing",
-    claim="rejection-justified",
-    mapper=lambda robot: basic(_CitesNothing(robot)),
-)

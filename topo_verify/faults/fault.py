@@ -67,6 +67,44 @@ class Fault:
         return f"topo_verify.faults.{room}:{self.name.replace('-', '_')}"
 
 
+def planted(
+    part: PartName,
+    base: str = "",
+    replaced: str = "",
+    *,
+    claim: str | None = None,
+    theorem: str | None = None,
+    **others: Any,
+) -> Callable[[Any], Fault]:
+    """Decorate a mistake, whose docstring is the `why` of the fault.
+
+    Args:
+        base: the algorithm in which it is planted; empty: the mistake is a mapper.
+        replaced: what it replaces: a parameter of `mapper`, or `robot`, which it wraps.
+        others: further parts to replace.
+    """
+
+    def plant(mistake: Any) -> Fault:
+        wrong = mistake
+        if replaced == "robot":
+
+            def wrong(robot: Robot) -> Survey:
+                return CATALOGUE[base](mistake(robot))
+
+        elif base:
+            wrong = mapper(base, **{replaced: mistake}, **others)
+        return Fault(
+            name=mistake.__name__.replace("_", "-"),
+            part=part,
+            why=mistake.__doc__,
+            claim=claim,
+            mapper=wrong,
+            theorem=theorem,
+        )
+
+    return plant
+
+
 def mapper(
     name: str,
     *,

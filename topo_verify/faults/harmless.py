@@ -16,25 +16,19 @@ from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.folding import FoldingRule
 from topo_verify.algorithms.motion import Executed, Hypothesis, Pilot
 from topo_verify.algorithms.policies import Order, last, newest
-from topo_verify.faults.fault import Fault, ForwardingRobot, mapper
+from topo_verify.faults.fault import Fault, ForwardingRobot, mapper, planted
 from topo_verify.robot.events import Decision, MapDart, Robot
 from topo_verify.robot.percept import Percept
 
 basic = CATALOGUE["basic"]
 
 
-def _all_of_u(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
+@planted("hypotheses", "basic", "hypotheses")
+def poses_all_of_u(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
+    """H holds darts of every signature; the first percept rejects those of another signature"""
     tree = chart.tree(0)
     return [Hypothesis(h, chart, tree) for h in order(chart.unexplored, chart, tree)]
 
-
-poses_all_of_u = Fault(
-    name="poses-all-of-u",
-    part="hypotheses",
-    why="H holds darts of every signature; the first percept rejects those of another signature",
-    claim=None,
-    mapper=mapper("basic", hypotheses=_all_of_u),
-)
 
 tries_the_newest_first = Fault(
     name="tries-the-newest-first",
@@ -45,7 +39,10 @@ tries_the_newest_first = Fault(
 )
 
 
-class _OtherTree(Pilot):
+@planted("motion", "basic", "Pilot")
+class walks_along_another_tree(Pilot):
+    """it walks to the next edge along the breadth-first tree of its start, not of its goal"""
+
     def walk(self, chart: Chart, at: MapDart, v: int) -> MapDart:
         way: list[MapDart] = []
         parent = chart.tree(chart.vertex[at]).parent
@@ -58,16 +55,9 @@ class _OtherTree(Pilot):
         return at
 
 
-walks_along_another_tree = Fault(
-    name="walks-along-another-tree",
-    part="motion",
-    why="it walks to the next edge along the breadth-first tree of its start, not of its goal",
-    claim=None,
-    mapper=mapper("basic", Pilot=_OtherTree),
-)
-
-
-def _passes_by(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
+@planted("marker", "basic", "execute")
+def overlooks_a_passing_marker(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
+    """before the last door only degrees are compared; the percept at v0 decides"""
     if shared < len(h.doors):
         pilot.back(shared)
     for step, expected in enumerate(h.expected):
@@ -80,16 +70,10 @@ def _passes_by(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
     return None
 
 
-overlooks_a_passing_marker = Fault(
-    name="overlooks-a-passing-marker",
-    part="marker",
-    why="before the last door only degrees are compared; the percept at v0 decides",
-    claim=None,
-    mapper=mapper("basic", execute=_passes_by),
-)
+@planted("prefix", "enhancement-i", "rule")
+class compares_a_shorter_prefix(PrefixRule):
+    """what was seen behind the last door is not compared, so more is walked"""
 
-
-class _OneDoorFewer(PrefixRule):
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
@@ -97,36 +81,24 @@ class _OneDoorFewer(PrefixRule):
         return super().refute(chart, hypothesis, shorter)
 
 
-compares_a_shorter_prefix = Fault(
-    name="compares-a-shorter-prefix",
-    part="prefix",
-    why="what was seen behind the last door is not compared, so more is walked",
-    claim=None,
-    mapper=mapper("enhancement-i", rule=_OneDoorFewer),
-)
+@planted("history", "enhancement-ii", "rule")
+class traces_every_sequence_again(HistoryRule):
+    """all sequences of the edge are traced after each mismatch, not only the last"""
 
-
-class _AllAgain(HistoryRule):
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
-        looks = (
-            super(_AllAgain, self).refute(chart, hypothesis, sequences[: n + 1])
-            for n in range(len(sequences))
-        )
-        return next(filter(None, looks), None)
+        for number in range(len(sequences)):
+            refutation = super().refute(chart, hypothesis, sequences[: number + 1])
+            if refutation is not None:
+                return refutation
+        return None
 
 
-traces_every_sequence_again = Fault(
-    name="traces-every-sequence-again",
-    part="history",
-    why="all sequences of the edge are traced after each mismatch, not only the last",
-    claim=None,
-    mapper=mapper("enhancement-ii", rule=_AllAgain),
-)
+@planted("records", "enhancement-iii-all", "rule")
+class never_drops_a_record(RecordsRule):
+    """T[d] stays when d is explored; nothing looks it up again"""
 
-
-class _NeverDropped(RecordsRule):
     def learn(
         self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
     ) -> None:
@@ -135,16 +107,10 @@ class _NeverDropped(RecordsRule):
         self.records = kept | self.records
 
 
-never_drops_a_record = Fault(
-    name="never-drops-a-record",
-    part="records",
-    why="T[d] stays when d is explored; nothing looks it up again",
-    claim=None,
-    mapper=mapper("enhancement-iii-all", rule=_NeverDropped),
-)
+@planted("report", "basic", "Chart")
+class delivers_another_numbering(Chart):
+    """darts have other numbers, vertices and edges are listed from the last to the first"""
 
-
-class _FromTheEnd(Chart):
     def survey(self, cost: int) -> Survey:
         # The map is compared up to isomorphism.
         names = {dart: 7 + 3 * dart for dart in range(len(self.alpha))}
@@ -155,27 +121,11 @@ class _FromTheEnd(Chart):
         return Survey(tuple(rows), edges, marker, cost)
 
 
-delivers_another_numbering = Fault(
-    name="delivers-another-numbering",
-    part="report",
-    why="darts have other numbers, vertices and edges are listed from the last to the first",
-    claim=None,
-    mapper=mapper("basic", Chart=_FromTheEnd),
-)
-
-
-def _no_cost(robot: Robot) -> object:
+@planted("report")
+def reports_no_cost(robot: Robot) -> object:
+    """the delivered map names no cost"""
     vertices, edges, marker, _ = basic(robot)
     return {"vertices": vertices, "edges": edges, "marker": marker}
-
-
-reports_no_cost = Fault(
-    name="reports-no-cost",
-    part="report",
-    why="the delivered map names no cost",
-    claim=None,
-    mapper=_no_cost,
-)
 
 
 class _Silent(ForwardingRobot):
@@ -183,28 +133,15 @@ class _Silent(ForwardingRobot):
         pass
 
 
-def _declares_nothing(robot: Robot) -> Survey:
+@planted("report")
+def declares_nothing(robot: Robot) -> Survey:
+    """the mapper declares none of its decisions"""
     return basic(_Silent(robot))
 
 
-declares_nothing = Fault(
-    name="declares-nothing",
-    part="report",
-    why="the mapper declares none of its decisions",
-    claim=None,
-    mapper=_declares_nothing,
-)
+@planted("folding", "folding", "rule")
+class walks_what_it_could_conclude(FoldingRule):
+    """the last hypothesis is walked, though vu is known to be a vertex of S"""
 
-
-class _NeverConcludes(FoldingRule):
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
         return None
-
-
-walks_what_it_could_conclude = Fault(
-    name="walks-what-it-could-conclude",
-    part="folding",
-    why="the last hypothesis is walked, though vu is known to be a vertex of S",
-    claim=None,
-    mapper=mapper("folding", rule=_NeverConcludes),
-)

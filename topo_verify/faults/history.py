@@ -9,13 +9,16 @@ from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
-from topo_verify.faults.fault import Fault, mapper, one_late
+from topo_verify.faults.fault import one_late, planted
 from topo_verify.robot.events import Evidence, MapDart
 
-fault = partial(Fault, part="history")
+fault = partial(planted, "history")
 
 
-class _ThroughTheUnexplored(HistoryRule):
+@fault("enhancement-ii", "rule", claim="rejection-justified", theorem="history-through-unexplored")
+class traces_through_the_unexplored(HistoryRule):
+    """where a door is unexplored, tracing goes on as if it led back to the same vertex"""
+
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
@@ -31,16 +34,10 @@ class _ThroughTheUnexplored(HistoryRule):
         return None
 
 
-traces_through_the_unexplored = fault(
-    name="traces-through-the-unexplored",
-    why="where a door is unexplored, tracing goes on as if it led back to the same vertex",
-    claim="rejection-justified",
-    theorem="history-through-unexplored",
-    mapper=mapper("enhancement-ii", rule=_ThroughTheUnexplored),
-)
+@fault("enhancement-ii", "rule", claim="rejection-justified")
+class traces_from_the_first_dart(HistoryRule):
+    """a sequence is traced from the first dart of h's vertex, not from h"""
 
-
-class _FromTheFirstDart(HistoryRule):
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
@@ -48,15 +45,10 @@ class _FromTheFirstDart(HistoryRule):
         return super().refute(chart, Hypothesis(first, chart, chart.tree(0)), sequences)
 
 
-traces_from_the_first_dart = fault(
-    name="traces-from-the-first-dart",
-    why="a sequence is traced from the first dart of h's vertex, not from h",
-    claim="rejection-justified",
-    mapper=mapper("enhancement-ii", rule=_FromTheFirstDart),
-)
+@fault("enhancement-ii", "rule", claim="rejection-justified")
+class takes_unknown_for_a_mismatch(HistoryRule):
+    """a hypothesis is rejected where tracing leaves S, though S says nothing of the place"""
 
-
-class _NothingThere(HistoryRule):
     def beyond(
         self, exit_dart: MapDart, sequence: Executed, step: int, number: int
     ) -> Refutation | None:
@@ -64,15 +56,10 @@ class _NothingThere(HistoryRule):
         return Refutation("history", Evidence(step, percept, percept, number, exit_dart))
 
 
-takes_unknown_for_a_mismatch = fault(
-    name="takes-unknown-for-a-mismatch",
-    why="a hypothesis is rejected where tracing leaves S, though S says nothing of the place",
-    claim="rejection-justified",
-    mapper=mapper("enhancement-ii", rule=_NothingThere),
-)
+@fault("enhancement-ii", "rule", claim="rejection-justified")
+class keeps_sequences_of_last_edge(HistoryRule):
+    """the list of sequences is not emptied when the next edge is crossed"""
 
-
-class _OfTheEdgeBefore(HistoryRule):
     def __init__(self) -> None:
         self.before: list[Executed] = []
 
@@ -87,25 +74,11 @@ class _OfTheEdgeBefore(HistoryRule):
         self.before = list(sequences)  # these started at another vu
 
 
-keeps_sequences_of_last_edge = fault(
-    name="keeps-sequences-of-last-edge",
-    why="the list of sequences is not emptied when the next edge is crossed",
-    claim="rejection-justified",
-    mapper=mapper("enhancement-ii", rule=_OfTheEdgeBefore),
-)
+@fault("enhancement-ii", "rule", claim="rejection-justified", theorem="history-shifted-by-one")
+class compares_a_step_earlier(HistoryRule):
+    """what was seen before a door is compared with what S shows behind it"""
 
-
-class _OneStepLate(HistoryRule):
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
         return super().refute(chart, hypothesis, one_late(sequences))
-
-
-compares_a_step_earlier = fault(
-    name="compares-a-step-earlier",
-    why="what was seen before a door is compared with what S shows behind it",
-    claim="rejection-justified",
-    theorem="history-shifted-by-one",
-    mapper=mapper("enhancement-ii", rule=_OneStepLate),
-)

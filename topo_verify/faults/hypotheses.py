@@ -11,68 +11,44 @@ from topo_verify.algorithms.exploration import hypotheses
 from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.algorithms.planar import PlanarRule
 from topo_verify.algorithms.policies import Order, shortest
-from topo_verify.faults.fault import Fault, ForwardingRobot, crossed, mapper
+from topo_verify.faults.fault import ForwardingRobot, crossed, mapper, planted
 from topo_verify.robot.events import MapDart, Robot
 from topo_verify.robot.percept import Percept
 
-fault = partial(Fault, part="hypotheses")
+fault = partial(planted, "hypotheses")
 
 
-def _not_its_own(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
+@fault("basic", "hypotheses", claim="true-hypothesis-posed", theorem="posed-not-at-vk")
+def leaves_out_the_darts_of_vk(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
+    """H leaves out the darts of the vertex that the edge leaves, so loops are missed"""
     vk = chart.vertex[crossed(chart)]
     return [h for h in hypotheses(chart, percept, order) if chart.vertex[h.dart] != vk]
 
 
-leaves_out_the_darts_of_vk = fault(
-    name="leaves-out-the-darts-of-vk",
-    why="H leaves out the darts of the vertex that the edge leaves, so loops are missed",
-    claim="true-hypothesis-posed",
-    theorem="posed-not-at-vk",
-    mapper=mapper("basic", hypotheses=_not_its_own),
-)
-
-
-def _no_parallels(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
+@fault("basic", "hypotheses", claim="true-hypothesis-posed")
+def leaves_out_parallel_edges(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
+    """H leaves out vertices that an edge joins already, so parallel edges are missed"""
     vk = chart.vertex[crossed(chart)]
     ends = [chart.alpha[d] for d in chart.darts(vk)]
     near = {chart.vertex[d] for d in ends if d is not None} - {vk}
     return [h for h in hypotheses(chart, percept, order) if chart.vertex[h.dart] not in near]
 
 
-leaves_out_parallel_edges = fault(
-    name="leaves-out-parallel-edges",
-    why="H leaves out vertices that an edge joins already, so parallel edges are missed",
-    claim="true-hypothesis-posed",
-    mapper=mapper("basic", hypotheses=_no_parallels),
-)
-
-
-def _not_v0(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
+@fault("basic", "hypotheses", claim="true-hypothesis-posed")
+def leaves_out_the_darts_of_v0(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
+    """H leaves out the darts of the marker's vertex"""
     return [h for h in hypotheses(chart, percept, order) if chart.vertex[h.dart] != 0]
 
 
-leaves_out_the_darts_of_v0 = fault(
-    name="leaves-out-the-darts-of-v0",
-    why="H leaves out the darts of the marker's vertex",
-    claim="true-hypothesis-posed",
-    mapper=mapper("basic", hypotheses=_not_v0),
-)
+@fault("basic", "Chart", claim="true-hypothesis-posed")
+class leaves_h_in_u(Chart):
+    """the other end of an edge to an older vertex stays in U"""
 
-
-class _StaysOpen(Chart):
     def join(self, e: MapDart, other: MapDart) -> None:
         super().join(e, other)
         # An edge to a new vertex would be posed again.
         if self.vertex[other] < len(self.first) - 1:
             self.unexplored[other] = None
-
-
-leaves_h_in_u = fault(
-    name="leaves-h-in-u",
-    why="the other end of an edge to an older vertex stays in U",
-    claim="true-hypothesis-posed",
-    mapper=mapper("basic", Chart=_StaysOpen),
-)
 
 
 class _Coarse(Percept, frozen=True, gc=False):
@@ -105,31 +81,22 @@ class _CoarseChart(Chart):
         return first
 
 
-def _coarse(robot: Robot) -> object:
+@fault(claim="rejection-justified")
+def compares_degrees_modulo_3(robot: Robot) -> object:
+    """degrees are compared modulo 3, in H and in every comparison"""
     return mapper("basic", Chart=_CoarseChart)(_CoarseSight(robot))
 
 
-compares_degrees_modulo_3 = fault(
-    name="compares-degrees-modulo-3",
-    why="degrees are compared modulo 3, in H and in every comparison",
-    claim="rejection-justified",
-    mapper=_coarse,
-)
-
-
-def _nearest_two(darts: Iterable[MapDart], chart: Chart, tree: Tree) -> list[MapDart]:
+@fault("basic", "order", claim="true-hypothesis-posed")
+def tries_only_the_nearest_two(darts: Iterable[MapDart], chart: Chart, tree: Tree) -> list[MapDart]:
+    """only the two hypotheses with the shortest ways home are posed"""
     return shortest(darts, chart, tree)[:2]
 
 
-tries_only_the_nearest_two = fault(
-    name="tries-only-the-nearest-two",
-    why="only the two hypotheses with the shortest ways home are posed",
-    claim="true-hypothesis-posed",
-    mapper=mapper("basic", order=_nearest_two),
-)
+@fault("basic", "rule", claim="map-entailed")
+class concludes_by_elimination(NoRule):
+    """when all hypotheses but one are rejected, that one is confirmed, though vu may be new"""
 
-
-class _ByElimination(NoRule):
     def __init__(self) -> None:
         self.rejected = 0
 
@@ -143,36 +110,15 @@ class _ByElimination(NoRule):
         return remaining[0] if self.rejected and len(remaining) == 1 else None
 
 
-concludes_by_elimination = fault(
-    name="concludes-by-elimination",
-    why="when all hypotheses but one are rejected, that one is confirmed, though vu may be new",
-    claim="map-entailed",
-    mapper=mapper("basic", rule=_ByElimination),
-)
+@fault("basic", "rule", claim="map-entailed", theorem="conclude-the-last")
+class confirms_what_is_alone(NoRule):
+    """a hypothesis without an alternative is confirmed without a walk"""
 
-
-class _OnlyOne(NoRule):
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
         return remaining[0] if len(remaining) == 1 else None
 
 
-confirms_what_is_alone = fault(
-    name="confirms-what-is-alone",
-    why="a hypothesis without an alternative is confirmed without a walk",
-    claim="map-entailed",
-    theorem="conclude-the-last",
-    mapper=mapper("basic", rule=_OnlyOne),
-)
-
-
-def _planar() -> PlanarRule:
+@fault("basic", "rule", claim="true-hypothesis-kept", theorem="planar-keeps")
+def assumes_a_plane_world() -> PlanarRule:
+    """only darts on the face of e are walked, also where the world has handles"""
     return PlanarRule(NoRule())
-
-
-assumes_a_plane_world = fault(
-    name="assumes-a-plane-world",
-    why="only darts on the face of e are walked, also where the world has handles",
-    claim="true-hypothesis-kept",
-    theorem="planar-keeps",
-    mapper=mapper("basic", rule=_planar),
-)

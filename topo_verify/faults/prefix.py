@@ -9,12 +9,15 @@ from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_i import PrefixRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis, common_prefix
-from topo_verify.faults.fault import Fault, mapper, one_late
+from topo_verify.faults.fault import one_late, planted
 
-fault = partial(Fault, part="prefix")
+fault = partial(planted, "prefix")
 
 
-class _OneDoorBeyond(PrefixRule):
+@fault("enhancement-i", "rule", claim="rejection-justified", theorem="prefix-one-too-far")
+class compares_beyond_the_prefix(PrefixRule):
+    """the percept behind the first door that differs is compared as well"""
+
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
@@ -26,31 +29,20 @@ class _OneDoorBeyond(PrefixRule):
         return super().refute(chart, hypothesis, [*before, Executed(doors, last.percepts)])
 
 
-compares_beyond_the_prefix = fault(
-    name="compares-beyond-the-prefix",
-    why="the percept behind the first door that differs is compared as well",
-    claim="rejection-justified",
-    theorem="prefix-one-too-far",
-    mapper=mapper("enhancement-i", rule=_OneDoorBeyond),
-)
+@fault("enhancement-i", "rule", claim="rejection-justified")
+class compares_before_the_door(PrefixRule):
+    """what was seen before a door of the prefix is compared with what is expected behind it"""
 
-
-class _OneStepLate(PrefixRule):
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
         return super().refute(chart, hypothesis, one_late(sequences))
 
 
-compares_before_the_door = fault(
-    name="compares-before-the-door",
-    why="what was seen before a door of the prefix is compared with what is expected behind it",
-    claim="rejection-justified",
-    mapper=mapper("enhancement-i", rule=_OneStepLate),
-)
+@fault("enhancement-i", "rule", claim="rejection-justified")
+class counts_equal_doors_anywhere(PrefixRule):
+    """the length of the common prefix is the number of equal doors anywhere"""
 
-
-class _EqualAnywhere(PrefixRule):
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
@@ -60,11 +52,3 @@ class _EqualAnywhere(PrefixRule):
         equal = sum(map(int.__eq__, hypothesis.doors, last.doors))
         doors = hypothesis.doors[:equal]
         return super().refute(chart, hypothesis, [*before, Executed(doors, last.percepts)])
-
-
-counts_equal_doors_anywhere = fault(
-    name="counts-equal-doors-anywhere",
-    why="the length of the common prefix is the number of equal doors anywhere",
-    claim="rejection-justified",
-    mapper=mapper("enhancement-i", rule=_EqualAnywhere),
-)

@@ -9,13 +9,16 @@ from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
-from topo_verify.faults.fault import Fault, mapper, one_late
+from topo_verify.faults.fault import one_late, planted
 from topo_verify.robot.events import MapDart
 
-fault = partial(Fault, part="records")
+fault = partial(planted, "records")
 
 
-class _LoopsFromDart0(RecordsRule):
+@fault("enhancement-iii-all", "rule", claim="rejection-justified", theorem="records-stale-root")
+class records_a_loop_from_dart_0(RecordsRule):
+    """after a confirmation sequences are traced from dart 0 of h's vertex, not from h"""
+
     def learn(
         self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
     ) -> None:
@@ -23,31 +26,20 @@ class _LoopsFromDart0(RecordsRule):
         super().learn(chart, e, chart.first[chart.vertex[entry]], sequences)
 
 
-records_a_loop_from_dart_0 = fault(
-    name="records-a-loop-from-dart-0",
-    why="after a confirmation sequences are traced from dart 0 of h's vertex, not from h",
-    claim="rejection-justified",
-    theorem="records-stale-root",
-    mapper=mapper("enhancement-iii-all", rule=_LoopsFromDart0),
-)
+@fault("enhancement-iii-all", "rule", claim="rejection-justified")
+class records_from_the_near_end(RecordsRule):
+    """sequences are traced from e, by which the robot left, not from where it came in"""
 
-
-class _FromTheOtherEnd(RecordsRule):
     def learn(
         self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
     ) -> None:
         super().learn(chart, entry, e, sequences)
 
 
-records_from_the_near_end = fault(
-    name="records-from-the-near-end",
-    why="sequences are traced from e, by which the robot left, not from where it came in",
-    claim="rejection-justified",
-    mapper=mapper("enhancement-iii-all", rule=_FromTheOtherEnd),
-)
+@fault("enhancement-iii-all", "rule", claim="rejection-justified")
+class files_records_by_the_door(RecordsRule):
+    """records are filed by the number of the door at its vertex, so vertices share them"""
 
-
-class _ByDoor(RecordsRule):
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
@@ -72,15 +64,10 @@ class _ByDoor(RecordsRule):
         return dart - self.chart.first[self.chart.vertex[dart]]  # not unique on S
 
 
-files_records_by_the_door = fault(
-    name="files-records-by-the-door",
-    why="records are filed by the number of the door at its vertex, so vertices share them",
-    claim="rejection-justified",
-    mapper=mapper("enhancement-iii-all", rule=_ByDoor),
-)
+@fault("enhancement-iii-all", "rule", claim="rejection-justified")
+class keeps_records_of_the_rejected(RecordsRule):
+    """a sequence is recorded as traced from each hypothesis, even from rejected ones"""
 
-
-class _OnSuspicion(RecordsRule):
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
@@ -90,24 +77,14 @@ class _OnSuspicion(RecordsRule):
         return refutation
 
 
-keeps_records_of_the_rejected = fault(
-    name="keeps-records-of-the-rejected",
-    why="a sequence is recorded as traced from each hypothesis, even from rejected ones",
-    claim="rejection-justified",
-    mapper=mapper("enhancement-iii-all", rule=_OnSuspicion),
-)
+@fault("enhancement-iii-one", "rule", claim="rejection-justified")
+class compares_records_a_door_late(RecordsRule):
+    """a record is compared with what was seen one door before"""
 
+    def __init__(self) -> None:
+        super().__init__(levels=1)
 
-class _OneStepLate(RecordsRule):
     def beyond(
         self, exit_dart: MapDart, sequence: Executed, step: int, number: int
     ) -> Refutation | None:
         return super().beyond(exit_dart, one_late([sequence])[0], step, number)
-
-
-compares_records_a_door_late = fault(
-    name="compares-records-a-door-late",
-    why="a record is compared with what was seen one door before",
-    claim="rejection-justified",
-    mapper=mapper("enhancement-iii-one", rule=lambda: _OneStepLate(levels=1)),
-)

@@ -44,8 +44,11 @@ class Header(msgspec.Struct, frozen=True, kw_only=True):
     """The first line of a baseline.
 
     Attributes:
+        tool: the version of topo-verify that recorded it.
+        target, policies: the mapper, and its policies if known.
         worlds, seed: the arguments that gave the corpus.
         corpus, digest, total: its description, hash and number of worlds.
+        limits: of each run.
     """
 
     format: Literal["topo-verify/baseline"] = FORMAT
@@ -67,10 +70,12 @@ class BaselineEntry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=Tru
     Attributes:
         world: its id; beyond 200 edges, its JSON.
         name: its name in the corpus, if that differs.
+        cost: edge traversals.
         moves: a hash of the doors, in their order.
         decisions: a hash of the declared decisions, if any.
         map: the id of the valid delivered map (beyond 200 edges `sha256:` and the hash of its
             code).
+        failed: the claims that fail.
         undecided: no claim was judged: out of time while it still moved, or declined.
     """
 
