@@ -35,10 +35,6 @@ def available() -> bool:
 
 
 def require(what: str) -> None:
-    """Raise an InputError unless numba is installed.
-
-    Args:
-        what: what needs it, as the subject of the sentence.
-    """
+    """Raise an InputError, whose sentence has the subject `what`, unless numba is installed."""
     if not available():
         raise InputError(f"{what} needs numba: pip install 'topo-verify[fast]'")

@@ -111,10 +111,10 @@ def begin_next_root(world: WorldWords, walk: WalkWords) -> int:
 def join_from(
     world: WorldWords, walk: WalkWords, k: int, e: int, c: int, m2: int, n: int, u: int, nv: int
 ) -> int:
-    """Join e with the first open dart from c on that is not pruned, and return it.
+    """Join e with the first open dart from c on that is not pruned; return it.
 
-    `rank`: before, that of the step with c; after, that of the step made.
-    Returns: n or c if none is left: the first place for a new vertex's last dart.
+    `rank`: before, that of the step with c; after, of the step made.
+    Returns: n or c if none is left.
     """
     ways = 0
     if c < n and u > 1:
@@ -142,7 +142,7 @@ def join_from(
 def new_vertex_from(
     world: WorldWords, walk: WalkWords, k: int, e: int, c: int, m2: int, n: int, u: int, nv: int
 ) -> int:
-    """Hang a vertex on e, the first not pruned whose last dart is c or more: that dart.
+    """Hang a vertex on e whose last dart is the first not pruned from c on; return it.
 
     `rank`: as in `join_from`. Returns: m2 if none is left.
     """
@@ -175,7 +175,7 @@ def count_worlds(world: WorldWords, walk: WalkWords) -> int:
 
 @entry
 def list_worlds(world: WorldWords, walk: WalkWords, rows: WordTable, most: int) -> int:
-    """Write the next worlds into rows (rank, vertices, degrees, alpha); return how many."""
+    """Write worlds into rows (rank, vertices, degrees, alpha); return how many."""
     m2 = walk.darts
     for i in range(most):
         rank = next_world(world, walk)
@@ -194,11 +194,8 @@ def list_worlds(world: WorldWords, walk: WalkWords, rows: WordTable, most: int) 
 def prepare(
     edges: int, kind: WorldClass | None = None, start: int = 0, stop: int | None = None
 ) -> NDArray[int64]:
-    """The state of an enumeration before its first world.
+    """The state of an enumeration of ranks start … stop-1 (of class `any`).
 
-    Args:
-        kind: the class; default: any.
-        start, stop: only ranks start … stop-1, of class `any`.
     Raises:
         InputError: too many edges, or none.
     """
@@ -237,10 +234,10 @@ def ranked_tables(
     *,
     layout: WordLayout = SMALL,
 ) -> Iterator[tuple[int, rank_order.Table]]:
-    """The worlds of `pruned.ranked_tables`, by the kernel.
+    """The worlds of `pruned.ranked_tables`.
 
     Raises:
-        InputError: numba is not installed, or there are too many edges.
+        InputError: numba is missing, or there are too many edges.
     """
     import numpy as np
 
@@ -257,7 +254,7 @@ def ranked_tables(
 def next_of_all(world: WorldWords, walk: WalkWords) -> int:
     """`next_world` in class `any`: `tables` of rank_order.py.
 
-    One function with local variables: split, with all in `walk`, it took 1.6 times as long.
+    Split, with all in `walk`, it took 1.6 times as long.
     """
     if walk.rank >= walk.stop:
         return -1
@@ -309,7 +306,7 @@ def next_of_all(world: WorldWords, walk: WalkWords) -> int:
 
 @inlined
 def next_partner(world: WorldWords, c: int, m2: int, n: int, u: int) -> int:
-    """The next partner from c on: an open dart, or a new vertex's last dart."""
+    """The next open dart from c on, or a new vertex's last dart."""
     # A dead end: no dart would be open while darts remain.
     while c < m2:
         if c < n:
@@ -335,7 +332,7 @@ def next_root(walk: WalkWords) -> int:
 
 @inlined
 def skipped(walk: WalkWords, c: int, m2: int, n: int, u: int) -> bool:
-    """Whether all completions lie before the range; they are then skipped."""
+    """Skip a step whose completions all lie before the range."""
     if c < n:
         ways = walk.completions[(u - 2) * G_ROW + m2 - n]
     else:

@@ -139,7 +139,7 @@ def percept_word(percept: Percept | None) -> int:
     """The word for a percept; -1 for none.
 
     Raises:
-        OverflowError: no world has such a percept.
+        OverflowError: it fits no word.
     """
     if percept is None:
         return ABSENT
@@ -149,7 +149,7 @@ def percept_word(percept: Percept | None) -> int:
 
 
 def words(events: Iterable[ev.Event]) -> list[int]:
-    """The words of a catalogue algorithm's trace, without start and map."""
+    """The words of a trace, without start and map."""
     row: list[int] = []
     for event in events:
         match event:
@@ -200,11 +200,7 @@ def percept_of(word: int) -> Percept:
 
 
 def spans(trace: Sequence[int]) -> Iterator[tuple[int, int]]:
-    """Yield where each event begins and ends.
-
-    Raises:
-        InternalError: the words are not a trace.
-    """
+    """Yield where each event begins and ends."""
     at = 0
     while at < len(trace):
         kind = trace[at]

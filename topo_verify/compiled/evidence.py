@@ -30,7 +30,7 @@ def cite(evidence: EvidenceWords, step: int, expected: int, observed: int, at: i
 
 @kernel
 def refute_by_prefix(run: RunWords, h: int) -> bool:
-    """Whether the common prefix contradicts h; the first percept is cited."""
+    """Whether the common prefix contradicts h."""
     excursion, chart = run.excursion, run.chart
     at = h
     for step in range(1, excursion.size + 1):
@@ -48,10 +48,7 @@ def refute_by_prefix(run: RunWords, h: int) -> bool:
 
 @kernel
 def refute_by_history(run: RunWords, h: int) -> bool:
-    """Whether S or T contradicts h along the sequence; the first percept is cited.
-
-    Earlier sequences were traced when executed, and S is the same.
-    """
+    """Whether S or T contradicts h along the sequence; the first percept is cited."""
     chart, excursion = run.chart, run.excursion
     at = h  # A3.10
     if planted(run.task, TRACES_FROM_THE_FIRST_DART):
@@ -123,7 +120,7 @@ def behind(records: RecordWords, place: int, door: int) -> int:
 
 @kernel
 def learn_records(run: RunWords, e: int, entry: int) -> None:
-    """Record what sequences showed behind unexplored darts of the grown S."""
+    """Record what sequences showed behind unexplored darts."""
     records, sequences, chart = run.records, run.sequences, run.chart
     # Both are explored now, and get no new record below.
     records.of_dart[e] = -1
@@ -204,7 +201,7 @@ def face(run: RunWords, e: int) -> None:
 
 @kernel
 def refute_by_face(run: RunWords, h: int) -> bool:
-    """Whether h lies on another face: false in every planar world."""
+    """Whether h lies on another face."""
     faces = run.faces
     if faces.face[h] == faces.number:
         return False

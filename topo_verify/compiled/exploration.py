@@ -33,12 +33,9 @@ def explore(run: RunWords) -> int:
 
 @entry
 def explore_rounds(run: RunWords, at: int, rounds: int) -> int:
-    """At most `rounds` rounds of `explore`.
+    """At most `rounds` rounds of `explore`, after the part that returned `at` (-1: none).
 
-    Args:
-        at: what the part before returned; -1: there was none.
-    Returns:
-        The reference dart on S. The run is over when U is empty or `stop` is set.
+    Returns the reference dart on S; it is over when U is empty or `stop` is set.
     """
     if at < 0:
         at = start(run)
@@ -163,7 +160,7 @@ def validate(run: RunWords, e: int, remaining: int) -> int:
 
 @kernel
 def concluded(run: RunWords, remaining: int) -> int:
-    """The hypothesis that must be true, without an alternative; -1: none."""
+    """The hypothesis that must be true; -1: none."""
     if run.task.rule >= RULE_FOLDING:
         return conclude(run, remaining)
     if planted(run.task, CONFIRMS_WHAT_IS_ALONE) and remaining == 1:
@@ -173,7 +170,7 @@ def concluded(run: RunWords, remaining: int) -> int:
 
 @kernel
 def sift(run: RunWords, e: int, remaining: int) -> int:
-    """Keep hypotheses that the rule does not refute; return how many."""
+    """Keep the hypotheses not refuted; return how many."""
     kept = 0
     for i in range(remaining):  # A2.16
         h = run.remaining.dart[i]
@@ -190,11 +187,7 @@ def sift(run: RunWords, e: int, remaining: int) -> int:
 
 @inlined
 def execute(run: RunWords, h: int, shared: int) -> int:
-    """Walk the hypothesis' way home; return the first step whose percept differs, or -1.
-
-    Args:
-        shared: doors shared with the last sequence, not walked again.
-    """
+    """Walk the way home but for `shared` doors; return the first step that differs, or -1."""
     chart, excursion = run.chart, run.excursion
     length = chart.depth[chart.vertex[h]]
     if shared < length:  # else its way is executed already
@@ -239,8 +232,8 @@ def overlooked(run: RunWords, at: int, step: int, length: int) -> bool:
 def localise(run: RunWords, entered: int) -> int:
     """The reference dart on S, once vu's entry dart is known.
 
-    At v0 the marker tells it. Elsewhere the robot goes back to vu, where its reference dart is
-    turned away from the entry dart as the way back turned it.
+    At v0 the marker tells it. Elsewhere the robot goes back to vu, turned as the way back turned
+    it.
     """
     chart = run.chart
     marker = sensed(run.world, run.robot.dart) & MASK  # 1 + marker
@@ -302,7 +295,7 @@ def refute(run: RunWords, h: int) -> int:
 
 @kernel
 def learn(run: RunWords, e: int, entry: int, new: int) -> None:
-    """S has grown: the robot crossed e and came in by `entry`."""
+    """S has grown; the robot came in by `entry`."""
     task = run.task
     if task.rule >= RULE_FOLDING:
         learn_fold(run, entry, new)

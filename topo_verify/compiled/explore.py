@@ -72,7 +72,7 @@ TRACE_ROOM = 1 << 20
 """Initial words of trace in the large layout."""
 
 WORD_BYTES = 40
-"""Bytes for a word of trace as an event: 3 (moves) to 36 (poses) are needed."""
+"""Bytes for a word of trace as an event; 3 (moves) to 36 (poses) are needed."""
 
 MOVE_WORDS = 4
 
@@ -82,15 +82,7 @@ ROUNDS = 64
 
 @dataclass(frozen=True, slots=True)
 class CompiledRun:
-    """A run of a compiled algorithm.
-
-    Attributes:
-        cost: edge traversals.
-        map: what it delivered, or None.
-        stopped: why it delivered none.
-        decoded: its moves and decisions, if traced.
-        reported: the cost that it reported.
-    """
+    """A run; `decoded` has moves and decisions, if traced."""
 
     cost: int
     map: MapData | None
@@ -105,7 +97,7 @@ class CompiledRun:
 
     @property
     def events(self) -> tuple[Event, ...]:
-        """The events from the first move to the map; () without a trace."""
+        """The events from the first move to the map."""
         if self.decoded is None:
             return ()
         finish = () if self.map is None else (Finish(self.reported, self.map),)
@@ -123,11 +115,11 @@ def run_world(
     """Run an algorithm of the catalogue, with the reference policies, in a world.
 
     Args:
-        budget: the number of moves allowed; default: the bound of claim 7.
+        budget: number of moves; default: the bound of claim 7.
         fault: a mistake to plant, by its name in `PLANTED`.
     Raises:
-        InputError: numba is missing, no such algorithm or mistake, the world or the run is too
-            large, or free memory is too small for its trace.
+        InputError: numba is missing, a name is unknown, the world, the run or the trace is too
+        large.
     """
     require("the compiled engine")
     if algorithm not in KERNELS:
@@ -161,7 +153,7 @@ def run_world(
 
 
 def _more_room(job: CompiledJob, layout: ws.WordLayout, room: int) -> int:
-    """More room for a trace that exceeds `room` words.
+    """More room for a trace.
 
     Raises:
         InputError: half of the free memory does not hold it.
@@ -182,11 +174,7 @@ def _more_room(job: CompiledJob, layout: ws.WordLayout, room: int) -> int:
 
 
 def free_memory() -> int:
-    """Bytes that this process may still take.
-
-    The least of what the machine, its control group (version 1 or 2) and its limit of address space
-    leave; if all are unknown, the machine's memory.
-    """
+    """Bytes that machine, control group (version 1 or 2) and limit of address space leave."""
     rows = [line.split() for line in _lines("/proc/meminfo")]
     available = [int(row[1]) << 10 for row in rows if row[0] == "MemAvailable:"]
     free = available or [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
@@ -228,11 +216,7 @@ def _require_room(world: World) -> None:
 
 @dataclass(frozen=True, slots=True)
 class CompiledJob:
-    """One run: an algorithm in a world, with a budget and perhaps a mistake.
-
-    Attributes:
-        events: those taken out of the workspace so far.
-    """
+    """One run; `events` are those taken out of the workspace so far."""
 
     world: World
     algorithm: str
@@ -332,12 +316,7 @@ def _place(
 
 
 def place_map(space: Workspace, layout: ws.WordLayout, delivered: MapData) -> bool:
-    """Write a delivered map into a workspace as the map S.
-
-    Returns:
-        False if its darts are not numbered vertex by vertex from the marker's on, or do not match
-        its edges in number.
-    """
+    """Write a delivered map into a workspace as S; False if its darts are not numbered so."""
     degrees = [len(darts) for darts in delivered.vertices]
     size = sum(degrees)
     numbered = [dart for darts in delivered.vertices for dart in darts] == list(range(size))

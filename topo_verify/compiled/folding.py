@@ -24,7 +24,7 @@ WORD = 32
 
 @kernel
 def add_place(run: RunWords, percept: int, known: int) -> int:
-    """Add a node with this percept; return its first dart, or 0 (`stop` is set)."""
+    """Add a node; return its first dart, or 0 (`stop` is set)."""
     places = run.places
     first = places.darts
     degree = percept >> SHIFT
@@ -67,13 +67,13 @@ def across(places: PlaceWords, dart: int) -> int:
 
 @kernel
 def join_seen(run: RunWords, one: int, other: int) -> None:
-    """Join two darts that were seen to be one edge, and fold."""
+    """Join two darts, without an assumption."""
     take_for_seen(run, join_places(run, one, other))
 
 
 @kernel
 def identify_seen(run: RunWords, one: int, other: int) -> None:
-    """Identify two darts that were seen to be one, and fold."""
+    """Identify two darts, without an assumption."""
     places = run.places
     places.waiting[0] = one
     places.waiting[1] = other
@@ -82,7 +82,7 @@ def identify_seen(run: RunWords, one: int, other: int) -> None:
 
 @kernel
 def join_places(run: RunWords, one: int, other: int) -> int:
-    """Join two darts to one edge, and fold; return the contradiction or 0."""
+    """Join two darts, and fold; return the contradiction or 0."""
     places = run.places
     one = resolve(places, one)
     other = resolve(places, other)
@@ -109,11 +109,9 @@ def join_places(run: RunWords, one: int, other: int) -> int:
 
 @kernel
 def fold(run: RunWords, waiting: int, one_partner: int) -> int:
-    """Identify the darts of each pair, and what follows; return the contradiction.
+    """Identify the darts of each waiting pair, and what follows; return the contradiction.
 
-    Args:
-        waiting: words of waiting pairs.
-        one_partner: the darts of each pair have one partner, so nothing follows behind them.
+    `one_partner`: nothing follows behind them, since they have one partner.
     """
     places = run.places
     for i in range(places.place_of("waiting"), places.place_of("waiting") + waiting, 2):
@@ -152,7 +150,7 @@ def fold(run: RunWords, waiting: int, one_partner: int) -> int:
 def lay(run: RunWords, small: int, large: int, waiting: int, one_partner: int) -> int:
     """Identify each dart of a node with that of its leader, clockwise from these.
 
-    Returns the words of waiting pairs, or the contradiction as a negative number.
+    Returns the waiting words, or the contradiction, negative.
     """
     places = run.places
     places.laid += 1
@@ -207,7 +205,7 @@ def change(run: RunWords, where: int, word: int) -> None:
 
 @kernel
 def take_for_seen(run: RunWords, wrong: int) -> None:
-    """Keep changes without an assumption, or drop them if they clash."""
+    """Keep changes without an assumption, unless they clash."""
     places = run.places
     if wrong != 0:
         take_back(run)
@@ -353,7 +351,7 @@ def refute_by_folding(run: RunWords, h: int) -> bool:
 
 @kernel
 def follow_layer(run: RunWords, h: int) -> int:
-    """Fold what was joined since into a layer; return the contradiction."""
+    """Fold new edges into a layer; return the contradiction."""
     layers = run.layers
     lay_again(run, h)
     for i in range(layers.joined):
@@ -367,7 +365,7 @@ def follow_layer(run: RunWords, h: int) -> int:
 
 @kernel
 def conclude(run: RunWords, remaining: int) -> int:
-    """The last hypothesis, once vu is known to be in S; -1: none."""
+    """The last hypothesis, if vu is known to be in S; -1: none."""
     places = run.places
     if remaining != 1:
         return -1
@@ -379,7 +377,7 @@ def conclude(run: RunWords, remaining: int) -> int:
 
 @kernel
 def learn_fold(run: RunWords, entry: int, new: int) -> None:
-    """Note which vertex of S vu is: a new one, or that of `entry`."""
+    """Note that vu is a new vertex of S, or that of `entry`."""
     places = run.places
     if new != 0:
         places.entry[run.chart.vertices - 1] = places.vu

@@ -80,22 +80,19 @@ def kernel(function: F) -> F:
 
 
 def inlined(function: F) -> F:
-    """Mark a short hot function to inline: a numba call unpacks each array into seven numbers."""
+    """Mark a short hot function: a numba call unpacks each array into seven numbers."""
     return function
 
 
 def entry(function: F) -> F:
-    """Mark a function whose machine code Python calls: see `compiled`.
-
-    Its parameters are views, `WordTable`, `WordCube` and `int`.
-    """
+    """Mark a function that Python calls: see `compiled`."""
     return function
 
 
 def callback(function: F) -> F:
     """Mark a function that a native mapper calls: see `address_of`.
 
-    Its parameters are words, first the address of the workspace.
+    Its first word is the address of the workspace.
     """
     return function
 
@@ -103,12 +100,10 @@ def callback(function: F) -> F:
 def compiled(
     function: Callable[..., object], layout: WordLayout, *, checked: bool = False
 ) -> Callable[..., Any]:
-    """The machine code of an entry for a layout, compiled at first use.
+    """The machine code of an entry for a layout; `checked`: an index out of range is an IndexError.
 
-    Args:
-        checked: an index out of range is an IndexError.
     Raises:
-        InputError: numba is not installed; the cache folder cannot be used.
+        InputError: numba is missing; the cache folder cannot be used.
     """
     module = machine_code(layout, checked)
     dispatcher = getattr(module, function.__name__)
@@ -120,11 +115,7 @@ def compiled(
 
 @cache
 def address_of(function: Callable[..., int], layout: WordLayout) -> int:
-    """The address of a callback's machine code.
-
-    Raises:
-        InputError: as `compiled`.
-    """
+    """The address of a callback's machine code."""
     from numba import cfunc, types
 
     module, name = machine_code(layout, False), CALLED + function.__name__  # noqa: FBT003  part of the key
@@ -254,7 +245,7 @@ def _kernels(module: ModuleType) -> Iterator[ast.FunctionDef]:
 
 
 def _called(kernel: ast.FunctionDef) -> ast.FunctionDef:
-    """The function for an outside caller, which passes the workspace's address."""
+    """The function for an outside caller."""
     given = ", ".join(argument.arg for argument in kernel.args.args[1:])
     called = f"{kernel.name}(row_at(place, SIZE), {given})"
     (node,) = ast.parse(f"def {CALLED}{kernel.name}(place, {given}): return {called}").body
@@ -347,9 +338,9 @@ class _KeptCode:
 
     @contextmanager
     def writing(self) -> Generator[None]:
-        """A context for writing files, which first removes those without a checksum.
+        """Write files, after removing those without a checksum.
 
-        An entry's code may be compiled from that of others, so this covers the whole module.
+        One entry's code may contain another's, so this covers the whole module.
         """
         damaged = self._clear()
         if damaged:

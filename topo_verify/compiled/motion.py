@@ -107,10 +107,7 @@ def turn_round(excursion: ExcursionWords, steps: int) -> None:
 
 @kernel
 def choice(run: RunWords, remaining: int) -> int:
-    """The index in H to walk next: by `retrace` the first, or `overlap`.
-
-    `excursion.shared`: the doors it shares with the last sequence.
-    """
+    """The index in H to walk next: by `retrace` the first, or `overlap`."""
     excursion = run.excursion
     excursion.shared = 0
     if run.task.motion == 0 or run.sequences.number == 0:
@@ -129,7 +126,7 @@ def choice(run: RunWords, remaining: int) -> int:
 
 @kernel
 def common_prefix(run: RunWords, h: int) -> int:
-    """The doors that the way home from h shares with the last sequence."""
+    """Doors that the way home from h shares with the last sequence."""
     excursion, chart = run.excursion, run.chart
     n = excursion.size
     at = h

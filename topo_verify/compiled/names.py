@@ -43,12 +43,7 @@ class Words(Protocol):
 
 
 class WordView:
-    """The words of an array by their names.
-
-    Args:
-        words: the array.
-        origin: where the view, or cursor, begins.
-    """
+    """The words of an array, from `origin` on, by their names."""
 
     letter: ClassVar[str]
     is_cursor: ClassVar[bool] = False
@@ -75,13 +70,11 @@ class WordView:
 
 
 class Field:
-    """A name of a view: a word, a row, or a part (a view).
+    """A name of a view: a word, a row with a capacity, or a part (a view).
 
     Attributes:
         name: as in `chart.first`.
-        capacity: names the size of a row; "" for a word.
         constant: the name of the offset in compiled code.
-        offset: where it stands.
     """
 
     def __init__(self, letter: str, name: str, capacity: str, part: type[WordView] | None) -> None:
@@ -113,11 +106,7 @@ class Fields:
 
     Args:
         letter: the array's name in compiled code.
-        whole: the view of all of it.
-        capacities: the sizes of rows by name.
-    Attributes:
-        all: every field.
-        size: the number of words.
+        capacities: the sizes of rows.
     """
 
     def __init__(self, letter: str, whole: type[WordView], capacities: Mapping[str, int]) -> None:
@@ -131,11 +120,7 @@ class Fields:
     def offsets(
         self, capacities: Mapping[str, int] | None = None, *, gap: int = 0
     ) -> dict[str, int]:
-        """The offset of each field for these capacities, and `SIZE`.
-
-        Args:
-            gap: words between fields, where a test looks for stray writes.
-        """
+        """The offset of each field, and `SIZE`; a test looks for stray writes in each `gap`."""
         sizes = self.capacities if capacities is None else capacities
         end, places = 0, dict[str, int]()
         for field in self.all:
@@ -170,11 +155,7 @@ def _named(letter: str, part: str, view: type[WordView]) -> Iterator[Field]:
 
 
 def cursor(letter: str, capacities: Mapping[str, int] = {}) -> Callable[[type[V]], type[V]]:
-    """The decorator of a cursor.
-
-    Args:
-        capacities: as in `Fields`; a row without one must be last.
-    """
+    """The decorator of a cursor; a row without a capacity must be last."""
 
     def placed(view: type[V]) -> type[V]:
         above = [name for base in view.__mro__[1:] for name in vars(base).values()]
@@ -191,8 +172,6 @@ def cursor(letter: str, capacities: Mapping[str, int] = {}) -> Callable[[type[V]
 class Flat(ast.NodeTransformer):
     """Turns a kernel with names into one over arrays and offsets.
 
-    Args:
-        namespace: what names mean in the kernel's module.
     Raises:
         TypeError: a row is used as a word, or a part as an array.
     """

@@ -237,7 +237,7 @@ def native_augment(run: RunWords, e: int, kind: int, dart: int, degree: int) -> 
 
 @callback
 def native_skip(run: RunWords, _why: int) -> int:
-    """Decline the world. The reason is reported when it runs again, behind the pipe."""
+    """Decline the world; behind the pipe it says why."""
     if not is_over(run):
         run.stop = STOP_SKIP
     return REFUSED
@@ -247,10 +247,7 @@ def native_skip(run: RunWords, _why: int) -> int:
 def native_deliver(
     run: RunWords, vertices: int, degrees: int, alpha: int, marker: int, cost: int
 ) -> int:
-    """Deliver a map: degrees of vertices, other ends of darts, the marker's dart.
-
-    Darts are numbered vertex by vertex, clockwise.
-    """
+    """Deliver a map: degrees of vertices, other ends of darts, the marker's dart."""
     if is_over(run):
         return REFUSED
     if vertices < 0 or vertices > MOST_WORDS or not is_number(marker) or cost > MOST:
@@ -292,7 +289,7 @@ def place_map(run: RunWords, vertices: int, degrees: int, alpha: int, marker: in
 
 @kernel
 def place_vertices(run: RunWords, vertices: int, degrees: int) -> int:
-    """Write the delivered vertices: the number of darts; -1: too many, or no map."""
+    """Write the vertices; return the number of darts; -1: no map."""
     D = row_at(degrees, vertices)
     darts = 0
     for v in range(vertices):
@@ -322,7 +319,7 @@ def is_paired(run: RunWords, alpha: int, darts: int) -> bool:
 
 @kernel
 def is_in_order(run: RunWords, A: Any, darts: int) -> bool:
-    """Whether the numbers of S can be kept: each vertex is met from a lower dart."""
+    """Whether each vertex is met from a lower dart, as in S."""
     met = 0
     for d in range(darts):
         if run.native.given[d] > met:
@@ -333,7 +330,7 @@ def is_in_order(run: RunWords, A: Any, darts: int) -> bool:
 
 @kernel
 def rename_darts(run: RunWords, vertices: int, D: Any, A: Any, darts: int, marker: int) -> None:
-    """Number the darts in order of discovery; `chart.alpha` temporarily holds the old names."""
+    """Number the darts in order of discovery."""
     named = name_vertex(run, D, marker, 0)
     found = 1
     d = 0
@@ -362,7 +359,7 @@ def rename_darts(run: RunWords, vertices: int, D: Any, A: Any, darts: int, marke
 
 @kernel
 def name_vertex(run: RunWords, D: Any, dart: int, named: int) -> int:
-    """Name the darts of a vertex from this one on; return how many have names."""
+    """Name the darts of a vertex from this one on; return the number named."""
     v = run.native.given[dart]
     begin = run.chart.first[v]
     for _ in range(D[v]):

@@ -106,10 +106,7 @@ class NativeCalls:
     """A native mapper, as this process calls it.
 
     Args:
-        function: as ctypes has it.
         beats: the address of two words: worlds of the shard finished, and a heartbeat.
-    Attributes:
-        first, worlds: the first rank of the shard, and its number of worlds.
     """
 
     def __init__(self, function: Any, beats: int) -> None:
@@ -120,7 +117,7 @@ class NativeCalls:
         self._spaces: dict[tuple[str, int], Row] = {}
 
     def space(self, use: str, room: int = ws.TRACE) -> Row:
-        """The workspace for a use, with `room` words of trace; the same each time."""
+        """The workspace for a use, the same each time."""
         if (use, room) not in self._spaces:
             import numpy as np
 
@@ -150,10 +147,7 @@ class NativeCalls:
             os._exit(native.WROTE)
 
     def run(self, world: World) -> tuple[CompiledRun, bool]:
-        """The run in one world of the small layout, and whether it decides anything.
-
-        A trace that does not fit is made again with four times the room, up to `MOST_ROOM`.
-        """
+        """The run in one world of the small layout, and whether it decides anything."""
         room = ROOM
         while True:
             space = self.space("run", room)

@@ -22,8 +22,7 @@ class WordLayout:
     """Where the fields stand in workspaces of one kind.
 
     Attributes:
-        name: part of the name of the module of machine code.
-        constants: capacities and offsets by their names there.
+        constants: capacities and offsets by their names in machine code.
         places: the offset of every field, as in `chart.first`, and `SIZE`.
         sources: the modules of its kernels; (): this package's.
     """
@@ -288,12 +287,7 @@ FULL_CHART, FULL_STEPS, FULL_RECORDS, FULL_PLACES, FULL_TRACE = range(5)
 def layout(
     name: str, capacities: dict[str, int], *, faults: bool = False, gap: int = 0
 ) -> WordLayout:
-    """The layout for these capacities.
-
-    Args:
-        faults: whether mistakes can be planted.
-        gap: words between fields, where a test looks for stray writes.
-    """
+    """The layout for these capacities; a test looks for stray writes in each `gap`."""
     places = RUN.offsets(capacities, gap=gap)
     constants = {**capacities, "FAULTS": int(faults), **RUN.constants(places)}
     return WordLayout(name, constants, places)

@@ -31,10 +31,8 @@ QUICK: tuple[TheoremKind, ...] = ("inductive", "negative", "mutant")
 
 @cache
 def catalogue(edges: int | None = None) -> tuple[Theorem, ...]:
-    """All theorems, in order.
+    """All theorems; bounded ones for worlds of up to `edges`.
 
-    Args:
-        edges: the largest worlds of the bounded ones; default: as large as is quick.
     Raises:
         InputError: no edges, or more than are feasible.
     """
@@ -61,10 +59,9 @@ def choose(
     edges: int | None = None,
     deep: bool = False,
 ) -> tuple[Theorem, ...]:
-    """The theorems with these names and of these kinds; without names, all quick ones.
+    """The theorems with these names, kinds and at most these edges; without names, all quick ones.
 
     Args:
-        edges: only theorems up to this size.
         deep: also those that take minutes. A named theorem is always chosen; mechanised ones also
             if their kind is asked for.
     Raises:

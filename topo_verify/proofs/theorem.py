@@ -24,7 +24,7 @@ from topo_verify.errors import plural
 TheoremKind = Literal["inductive", "mechanised", "bounded", "negative", "mutant"]
 
 SolverAnswer = Literal["sat", "unsat", "unknown"]
-"""Compare it with `==`: each is a non-empty text, so each counts as true."""
+"""Compare it with `==`: each counts as true."""
 
 ResultStatus = Literal["ok", "failed", "open"]
 """`failed`: a definite but unexpected verdict. `open`: no verdict."""
@@ -44,9 +44,7 @@ class Budget:
     Attributes:
         timeout: seconds for each query.
         rlimit: Z3's deterministic resource units for each query; 0: no limit.
-        seed: of the solver's random choices.
         certify: also make certificates, and have them checked.
-        progress: called before each step of a long proof.
     """
 
     timeout: float = 60.0
@@ -63,12 +61,7 @@ class Budget:
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """A question to a solver: an SMT-LIB 2 script.
-
-    Attributes:
-        name: of the question, and of the exported file.
-        expected: the answer that the theorem rests on.
-    """
+    """A question to a solver: an SMT-LIB 2 script, and the expected answer."""
 
     name: str
     smt2: str
@@ -81,8 +74,6 @@ class RefutationCertificate:
 
     Attributes:
         format: such as "drup".
-        checker: name and version.
-        checked: did the checker accept the proof?
         clauses, steps: their numbers.
         why: why it was refused, or "".
     """
@@ -101,15 +92,12 @@ class TheoremResult:
 
     Attributes:
         verdict: UNKNOWN for a time-out.
-        solver: name and version.
-        seconds: wall-clock time.
         premises_satisfiable: can all premises hold? None: unknown, or not asked.
         core: the premises that the proof used, if known.
         replayed: models replayed without a solver, of how many.
         checked, total: for EXHAUSTED, worlds judged and in all.
         counterexample: the id of the refuting world, or the structure in one line.
         history: the doors of a walk that shows it.
-        certificate: of unsatisfiable queries, if asked for.
         note: one sentence, such as the reason for UNKNOWN.
     """
 
@@ -143,14 +131,12 @@ class Theorem:
 
     Attributes:
         name: never changes, since scripts use it.
-        kind: see the head of this file.
         claims: those of docs/semantics.md, section 9, that rest on it.
         words, symbols: the statement in words, and for the solver.
-        solver_part: what the solver proves.
         argued: the steps in words, by their names in docs/proofs.md.
         assumed: statements that are not proved here.
         expected: the verdict if all is well.
-        prove: proves or refutes it. A time-out is a result, never an exception.
+        prove: a time-out is a result, never an exception.
         queries: the questions, for export and a second solver.
         edges: for a bounded theorem, the most edges of its worlds.
         of: for a mutant, the changed theorem.

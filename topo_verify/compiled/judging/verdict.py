@@ -143,14 +143,10 @@ def is_same_map(
     degree: int,
     root: int,
 ) -> bool:
-    """Whether the delivered map is isomorphic to that in M, dart 0 to the root.
+    """Whether the delivered map is isomorphic to that in M (W or J), dart 0 to the root.
 
     The image of a dart decides all others. A map of as many darts, onto a connected one, is one to
     one.
-
-    Args:
-        M: W or J, with other end and vertex of darts, first dart and degree of vertices at these
-        places.
     """
     darts = chart.darts
     for d in range(darts):

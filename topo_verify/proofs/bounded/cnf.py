@@ -27,11 +27,7 @@ MET = "met"
 
 
 class Formula:
-    """A growing conjunction; Boolean `v` is `names[v - 1]`.
-
-    Attributes:
-        met: clauses of group `MET`.
-    """
+    """A growing conjunction; Boolean `v` is `names[v - 1]`, `met` the clauses of `MET`."""
 
     def __init__(self) -> None:
         self.names: list[str] = []
@@ -145,12 +141,7 @@ class Assignment:
 
 @dataclass(frozen=True, slots=True)
 class SatResult:
-    """Z3's answer about a formula.
-
-    Attributes:
-        core: the groups that an unsat answer used; not minimal.
-        why: the reason for unknown.
-    """
+    """Z3's answer, with a model, the reason for unknown, or the groups used (not minimal)."""
 
     answer: SolverAnswer
     model: Assignment | None = None
@@ -167,9 +158,9 @@ def solve(formula: Formula, budget: Budget) -> SatResult:
 
 
 def first_model(formula: Formula, over: CnfRow, budget: Budget) -> SatResult:
-    """As `solve`, but the first model in the order of the literals `over`, earliest ones true.
+    """As `solve`, but the first model in the order of `over`, earliest literals true.
 
-    Z3's own model may vary from run to run; a printed counterexample must not.
+    Z3's own model may vary; a printed counterexample must not.
     """
     question = Z3Question(formula.smt2(), budget, setup="clauses")
     if (answer := question.check()) != "sat":
@@ -193,7 +184,7 @@ def models(formula: Formula, over: CnfRow, budget: Budget) -> Iterator[Assignmen
     """Yield a model for each assignment of `over`.
 
     Raises:
-        SolverGaveUp: Z3 gave up before excluding further models.
+        SolverGaveUp: before further models were excluded.
     """
     question = Z3Question(formula.smt2(), budget, setup="clauses")
     names = {abs(literal): formula.names[abs(literal) - 1] for literal in over}

@@ -62,11 +62,9 @@ class EncodedPercept:
 
 
 class Worlds(Formula):
-    """The clauses of all worlds with this many edges.
+    """The clauses of all worlds with this many edges; see the head of this file.
 
     Attributes:
-        darts: 2m.
-        first, joined, vertex: see the head of this file.
         entry: entry[e, f]: the vertex beginning with dart f was found through dart e < f.
         in_v0: per dart, is it a dart of v0?
     """
@@ -184,11 +182,7 @@ class Worlds(Formula):
         *guard: CnfLiteral,
         absolute: bool = False,
     ) -> None:
-        """Require, under the guard, that `leave` is this door at `at`.
-
-        Args:
-            absolute: count doors from the vertex's first dart (a seeded fault).
-        """
+        """Require, under the guard, that `leave` is this door; `absolute` is a seeded fault."""
         for (f, degree), vertex in self.vertex.items():
             for x in range(f, f + degree):
                 for k in self.darts:
@@ -263,9 +257,9 @@ RuleFault = Literal[
     through-unexplored  an unexplored dart is traced as if it led back to itself
     absolute-doors      doors on S are counted from the vertex's first dart
     shifted             a percept is compared with the next one
-    turned              the robot forgets that an excursion turned its reference dart
+    turned              the robot forgets that an excursion turned it
     one-more            the door behind the common prefix is compared too
-    first-dart          records are traced again from the entered vertex's first dart
+    first-dart          records are traced again from the vertex's first dart
 """
 
 
@@ -368,12 +362,7 @@ def walk(
 
 @dataclass(frozen=True, slots=True)
 class TracedWalk:
-    """A walk on a map up to the first unexplored dart.
-
-    Attributes:
-        alive: per position, were only explored darts crossed so far?
-        ends: per step, is it the first to cross an unexplored dart?
-    """
+    """A walk on a map, alive until a step ends it at an unexplored dart."""
 
     walk: Walk
     alive: tuple[CnfLiteral, ...]

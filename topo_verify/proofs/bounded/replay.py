@@ -44,12 +44,10 @@ class BoundedCounterexample:
 
     Attributes:
         explored: the edges of S, smaller dart first.
-        e, h: the dart that was crossed, and the hypothesis.
         word: the doors executed behind e.
         own: the hypothesis' own way home.
         turned: the door of a first excursion behind e, if any.
-        earlier: for records, the recorded excursion.
-        levels: for records, the depth compared; None: any.
+        earlier, levels: for records, the excursion, and the depth compared.
     """
 
     world: World
@@ -152,7 +150,6 @@ def replay_confirmation(
     """Replay a false confirmation.
 
     Args:
-        marker: what the mapper compares of the marker.
         whole: require that all percepts are as expected on a shortest way; else only the last.
     Raises:
         Disagreement: the confirmation does not happen.
@@ -175,11 +172,8 @@ def replay_confirmation(
 def replay_rejection(
     found: BoundedCounterexample, rule: str, fault: RuleFault
 ) -> ReplayedCounterexample:
-    """Replay a false rejection.
+    """Replay a false rejection by `trace`, `prefix`, `history` or `records`.
 
-    Args:
-        rule: `trace`, `prefix`, `history` or `records`.
-        fault: the mistake in the rule.
     Raises:
         Disagreement: the rejection does not happen.
     """

@@ -61,11 +61,7 @@ def confirm_back(edges: int) -> enc.Worlds:
 
 
 def confirm_final(edges: int, *, marker: enc.MarkerDetail = "directed") -> enc.Worlds:
-    """Two different darts at v0 have equal percepts, marker direction included.
-
-    Args:
-        marker: "undirected" compares its presence only (a seeded fault).
-    """
+    """Two different darts at v0 have equal percepts; marker "undirected" is a seeded fault."""
     world, chart = _map(edges)
     p, r = _known(world, chart, "p"), world.position("r", "r")
     for d in world.darts:
@@ -147,8 +143,6 @@ class EncodedCounterexample:
     """A formula, and the rows that describe a counterexample.
 
     Attributes:
-        chart: the map S.
-        e, h: the dart crossed, and the hypothesis for its other end.
         executed: the doors taken behind e.
         made: per door, is it taken? None: all are.
         own: for `prefix`, the hypothesis' own way home.
@@ -259,9 +253,8 @@ def records(
 ) -> EncodedCounterexample:
     """A word traced from the true h crosses a recorded dart, and a percept differs from the record.
 
-    Map `before` has the unexplored dart `e1`, behind which the word `wrote` is executed. e1 ends in
-    `entry`, which gives map `earlier`; the word is traced on it again. In S, a later map, the dart
-    where that ended is unexplored.
+    In map `before`, e1 is crossed and `wrote` executed. e1 ends in `entry`: on map `earlier` the
+    word is traced again. In S, a later map, the dart where that ended is unexplored.
 
     Args:
         levels: 1: only the place behind the dart; None: as deep as the doors agree.
@@ -342,8 +335,7 @@ class BoundedStatement:
 
     Attributes:
         refuted: for a number of edges, the clauses of a counterexample.
-        premises: clauses that must be satisfiable, or the statement is vacuous; None: `refuted`
-            without the negated conclusion.
+        premises: clauses that must be satisfiable; None: `refuted` without the negated conclusion.
         least: the fewest edges with which it is not vacuous.
     """
 

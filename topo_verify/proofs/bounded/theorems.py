@@ -46,11 +46,7 @@ def every_world(edges: int, world_class: str = "any") -> Worlds:
 
 
 def codes(edges: int, world_class: str = "any", budget: th.Budget | None = None) -> Iterator[Table]:
-    """Yield the (degrees, alpha) of each model.
-
-    Raises:
-        SolverGaveUp: the solver gave up before excluding further models.
-    """
+    """Yield the (degrees, alpha) of each model."""
     world = every_world(edges, world_class)
     # These determine the world.
     over = (*world.first, *world.joined.values())
@@ -261,10 +257,7 @@ def _questions(
 
 
 def worlds_theorem(name: str, sizes: range, *, deep: bool = False) -> th.Theorem:
-    """The models of the encoding are the canonical codes, each once.
-
-    The certified question is that there is no other model; the list shows one for each code.
-    """
+    """The models of the encoding are the canonical codes, and there is no other."""
 
     def prove(budget: th.Budget) -> th.TheoremResult:
         if budget.certify:

@@ -127,7 +127,6 @@ class DescribedRule:
         rule: `none`, `prefix`, `history` or `records`.
         levels: the depth of records; None: any.
         terms: default `RULES`; a test passes changed ones.
-        trie: the records so far.
     """
 
     rule: str

@@ -18,7 +18,7 @@ from topo_verify.proofs.solvers import z3_solver
 from topo_verify.proofs.theorem import Budget, SolverAnswer
 
 SIZES = ((1, 1), (2, 1), (2, 2), (3, 2), (3, 3), (4, 4))
-"""The number of darts of the world, and of elements of other sorts, in the order tried."""
+"""The number of darts of the world and of elements of other sorts, in order."""
 
 
 @dataclass(frozen=True, slots=True)

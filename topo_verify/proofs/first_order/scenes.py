@@ -100,13 +100,10 @@ def _discovered(known: int) -> dict[str, terms.Term]:
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """A decoded model.
+    """A decoded model; `place` is phi, darts of S to darts of the world.
 
     Attributes:
-        world: has the darts of the model.
-        place: for each dart of S, the dart of the world (phi).
         first: for each dart of S, the first dart of its vertex.
-        explored: the explored darts of S.
         constants: the mutant's: darts of S, darts of the world, or doors.
     """
 
@@ -120,10 +117,8 @@ class Scene:
 def find(
     given: Mapping[str, terms.Term], budget: Budget, *, edges: int, known: int
 ) -> tuple[Scene | None, SolverAnswer, str]:
-    """Search a scene of this size in which the formulas hold.
+    """Search a scene of this size; return it or None, the answer, and the reason for `unknown`.
 
-    Returns:
-        The scene if the answer is `sat`, the answer, and Z3's reason if it is `unknown`.
     Raises:
         InternalError: the model is not a world.
     """
@@ -173,12 +168,7 @@ MOVES = 10_000
 
 
 class SceneReplay:
-    """A robot in a scene's world, for one replay.
-
-    Attributes:
-        chart: S, numbered in the order of discovery.
-        without: constants whose edges are left for the mutant to cross.
-    """
+    """A robot in a scene's world, for one replay; the edges of `without` are left to the mutant."""
 
     def __init__(self, scene: Scene, *, without: Collection[str] = ()) -> None:
         self.scene = scene

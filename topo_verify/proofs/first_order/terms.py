@@ -62,10 +62,7 @@ class App:
 
 @dataclass(frozen=True, slots=True)
 class Forall:
-    """The body holds for all values of the variables.
-
-    `patterns`: groups of terms at which a solver instantiates; they do not change the meaning.
-    """
+    """The body holds for all values; `patterns` tell a solver where to instantiate."""
 
     variables: tuple[Var, ...]
     body: Term
@@ -214,7 +211,7 @@ def shown(term: Term, *, inner: bool = False) -> str:
 
 
 def declarations(terms: Iterator[Term] | list[Term]) -> list[str]:
-    """The SMT-LIB declarations of all sorts and symbols, in a fixed order.
+    """The declarations of all sorts and symbols, in a fixed order.
 
     Raises:
         TypeError: two symbols have one name.
@@ -254,12 +251,7 @@ Function = Callable[..., Value]
 
 @dataclass(frozen=True, slots=True)
 class Structure:
-    """The meaning of the symbols.
-
-    Attributes:
-        sizes: the number of elements of each quantified sort.
-        functions: of each symbol; a constant takes no arguments.
-    """
+    """The meaning of the symbols, and the number of elements of each quantified sort."""
 
     sizes: Mapping[str, int]
     functions: Mapping[str, Function]

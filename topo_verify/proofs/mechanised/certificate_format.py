@@ -39,12 +39,7 @@ Line = Sequence[int]
 
 @dataclass(frozen=True, slots=True)
 class CoqCertificate:
-    """A statement about one log; fold, numbering and decisions are not trusted.
-
-    Attributes:
-        numbering: see `certificates.numbering_of`; None without a right delivered map.
-        decisions: those that follow.
-    """
+    """A statement about one log; only the log and the statement are trusted."""
 
     statement: CertifiedStatement
     log: tuple[ev.Event, ...]
@@ -150,8 +145,8 @@ _DECISIONS = (ev.Reject, ev.Confirm, ev.Augment)
 def stated_log(trace: Sequence[ev.Event]) -> tuple[ev.Event, ...]:
     """Return the events of a trace that a certificate is about.
 
-    Left out: poses, which claim nothing of the world; all decisions from the first on that names a
-    number no dart has; a delivered value that is no map. Darts outside 0..`LARGEST` are renumbered.
+    Left out: poses; all decisions from the first on that names a number no dart has; a delivered
+    value that is no map. Darts outside 0..`LARGEST` are renumbered.
     """
     end = next((i for i, event in enumerate(trace) if not _is_natural(event)), len(trace))
     kept: list[ev.Event] = []
@@ -237,7 +232,7 @@ def _with_natural_darts(delivered: ev.MapData) -> ev.MapData:
 
 
 def _event(event: ev.Event) -> Line | None:
-    """The numbers of an event; None if it is stated elsewhere or not at all."""
+    """The numbers of an event that is stated here."""
     match event:
         case ev.Move(door, percept):
             return (0, door, *_percept(percept))

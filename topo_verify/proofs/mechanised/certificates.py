@@ -59,10 +59,8 @@ class CertificateCheck:
     """The result of checking a certificate.
 
     Attributes:
-        accepted: None if it was not checked.
+        accepted: None if it was not checked; `why` has the reason.
         by: the checker and its version; "" if none is installed.
-        why: why it was refused or not checked.
-        statement: None if it is not accepted.
         delivered: does it state that the delivered map is right?
         certified, decisions: number of decisions stated, and declared.
     """
@@ -80,7 +78,7 @@ def certificate_of(trace: Sequence[Event]) -> CoqCertificate:
     """Return the certificate of what a log proves.
 
     Raises:
-        InputError: the trace is out of order, or has numbers below 0 or too many doors.
+        InputError: the trace is out of order, has numbers below 0, or too many doors.
     """
     require_order(trace)
     percepts, doors = _walk(trace)
@@ -170,12 +168,7 @@ def numbering_of(delivered: MapData, table: Sequence[MapRow]) -> tuple[tuple[int
 def checking(
     *, timeout: float, progress: Callable[[str], None] = lambda _: None
 ) -> Generator[Callable[[Sequence[int]], CertificateCheck]]:
-    """Yield a function that checks the numbers of a certificate.
-
-    Args:
-        timeout: seconds for each call of a program.
-        progress: called with a few words before each step.
-    """
+    """Yield a function that checks certificates; `timeout`: seconds for each call of a program."""
     with TemporaryDirectory() as folder:
         yield _Checker(Path(folder), timeout, progress).check
 
@@ -207,7 +200,6 @@ def build(folder: Path, *, timeout: float) -> None:
 
     Raises:
         InputError: the installed Coq refuses a file.
-        toolchain.Unfinished: coqc timed out, was killed, or lacks memory.
     """
     names = toolchain.required(LIBRARY)
     toolchain.copy_library(folder, names)

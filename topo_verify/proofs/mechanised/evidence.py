@@ -40,40 +40,40 @@ class Arc(NamedTuple):
 
 Meeting = tuple[Arc, Arc]
 LogPlace = tuple[int, int]
-"""A visit, from 1, and a dart of its vertex, counted from the reference dart."""
+"""A visit, from 1, and a dart, counted from the reference dart."""
 
 
 @dataclass(frozen=True, slots=True)
 class Arrive:
-    """Conflict: two arcs leave by one dart and arrive at different darts."""
+    """Conflict: arcs that leave by one dart arrive at two."""
 
     meeting: Meeting
 
 
 @dataclass(frozen=True, slots=True)
 class Marked:
-    """Conflict: the visit saw the marker, and its place cannot be the marked dart."""
+    """Conflict: the visit saw the marker, but not at the marked dart."""
 
     visit: int
 
 
 @dataclass(frozen=True, slots=True)
 class Alone:
-    """Conflict: the move from this visit would leave and arrive by one dart."""
+    """Conflict: the move would leave and arrive by one dart."""
 
     visit: int
 
 
 @dataclass(frozen=True, slots=True)
 class Illegal:
-    """Conflict: a door or a marker beyond the degree, or a start away from the marker."""
+    """Conflict: the log has a door or a marker beyond the degree, or no marker at the start."""
 
 
 Conflict = Arrive | Marked | Alone | Illegal
 
 
 class MapRow(NamedTuple):
-    """A dart of a map: the next and the previous one clockwise, its partner (None: open)."""
+    """A dart of a map: next and previous clockwise, partner (None: open)."""
 
     following: int
     previous: int
@@ -82,13 +82,7 @@ class MapRow(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class FoldedLog:
-    """The fold of a log.
-
-    Attributes:
-        meetings: the evidence.
-        conflict: the contradiction if no world shows the log.
-        table: the fold as a map with root dart 0; empty after a conflict.
-    """
+    """The fold of a log; `table` is the map with root dart 0, empty after a conflict."""
 
     meetings: tuple[Meeting, ...]
     conflict: Conflict | None
@@ -164,17 +158,17 @@ class ProofProducingFold:
         return None
 
     def alone(self) -> Alone | None:
-        """The conflict of the first edge whose two darts are one, if any."""
+        """The conflict of an edge whose darts are one."""
         edges = range(1, len(self.edges))
         return next((Alone(e) for e in edges if self._leaves(e) == self._arrives(e)), None)
 
     def joining(self, place: LogPlace) -> Arc | None:
-        """The first arc that leaves by this dart; None if it is open."""
+        """The first arc by this dart, if any."""
         visit, dart = self.find(place)
         return self.leaving[visit].get(dart)
 
     def refute(self, one: LogPlace, other: LogPlace) -> tuple[tuple[Meeting, ...], Conflict | None]:
-        """The meetings and the conflict that an edge between two places implies; it is not kept."""
+        """The meetings and the conflict that an edge implies; it is not kept."""
         met, done, number = len(self.meetings), len(self.done), len(self.edges)
         self.edges.append((one, other))
         conflict = self._cross(number) or self.alone()
@@ -264,7 +258,7 @@ class ProofProducingFold:
         return first
 
     def table(self) -> tuple[MapRow, ...]:
-        """The fold as a map: vertices in order of discovery, numbered from their entry darts."""
+        """The fold as a map, in order of discovery."""
         first: dict[int, LogPlace] = {}  # root -> entry dart, its number
         order: list[LogPlace] = []  # number -> dart
         self._discover(self.find((1, 0)), first, order)
@@ -304,7 +298,7 @@ MOST = 2_000_000
 
 @dataclass(frozen=True, slots=True)
 class EdgeRefutation:
-    """Why no edge joins two places: it would imply these meetings and this conflict."""
+    """Why no edge joins two places: the conflict that it implies."""
 
     meetings: tuple[Meeting, ...]
     conflict: Conflict
@@ -312,12 +306,7 @@ class EdgeRefutation:
 
 @dataclass(frozen=True, slots=True)
 class Fact:
-    """A statement about two places that the log proves.
-
-    Attributes:
-        visit: the last visit at that moment, from 1.
-        reason: the arc that joins the places, or why no edge does.
-    """
+    """A fact about two places, proved at a visit: the arc that joins them, or why no edge does."""
 
     visit: int
     one: LogPlace
@@ -327,7 +316,7 @@ class Fact:
 
 @dataclass(frozen=True, slots=True)
 class EntailedDecision:
-    """The index of a decision that follows, and the facts it rests on."""
+    """The index of a decision that follows, and its facts."""
 
     when: int
     facts: tuple[Fact, ...]
@@ -335,12 +324,10 @@ class EntailedDecision:
 
 @dataclass(frozen=True, slots=True)
 class EntailedDecisions:
-    """The decisions of a trace that follow.
+    """The decisions of a trace that follow, in order; none if their evidence exceeds MOST steps.
 
     Attributes:
-        stated: those with evidence, in order; none if it exceeds MOST steps.
         merges: the evidence for the log up to the last decision.
-        steps: number of visits, merges, facts, and merges under assumptions.
     """
 
     stated: tuple[EntailedDecision, ...]
@@ -358,7 +345,6 @@ def evidence_for_decisions(trace: Sequence[Event]) -> EntailedDecisions:
 
     Raises:
         InternalError: a decision follows, but lacks evidence.
-    Complexity: nearly linear in the trace, plus the cost of each assumed edge.
     """
     prior = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
     log = LogSoFar()
@@ -395,7 +381,7 @@ def _length(fact: Fact) -> int:
 
 
 class LogSoFar:
-    """The log before one event: its fold, and the map S on the fold."""
+    """The log before one event, and the map S on its fold."""
 
     def __init__(self) -> None:
         self.fold = ProofProducingFold()

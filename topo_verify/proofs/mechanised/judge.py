@@ -33,7 +33,7 @@ PROVED_CLAIMS = tuple(claim for claim in CLAIMS if claim != MISSING)
 """The judged claims, in the order of the answer."""
 
 LONG = 400
-"""Traces with more events are not judged for claim 10, which folds the log at each decision."""
+"""Longer traces are not judged for claim 10, which folds the log at each decision."""
 
 LARGEST = 2**60
 """OCaml's integers have 63 bits."""
@@ -82,11 +82,10 @@ def missing() -> str:
 
 
 def build(folder: Path, *, timeout: float) -> Path:
-    """Compile the program and the part of the library that it needs.
+    """Compile the program and its part of the library.
 
     Raises:
         InputError: a compiler refuses a file.
-        toolchain.Unfinished: a compiler timed out, was killed, or lacks memory.
     """
     names = [name for name in toolchain.required("Judge") if not (folder / f"{name}.vo").exists()]
     toolchain.copy_library(folder, [*names, "ExtractJudge"])
@@ -114,7 +113,7 @@ def judge(
 
     Raises:
         InputError: as `numbers`.
-        toolchain.Unfinished: the program timed out, was killed, or lacks memory.
+        toolchain.Unfinished: the program ended without a result.
     """
     lines = [" ".join(map(str, numbers(world, trace))) for world, trace in runs]
     stdin = "\n".join([str(len(lines)), *lines])

@@ -20,12 +20,7 @@ Agreement = Literal["agrees", "disagrees", "unknown"]
 
 @dataclass(frozen=True, slots=True)
 class SecondAnswer:
-    """The answer of cvc5 to one question.
-
-    Attributes:
-        expected: the answer that the theorem rests on.
-        why: the reason for `unknown`, or the option that the answer took.
-    """
+    """The answer of cvc5; `why`: the reason for `unknown`, or the option that the answer took."""
 
     query: str
     solver: str
@@ -68,7 +63,7 @@ def ask(query: Query, *, timeout: float = 60.0) -> SecondAnswer:
     Args:
         timeout: seconds for each of two tries.
     Raises:
-        InputError: cvc5 is not installed, or cannot read the script.
+        InputError: cvc5 is missing, or cannot read the script.
     """
     require_tools()
     began = perf_counter()

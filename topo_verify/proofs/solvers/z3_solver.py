@@ -39,13 +39,7 @@ z3_result = partial(TheoremResult, solver=name())
 
 @dataclass(frozen=True, slots=True)
 class Z3Reply:
-    """Z3's answer to one question.
-
-    Attributes:
-        why: the reason for `unknown`.
-        core: labels of assertions that cannot hold together, not minimal.
-        values: of the requested constants, as text.
-    """
+    """Z3's answer, with the reason for `unknown`, a core that is not minimal, or values as text."""
 
     answer: SolverAnswer
     why: str = ""
@@ -54,22 +48,14 @@ class Z3Reply:
 
 
 def refute(smt2: str, labels: Iterable[str], budget: Budget) -> Z3Reply:
-    """Ask a script with quantifiers: `unsat` with a core, or `unknown`.
-
-    Args:
-        labels: one for each assertion, in order.
-    """
+    """Ask a script with quantifiers for a core of its labels."""
     question = Z3Question(smt2, budget, setup="quantified", labels=tuple(labels))
     answer = question.check()
     return Z3Reply(answer, why=question.why, core=question.core)
 
 
 def find_values(smt2: str, wanted: Mapping[str, str], budget: Budget) -> Z3Reply:
-    """Ask a script without quantifiers, with the values of constants if `sat`.
-
-    Args:
-        wanted: the sort of each requested constant.
-    """
+    """Ask a script without quantifiers for the values of constants of these sorts."""
     question = Z3Question(smt2, budget, setup="ground")
     answer = question.check()
     values = question.values(wanted) if answer == "sat" else {}
@@ -77,9 +63,7 @@ def find_values(smt2: str, wanted: Mapping[str, str], budget: Budget) -> Z3Reply
 
 
 class Z3Question:
-    """A script put to Z3, which can be asked again with assumptions.
-
-    `why`, `core`, `values` and `true` are about the last `check`.
+    """A script put to Z3, to be asked again with assumptions; answers are about the last `check`.
 
     Args:
         labels: one for each assertion, in order; without them there is no core.

@@ -30,7 +30,6 @@ class RuleMutant:
     Attributes:
         of: the obligation that the right rule meets.
         words: the mistake.
-        claims: those it breaks.
         rule: the faulty rule, as in `theory.py`; for a fold step, its wrong conclusion.
         scene: formulas; with the right rule they contradict.
         plays: makes the moves, and tells whether the rule fails.
