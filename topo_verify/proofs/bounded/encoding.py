@@ -202,11 +202,11 @@ class Worlds(Formula):
 
     def at_one_of(self, group: str, at: CnfRow, darts: CnfRow, name: str) -> CnfLiteral:
         """Whether the position is one of these darts."""
-        found = self.boolean(name)
+        held = self.boolean(name)
         for place, member in zip(at, darts, strict=True):
-            self.imply(group, [place, member], found)
-            self.imply(group, [place, -member], -found)
-        return found
+            self.imply(group, [place, member], held)
+            self.imply(group, [place, -member], -held)
+        return held
 
     def sense(self, group: str, at: CnfRow, name: str) -> EncodedPercept:
         """The percept of a robot with this reference dart."""
@@ -416,11 +416,11 @@ def differ_somewhere(
     The premises alone must reach a guarded place.
     """
     reached: list[CnfLiteral] = []
-    seen: list[CnfLiteral] = []
+    differing: list[CnfLiteral] = []
     for i, (one, other, guards) in enumerate(pairs):
         same = world.alike("percepts", one, other, f"compare.{i}")
         if guards:
             reached.append(world.define_and("percepts", f"reached.{i}", guards))
-        seen.append(world.define_and("percepts", f"differ.{i}", [-same, *guards]))
-    world.add(REFUTED, *seen)
+        differing.append(world.define_and("percepts", f"differ.{i}", [-same, *guards]))
+    world.add(REFUTED, *differing)
     world.met.append(tuple(reached))

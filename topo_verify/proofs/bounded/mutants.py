@@ -55,13 +55,13 @@ class Negative:
     @property
     def statement(self) -> str:
         """The false claim, in words."""
-        what = {
+        compared = {
             "directed": "compares all of the marker",
             "undirected": "looks only at the presence of the marker",
             "none": "does not look at the marker",
         }
         kind = "a" if self.world_class == "any" else f"a {self.world_class}"
-        return f"A mapper that {what[self.marker]} confirms a false hypothesis in {kind} world."
+        return f"A mapper that {compared[self.marker]} confirms a false hypothesis in {kind} world."
 
 
 SMALLEST = (
@@ -145,8 +145,8 @@ def _one_nearer(
     for x in world.darts:
         for y in world.darts:
             for t in range(1, world.edges + 1):
-                made = (on, leave[x], arrive[y], depth[x][t])
-                world.imply("shortest", made, depth[y][t - 1])
+                premise = (on, leave[x], arrive[y], depth[x][t])
+                world.imply("shortest", premise, depth[y][t - 1])
 
 
 @dataclass(frozen=True, slots=True)

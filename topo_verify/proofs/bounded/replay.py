@@ -92,8 +92,8 @@ def decoded_booleans(encoded: EncodedCounterexample) -> CnfRow:
 def decode(encoded: EncodedCounterexample, model: Assignment) -> BoundedCounterexample:
     """The counterexample of an assignment."""
     world = decode_world(encoded.world, model)
-    made = sum(map(model.holds, encoded.made)) if encoded.made is not None else None
-    # In `prefix`, `made` is about the own way, and the executed word
+    steps = sum(map(model.holds, encoded.made)) if encoded.made is not None else None
+    # In `prefix`, `steps` is about the own way, and the executed word
     # is taken whole.
     own = encoded.own or encoded.executed
     behind = encoded.earlier
@@ -102,8 +102,8 @@ def decode(encoded: EncodedCounterexample, model: Assignment) -> BoundedCountere
         explored=_edges(world, encoded.chart, model),
         e=model.index(encoded.e),
         h=model.index(encoded.h),
-        word=_word(encoded.executed if encoded.own else encoded.executed[:made], model),
-        own=_word(own[:made], model),
+        word=_word(encoded.executed if encoded.own else encoded.executed[:steps], model),
+        own=_word(own[:steps], model),
         turned=None if encoded.turned is None else model.index(encoded.turned),
         earlier=None
         if behind is None
@@ -145,7 +145,7 @@ class ReplayedCounterexample:
 
 
 def replay_confirmation(
-    found: BoundedCounterexample, marker: MarkerDetail, *, whole: bool = True
+    example: BoundedCounterexample, marker: MarkerDetail, *, whole: bool = True
 ) -> ReplayedCounterexample:
     """Replay a false confirmation.
 
@@ -154,83 +154,83 @@ def replay_confirmation(
     Raises:
         Disagreement: the confirmation does not happen.
     """
-    run = _Replayer(found)
-    run.cross(found.e, marker)
-    run.out(found.word)
-    way = _way(run.chart, found.h, found.word)
+    run = _Replayer(example)
+    run.cross(example.e, marker)
+    run.out(example.word)
+    way = _way(run.chart, example.h, example.word)
     vertices = [run.chart.vertex[at] for at in way]
     expected = [run.chart.percepts[at] for at in way]
     since = 0 if whole else -1
     wanted = [_seen(percept, marker) for percept in expected[since:]]
     if wanted != [_seen(percept, marker) for percept in run.pilot.percepts[since:]]:
-        raise Disagreement(f"{found}: the robot sees {run.pilot.percepts}, expected {expected}")
-    if vertices[-1] != 0 or (whole and run.chart.tree(0).depth[vertices[0]] != len(found.word)):
-        raise Disagreement(f"{found}: the doors are not a shortest way home")
-    return run.judge(ev.Confirm(found.e, found.h, "motion"), "no-false-confirm")
+        raise Disagreement(f"{example}: the robot sees {run.pilot.percepts}, expected {expected}")
+    if vertices[-1] != 0 or (whole and run.chart.tree(0).depth[vertices[0]] != len(example.word)):
+        raise Disagreement(f"{example}: the doors are not a shortest way home")
+    return run.judge(ev.Confirm(example.e, example.h, "motion"), "no-false-confirm")
 
 
 def replay_rejection(
-    found: BoundedCounterexample, rule: str, fault: RuleFault
+    example: BoundedCounterexample, rule: str, fault: RuleFault
 ) -> ReplayedCounterexample:
     """Replay a false rejection by `trace`, `prefix`, `history` or `records`.
 
     Raises:
         Disagreement: the rejection does not happen.
     """
-    run = _Replayer(found, fault)
-    run.cross(found.e)
-    if found.turned is not None:
-        run.excursion((found.turned,))
-    run.out(found.word)
-    for step, expected, observed in _compared(run, found, rule, fault):
+    run = _Replayer(example, fault)
+    run.cross(example.e)
+    if example.turned is not None:
+        run.excursion((example.turned,))
+    run.out(example.word)
+    for step, expected, observed in _compared(run, example, rule, fault):
         if expected != observed:
             evidence = ev.Evidence(step, expected, observed)
             return run.judge(
-                ev.Reject(found.e, found.h, "motion", evidence),
+                ev.Reject(example.e, example.h, "motion", evidence),
                 "true-hypothesis-kept",
             )
-    raise Disagreement(f"{found}: the rule {rule} with the fault {fault!r} rejects nothing")
+    raise Disagreement(f"{example}: the rule {rule} with the fault {fault!r} rejects nothing")
 
 
 def _compared(
-    run: _Replayer, found: BoundedCounterexample, rule: str, fault: RuleFault
+    run: _Replayer, example: BoundedCounterexample, rule: str, fault: RuleFault
 ) -> PerceptPairs:
     """The pairs of percepts that the rule compares for h, in its order."""
     if rule == "records":
-        return _records(run, found)
+        return _records(run, example)
     if rule == "prefix":
-        return _prefix(run, found, fault)
-    way = _traced(run.chart, found.h, found.word, fault) if rule == "history" else None
-    return _along(run, way or _way(run.chart, found.h, found.word), fault)
+        return _prefix(run, example, fault)
+    way = _traced(run.chart, example.h, example.word, fault) if rule == "history" else None
+    return _along(run, way or _way(run.chart, example.h, example.word), fault)
 
 
 def _along(run: _Replayer, way: list[ev.MapDart], fault: RuleFault) -> PerceptPairs:
     later = int(fault == "shifted")
-    for step, (at, seen) in enumerate(zip(way, run.pilot.percepts[later:], strict=False)):
-        yield step, run.chart.percepts[at], seen
+    for step, (at, observed) in enumerate(zip(way, run.pilot.percepts[later:], strict=False)):
+        yield step, run.chart.percepts[at], observed
 
 
-def _prefix(run: _Replayer, found: BoundedCounterexample, fault: RuleFault) -> PerceptPairs:
-    way = _way(run.chart, found.h, found.own)
-    shared = common_prefix(found.own, found.word) + int(fault == "one-more")
-    for step in range(1, min(shared, len(found.own), len(found.word)) + 1):
+def _prefix(run: _Replayer, example: BoundedCounterexample, fault: RuleFault) -> PerceptPairs:
+    way = _way(run.chart, example.h, example.own)
+    shared = common_prefix(example.own, example.word) + int(fault == "one-more")
+    for step in range(1, min(shared, len(example.own), len(example.word)) + 1):
         yield step, run.chart.percepts[way[step]], run.pilot.percepts[step]
 
 
-def _records(run: _Replayer, found: BoundedCounterexample) -> PerceptPairs:
+def _records(run: _Replayer, example: BoundedCounterexample) -> PerceptPairs:
     """The records behind the dart where tracing ends, as deep as the doors agree."""
-    assert found.earlier is not None
+    assert example.earlier is not None
     # One entry for vu and one for each door on S: door `step` leaves S.
-    step = len(_traced(run.chart, found.h, found.word))
-    if run.recorded is None or step > len(found.word):
+    step = len(_traced(run.chart, example.h, example.word))
+    if run.recorded is None or step > len(example.word):
         return
-    crossed = _traced(run.chart, found.h, found.word)[-1]
+    crossed = _traced(run.chart, example.h, example.word)[-1]
     d, place = run.recorded
-    if run.chart.turn(crossed, found.word[step - 1]) != d:
+    if run.chart.turn(crossed, example.word[step - 1]) != d:
         return
-    written = found.earlier.word[place + 1 :]
-    deep = 1 + common_prefix(written, found.word[step:])
-    for level in range(deep if found.levels is None else min(deep, found.levels)):
+    written = example.earlier.word[place + 1 :]
+    deep = 1 + common_prefix(written, example.word[step:])
+    for level in range(deep if example.levels is None else min(deep, example.levels)):
         yield step + level, run.recorded_percepts[place + level], run.pilot.percepts[step + level]
 
 
@@ -269,26 +269,26 @@ def _seen(percept: Percept, marker: MarkerDetail) -> object:
 class _Replayer:
     """A robot that draws a counterexample's map in its world."""
 
-    def __init__(self, found: BoundedCounterexample, fault: RuleFault = "") -> None:
-        self.world = found.world
-        self.robot = SimulatedRobot(found.world, 10_000)
+    def __init__(self, example: BoundedCounterexample, fault: RuleFault = "") -> None:
+        self.world = example.world
+        self.robot = SimulatedRobot(example.world, 10_000)
         self.chart = Chart(self.robot.percept)
         self.pilot = Pilot(self.robot)
         self.at: ev.MapDart = 0
         # The recorded dart, and the index of its first percept.
         self.recorded: tuple[ev.MapDart, int] | None = None
         self.recorded_percepts: tuple[Percept, ...] = ()
-        if found.earlier is not None:
-            self._learn(found.earlier, fault)
-        self._draw(found.explored)
+        if example.earlier is not None:
+            self._learn(example.earlier, fault)
+        self._draw(example.explored)
 
     def cross(self, e: ev.MapDart, marker: MarkerDetail = "undirected") -> None:
         del self.chart.unexplored[e]
         self.at = self.pilot.walk(self.chart, self.at, self.chart.vertex[e])
         signature: MarkerDetail = "undirected" if marker == "directed" else marker
-        seen = _seen(self.pilot.cross(self.chart, self.at, e), signature)
+        percept = _seen(self.pilot.cross(self.chart, self.at, e), signature)
         percepts = self.chart.percepts
-        alike = [h for h in self.chart.unexplored if _seen(percepts[h], signature) == seen]
+        alike = [h for h in self.chart.unexplored if _seen(percepts[h], signature) == percept]
         self.robot.declare(ev.Pose(e, tuple(alike)))
 
     def out(self, word: DoorWord) -> None:
@@ -306,8 +306,8 @@ class _Replayer:
         self.robot.declare(decision)
         trace = (ev.Start(percept=first_percept(self.world)), *self.robot.events)
         event = len(trace) - 1
-        findings = [found for judged in check(self.world, trace) for found in judged.findings]
-        if (claim, event) not in [(found.claim, found.event) for found in findings]:
+        findings = [finding for judged in check(self.world, trace) for finding in judged.findings]
+        if (claim, event) not in [(finding.claim, finding.event) for finding in findings]:
             raise Disagreement(f"in {self.world.text}, {claim} does not fail at {decision}")
         moves = tuple(move.door for move in trace if isinstance(move, ev.Move))
         return ReplayedCounterexample(self.world, moves, event, claim)

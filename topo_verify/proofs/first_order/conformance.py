@@ -73,11 +73,11 @@ def _of_chart(chart: Chart) -> dict[str, Function]:
     }
 
 
-def _of_percepts(seen: Sequence[Percept]) -> dict[str, Function]:
+def _of_percepts(percepts: Sequence[Percept]) -> dict[str, Function]:
     return {
-        "deg": unary(lambda b: seen[b].degree),
-        "inv0": unary(lambda b: seen[b].marker is not None),
-        "rot": binary(lambda b, i: 0 if points(seen[b], i) else NO_DOOR),
+        "deg": unary(lambda b: percepts[b].degree),
+        "inv0": unary(lambda b: percepts[b].marker is not None),
+        "rot": binary(lambda b, i: 0 if points(percepts[b], i) else NO_DOOR),
     }
 
 
@@ -140,22 +140,22 @@ class DescribedRule:
         open_darts = [d for d in range(len(chart.alpha)) if chart.alpha[d] is None]
         return {h for h in open_darts if place.holds(self.terms["posed"], e=e, h=h, b=0)}
 
-    def moved(self, chart: Chart, h: Hypothesis, seen: Sequence[Percept]) -> int | None:
+    def moved(self, chart: Chart, h: Hypothesis, percepts: Sequence[Percept]) -> int | None:
         """The step at which the motion rejects h, if any."""
-        place = structure(chart, seen, self.trie)
+        place = structure(chart, percepts, self.trie)
         if not place.holds(self.terms["alike"], x=h.dart, b=0):
             return 0
-        for step in range(1, len(seen)):
+        for step in range(1, len(percepts)):
             x, k = h.arrivals[step - 1], h.doors[step - 1]
             if place.holds(self.terms["motion"], x=x, k=k, b=step):
                 return step
         return None
 
     def refuted(
-        self, chart: Chart, h: Hypothesis, doors: Sequence[Door], seen: Sequence[Percept]
+        self, chart: Chart, h: Hypothesis, doors: Sequence[Door], percepts: Sequence[Percept]
     ) -> RuleRejection | None:
         """The rule's rejection after a sequence, if any."""
-        return self.refuted_at(structure(chart, seen, self.trie), h, doors)
+        return self.refuted_at(structure(chart, percepts, self.trie), h, doors)
 
     def refuted_at(
         self, place: Structure, h: Hypothesis, doors: Sequence[Door]
@@ -215,10 +215,10 @@ class DescribedRule:
         # Nothing is traced out of S through an explored edge.
         self.trie.records.pop(e, None)
         self.trie.records.pop(entry, None)
-        for doors, seen in words:
-            self._write(chart, entry, doors, seen)
+        for doors, percepts in words:
+            self._write(chart, entry, doors, percepts)
 
-    def _write(self, chart: Chart, at: MapDart, doors: list[Door], seen: list[Percept]) -> None:
+    def _write(self, chart: Chart, at: MapDart, doors: list[Door], percepts: list[Percept]) -> None:
         node: int | None = None
         left = self.levels
         for step, door in enumerate(doors, 1):
@@ -228,11 +228,11 @@ class DescribedRule:
                     at = chart.across(exit_dart)
                     continue
                 if exit_dart not in self.trie.records:
-                    self.trie.records[exit_dart] = self.trie.node(seen[step])
+                    self.trie.records[exit_dart] = self.trie.node(percepts[step])
                 node = self.trie.records[exit_dart]
             else:
                 if door not in self.trie.behind[node]:
-                    self.trie.behind[node][door] = self.trie.node(seen[step])
+                    self.trie.behind[node][door] = self.trie.node(percepts[step])
                 node = self.trie.behind[node][door]
             left = None if left is None else left - 1
             if left == 0:
@@ -315,8 +315,8 @@ def compare(trace: Sequence[Event], described: DescribedRule) -> Iterator[str]:
             case Confirm(_, dart):
                 h = Hypothesis(dart, reading.chart, tree)
                 # The robot may have gone further than h's way home.
-                seen = reading.seen[: len(h.doors) + 1]
-                if expected or described.moved(reading.chart, h, seen) is not None:
+                percepts = reading.seen[: len(h.doors) + 1]
+                if expected or described.moved(reading.chart, h, percepts) is not None:
                     yield f"event {when}: {dart} is confirmed, which the rule does not describe"
             case Augment(edge):
                 if expected:

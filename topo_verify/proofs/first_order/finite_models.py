@@ -147,13 +147,13 @@ def grounded(formulas: Sequence[terms.Term], sizes: Mapping[str, int]) -> str:
     return terms.script({f"c{number}": term for number, term in enumerate(rows)}, logic="QF_UF")
 
 
-def described(found: FiniteModel) -> str:
+def described(model: FiniteModel) -> str:
     """The structure in one line: sizes, then values in the order of arguments."""
-    assert found.structure is not None
-    assert found.tables is not None
-    sizes = ", ".join(f"{size} {sort}" for sort, size in found.structure.sizes.items())
+    assert model.structure is not None
+    assert model.tables is not None
+    sizes = ", ".join(f"{size} {sort}" for sort, size in model.structure.sizes.items())
     rows = " ".join(
         f"{name}={','.join(str(int(value)) for value in table.values())}"
-        for name, table in sorted(found.tables.items())
+        for name, table in sorted(model.tables.items())
     )
     return f"{sizes}: {rows}"

@@ -81,10 +81,10 @@ def _connected(darts: int) -> dict[str, terms.Term]:
 
 
 def _discovered(known: int) -> dict[str, terms.Term]:
-    found = [terms.Symbol(f"found{n}", ("M",), terms.BOOL) for n in range(known)]
+    known_by = [terms.Symbol(f"found{n}", ("M",), terms.BOOL) for n in range(known)]
     x = t.x
-    entered = [terms.forall(x, terms.eq(found[0](x), t.minv0(x)))]
-    for before, after in pairwise(found):
+    entered = [terms.forall(x, terms.eq(known_by[0](x), t.minv0(x)))]
+    for before, after in pairwise(known_by):
         ways = terms.disj(before(x), terms.conj(t.explored(mfirst(x)), before(t.malpha(mfirst(x)))))
         entered.append(terms.forall(x, terms.eq(after(x), ways)))
     return {
@@ -94,7 +94,7 @@ def _discovered(known: int) -> dict[str, terms.Term]:
         "first-of-vertex": terms.forall(x, terms.eq(mfirst(t.msigma(x)), mfirst(x))),
         "first-is-there": terms.forall(x, terms.eq(t.mrot(x, mtofirst(x)), mfirst(x))),
         "first-of-v0": terms.eq(mfirst(t.mroot), t.mroot),
-        "discovered": terms.conj(*entered, terms.forall(x, found[-1](x))),
+        "discovered": terms.conj(*entered, terms.forall(x, known_by[-1](x))),
     }
 
 

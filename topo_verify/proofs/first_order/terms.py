@@ -216,18 +216,18 @@ def declarations(terms: Iterator[Term] | list[Term]) -> list[str]:
     Raises:
         TypeError: two symbols have one name.
     """
-    found: dict[str, Symbol] = {}
+    known: dict[str, Symbol] = {}
     sorts: set[str] = set()
     for term in terms:
         sorts |= sorts_of(term)
         for symbol in symbols(term):
-            if found.setdefault(symbol.name, symbol) != symbol:
+            if known.setdefault(symbol.name, symbol) != symbol:
                 raise TypeError(f"two symbols are called {symbol.name}")
     # Sorted: the same terms give the same text.
     lines = [f"(declare-sort {sort} 0)" for sort in sorted(sorts - {BOOL})]
     return lines + [
         f"(declare-fun {symbol.name} ({' '.join(symbol.arguments)}) {symbol.result})"
-        for symbol in sorted(found.values(), key=lambda symbol: symbol.name)
+        for symbol in sorted(known.values(), key=lambda symbol: symbol.name)
     ]
 
 

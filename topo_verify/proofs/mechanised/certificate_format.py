@@ -57,11 +57,11 @@ def parse(text: bytes, *, name: str) -> Numbers:
     head, _, rest = text.partition(b"\n")
     if head != HEADER.encode():
         raise InputError(f"{name}: expected a certificate, whose first line is {HEADER!r}")
-    if found := re.search(rb"[^0-9 \n]", rest):
-        line = rest.count(b"\n", 0, found.start()) + 2
+    if stray := re.search(rb"[^0-9 \n]", rest):
+        line = rest.count(b"\n", 0, stray.start()) + 2
         raise InputError(
             f"{name}, line {line}: expected natural numbers, spaces and line ends,"
-            f" got {found[0].decode('latin-1')!r}"
+            f" got {stray[0].decode('latin-1')!r}"
         )
     words = rest.split()
     # 2^60 has 19 digits; Python reads long words slowly.

@@ -222,12 +222,12 @@ def by_kernel(folder: Path, numbers: Sequence[int], *, timeout: float) -> Certif
     (folder / "Data.v").write_text(certificate_format.data_file(numbers), encoding="utf-8")
     toolchain.copy_library(folder, ["Checked"])
     ran = toolchain.compile_all(folder, ["Data", "Checked"], timeout=timeout)
-    found = _SUMMARY.search(ran.output)
+    summary = _SUMMARY.search(ran.output)
     # coqc accepts files with axioms, too.
-    if not ran.accepted or toolchain.NO_AXIOMS not in ran.output or found is None:
+    if not ran.accepted or toolchain.NO_AXIOMS not in ran.output or summary is None:
         why = f"{UNPROVED} ({ran.output[-300:]})"
         return CertificateCheck(accepted=False, by=toolchain.version(), why=why)
-    return _accepted(toolchain.version(), map(int, found.groups()))
+    return _accepted(toolchain.version(), map(int, summary.groups()))
 
 
 def extracted(folder: Path, numbers: Sequence[int], *, timeout: float) -> CertificateCheck:

@@ -244,12 +244,12 @@ class ProofProducingFold:
         self.parent[lost], self.offset[lost] = kept, (i - j) % degree
         self.size[kept] += self.size[lost]
         self.done.append((lost, None))
-        found: list[Meeting] = []
+        meetings: list[Meeting] = []
         for dart, arc in self.leaving[lost].items():
             first = self._first(kept, (dart + i - j) % degree, arc)
             if first is not arc:
-                found.append((first, arc))
-        return found
+                meetings.append((first, arc))
+        return meetings
 
     def _first(self, visit: int, dart: int, arc: Arc) -> Arc:
         first = self.leaving[visit].setdefault(dart, arc)
@@ -416,20 +416,20 @@ class LogSoFar:
         """The facts of a decision, or () if one lacks evidence; an augmentation grows S."""
         edge = event.edge
         if isinstance(event, Reject):
-            found = [self._apart(edge, event.hypothesis)]
+            facts_or_none = [self._apart(edge, event.hypothesis)]
         elif isinstance(event, Augment) and event.kind == "new":
             rest = sorted(self.opened - {edge})
             entry = self.entry(edge)
-            found = [self.joined(edge, entry), *(self._apart(edge, dart) for dart in rest)]
+            facts_or_none = [self.joined(edge, entry), *(self._apart(edge, dart) for dart in rest)]
             self.draw(entry)
         else:
             other = event.dart if isinstance(event, Augment) else event.hypothesis
-            found = [self.joined(edge, self.map_to_fold[other])]
+            facts_or_none = [self.joined(edge, self.map_to_fold[other])]
         if isinstance(event, Augment):
             self.opened -= {edge, event.dart}
         # Some facts of an augmentation would state less than it declares.
-        facts = tuple(fact for fact in found if fact is not None)
-        return facts if len(facts) == len(found) else ()
+        facts = tuple(fact for fact in facts_or_none if fact is not None)
+        return facts if len(facts) == len(facts_or_none) else ()
 
     def entry(self, edge: int) -> LogPlace:
         """Where the first move through a dart of S arrived."""

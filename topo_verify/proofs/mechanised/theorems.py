@@ -277,11 +277,11 @@ def library(timeout: float) -> LibraryCheck:
     begin = perf_counter()
     with TemporaryDirectory() as name:
         try:
-            found = examine(Path(name), timeout=timeout)
+            check = examine(Path(name), timeout=timeout)
         except toolchain.Unfinished as error:
-            found = LibraryCheck(why=str(error))
+            check = LibraryCheck(why=str(error))
     seconds = perf_counter() - begin
-    return LibraryCheck(found.why, found.summary, seconds)
+    return LibraryCheck(check.why, check.summary, seconds)
 
 
 def examine(folder: Path, *, timeout: float) -> LibraryCheck:
@@ -344,14 +344,14 @@ def theorem(statement: MechanisedStatement) -> Theorem:
 def _prover(statement: MechanisedStatement) -> Callable[[Budget], TheoremResult]:
     def prove(budget: Budget) -> TheoremResult:
         budget.progress(f"{statement.name}: coqc and coqchk on the whole library", 0, 1)
-        found = library(budget.timeout * LONGER)
+        check = library(budget.timeout * LONGER)
         return TheoremResult(
-            verdict="UNKNOWN" if found.why else "PROVED",
+            verdict="UNKNOWN" if check.why else "PROVED",
             solver="coqc" if toolchain.missing() else toolchain.version(),
-            seconds=found.seconds,
+            seconds=check.seconds,
             # Not vacuous: worlds and runs exist (torus_world, run_exists).
-            premises_satisfiable=None if found.why else True,
-            note=found.why or f"coqchk: {found.summary}",
+            premises_satisfiable=None if check.why else True,
+            note=check.why or f"coqchk: {check.summary}",
         )
 
     return prove

@@ -80,8 +80,8 @@ def required(name: str) -> tuple[str, ...]:
     needed, todo = {name}, [name]
     while todo:
         text = (SOURCES / f"{todo.pop()}.v").read_text(encoding="utf-8")
-        found = re.search(r"^From Topo Require Import ([\w\s]+)\.", text, re.MULTILINE)
-        new = set(found[1].split() if found else ()) - needed
+        line = re.search(r"^From Topo Require Import ([\w\s]+)\.", text, re.MULTILINE)
+        new = set(line[1].split() if line else ()) - needed
         needed |= new
         todo += new
     return tuple(file for file in files() if file in needed)
@@ -94,7 +94,7 @@ def without_comments(text: str) -> str:
 
 def claims_unproved(text: str) -> tuple[str, ...]:
     """The forbidden words in a source."""
-    return tuple(found[0] for found in FORBIDDEN.finditer(without_comments(text)))
+    return tuple(word[0] for word in FORBIDDEN.finditer(without_comments(text)))
 
 
 def copy_library(folder: Path, names: Iterable[str]) -> None:

@@ -163,12 +163,12 @@ _DEGREES = eq(t.mdeg(x), t.deg(b))
 
 def _plays_confirm(replay: SceneReplay, rule: Term, doors: tuple[str, ...] = ()) -> bool:
     """Whether h is confirmed by its way home although it is false."""
-    at, seen = replay.dart("h"), [replay.behind("e")]
-    matches = replay.says(rule, *seen, x=at, b=0)
+    at, percepts = replay.dart("h"), [replay.behind("e")]
+    matches = replay.says(rule, *percepts, x=at, b=0)
     for name in doors:
-        seen.append(replay.forward(name))
+        percepts.append(replay.forward(name))
         at = replay.chart.across(replay.chart.turn(at, replay.scene.constants[name]))
-        matches = matches and replay.says(rule, *seen, x=at, b=len(seen) - 1)
+        matches = matches and replay.says(rule, *percepts, x=at, b=len(percepts) - 1)
     whole = len(replay.hypothesis("h").doors) == len(doors)
     return matches and whole and not replay.truth("e", "h")
 
@@ -294,10 +294,10 @@ def _plays_records(
     vu = replay.behind("e_before")
     sensed = replay.forward("d_before")
     replay.close("e_before", "h_before")
-    seen = [vu, vu if early else sensed]
+    recorded = [vu, vu if early else sensed]
     described = DescribedRule("records", levels=1, trie=replay.trie)
     doors = [replay.door("d_before", vu.degree)]
-    described.learn(replay.chart, replay.dart("e_before"), entry(replay), [(doors, seen)])
+    described.learn(replay.chart, replay.dart("e_before"), entry(replay), [(doors, recorded)])
     vu = replay.behind("e")
     word, percepts = [replay.door("d1", vu.degree)], [vu, replay.forward("d1")]
     if late:
