@@ -142,12 +142,6 @@ def test_the_world_without_an_edge_is_drawn_on_request_only(make: Make) -> None:
     assert find(make(min_edges=0), lambda _: True).id == "m0/0"
 
 
-def test_planar_worlds_are_planar_and_trees_have_no_cycle() -> None:
-    assert find(planar_worlds(min_edges=0), lambda world: not world.edges).is_planar
-    trees = tree_worlds(min_edges=5, max_edges=5)
-    assert len(find(trees, lambda _: True).vertices) == 6
-
-
 def test_strategies_compose_as_strategies_do() -> None:
     mirrors = worlds(min_edges=2, max_edges=9).map(World.mirror).filter(lambda w: w.genus == 1)
     assert find(mirrors, lambda _: True).genus == 1

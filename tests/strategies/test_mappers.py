@@ -7,20 +7,10 @@ from hypothesis import find, given
 from hypothesis import strategies as st
 
 from tests.versions import older
-from topo_verify import CATALOGUE, Algorithm, World, assert_maps
+from topo_verify import CATALOGUE, Algorithm, World
 from topo_verify.robot.events import Policies
 from topo_verify.robot.simulator import SimulatedRobot
-from topo_verify.strategies import door_words, mappers, planar_worlds, policies, worlds
-
-
-@given(mapper=mappers(), world=worlds(max_edges=12))
-def test_every_mapper_that_is_drawn_maps_every_world(mapper: Algorithm, world: World) -> None:
-    assert_maps(mapper, world)
-
-
-@given(mapper=mappers(planar=True), world=planar_worlds(max_edges=12))
-def test_those_that_assume_a_plane_map_planar_worlds(mapper: Algorithm, world: World) -> None:
-    assert_maps(mapper, world)
+from topo_verify.strategies import door_words, mappers, policies, worlds
 
 
 def drawn_names(strategy: st.SearchStrategy[Algorithm]) -> set[str]:

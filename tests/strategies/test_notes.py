@@ -7,7 +7,6 @@ import os
 import re
 import subprocess
 import sys
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -71,37 +70,24 @@ def test_the_failing_example_can_be_pasted_as_it_is_printed() -> None:
     assert eval(shown[0], {"example": dict, "tv": topo_verify}) == drawn  # noqa: S307  as pasted
 
 
-def appending(messages: list[object]) -> Callable[[str, int], None]:
-    """What stands in for Hypothesis's `event`: it keeps the features in this list."""
+@pytest.mark.parametrize("inside", [True, False])
+def test_a_run_is_noted_within_a_test_of_hypothesis_only(
+    inside: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    messages: list[object] = []
 
     def event(feature: str, value: int) -> None:
         messages.append((feature, value))
 
-    return event
-
-
-def test_outside_of_a_test_of_hypothesis_nothing_is_said(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    messages: list[object] = []
-    monkeypatch.setattr(notes, "note", messages.append)
-    monkeypatch.setattr(notes, "event", appending(messages))
-    monkeypatch.setattr(notes, "observability_enabled", lambda: True)
-    observe(explore(World.from_id("m2/0"), "basic"))
-    assert not messages
-    assert capsys.readouterr() == ("", "")
-
-
-def test_within_a_test_of_hypothesis_the_same_run_is_noted(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The counterpart: what the test above replaces is what would have been called."""
-    messages: list[object] = []
-    monkeypatch.setattr(notes, "currently_in_test_context", lambda: True)
+    if inside:
+        monkeypatch.setattr(notes, "currently_in_test_context", lambda: True)
     monkeypatch.setattr(notes, "observability_enabled", lambda: True)
     monkeypatch.setattr(notes, "note", messages.append)
-    monkeypatch.setattr(notes, "event", appending(messages))
+    monkeypatch.setattr(notes, "event", event)
     run = explore(World.from_id("m2/0"), "basic")
     observe(run)
-    assert messages == [describe(run), *features(run).items()]
+    assert messages == ([describe(run), *features(run).items()] if inside else [])
+    assert capsys.readouterr() == ("", "")
 
 
 def test_features_are_those_of_the_run() -> None:

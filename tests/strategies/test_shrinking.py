@@ -54,22 +54,14 @@ def minimal(
 @pytest.mark.parametrize(
     ("strategy", "simplest"),
     [
-        (strategies.worlds(), "m1/0"),
         (strategies.worlds(min_edges=0), "m0/0"),
         (strategies.worlds(marker="leaf"), "m1/0"),
         (strategies.worlds(simple=True, min_edges=4), "m4/266"),
-        (strategies.planar_worlds(), "m1/0"),
-        (strategies.nonplanar_worlds(), "m2/8"),
         (strategies.nonplanar_worlds(genus=2), "m4/629"),
-        (strategies.tree_worlds(), "m1/0"),
-        (strategies.dense_worlds(), "m1/0"),
         (strategies.dense_worlds(min_edges=3, simple=True), "m3/24"),
-        (strategies.lattices(), "m1/0"),
         (strategies.lattices(min_edges=4), "m4/87"),
-        (strategies.symmetric_worlds(), "m1/0"),
         (strategies.symmetric_worlds(min_edges=3), "m3/13"),
         (strategies.uniform_worlds(edges=0), "m0/0"),
-        (strategies.uniform_worlds(edges=12), "m12/0"),
     ],
 )
 def test_the_simplest_world_of_a_strategy(strategy: SearchStrategy[World], simplest: str) -> None:
@@ -88,8 +80,9 @@ def claimed(name: str, text: str) -> str:
 @pytest.mark.parametrize("name", WORLDS)
 def test_the_simplest_world_is_the_one_that_the_docs_name(name: str) -> None:
     call = "uniform_worlds(edges=12)" if name == "uniform_worlds" else name
-    simplest = minimal(resolve_strategy(call), lambda _: True)[0].id
-    assert claimed(name, PAGE.read_text(encoding="utf-8")) == simplest
+    world, calls = minimal(resolve_strategy(call), lambda _: True)
+    assert claimed(name, PAGE.read_text(encoding="utf-8")) == world.id
+    assert calls <= CALLS
 
 
 def test_the_simplest_uniform_world_is_a_path_with_the_marker_at_its_end() -> None:

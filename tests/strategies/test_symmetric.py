@@ -9,7 +9,7 @@ from hypothesis import find, given, settings
 from hypothesis import strategies as st
 
 from tests.strategies import features
-from topo_verify import World, families
+from topo_verify import families
 from topo_verify.strategies import symmetric_worlds
 from topo_verify.strategies.growth import BALANCED, grow
 from topo_verify.strategies.shapes import Shape
@@ -28,10 +28,6 @@ def one_vertex(darts: str, shifts: dict[str, int]) -> Small:
         ),
         vertex=(0,) * count,
     )
-
-
-def rerooted(world: World, root: int) -> World:
-    return World(world.alpha, world.sigma, root)
 
 
 @pytest.mark.parametrize(
@@ -76,7 +72,7 @@ def test_a_bead_with_a_crossing_loop_makes_the_torus() -> None:
         vertex=tuple(sheet for sheet, _ in darts),
     )
     torus = families.torus(4, 3)
-    codes = {rerooted(torus, dart).code for dart in range(len(torus.alpha))}
+    codes = {torus.with_marker(dart).code for dart in range(len(torus.alpha))}
     assert cover(bead, 3, 0).code in codes
 
 
@@ -98,7 +94,7 @@ def test_all_vertices_of_a_rosette_look_alike(
     assert len(world.vertices) == sheets
     assert not simple or world.is_simple
     for sheet in range(sheets):
-        assert rerooted(world, sheet * darts).code == world.code
+        assert world.with_marker(sheet * darts).code == world.code
 
 
 @settings(max_examples=60)
@@ -109,7 +105,7 @@ def test_all_beads_of_a_necklace_look_alike(sheets: int, steps: bytes, drawn: by
     world = cover(necklace(Shape(), sheets, bead, cycle(drawn or b"\0")), sheets, 0)
     assert len(world.edges) == sheets * len(steps)
     for sheet in range(sheets):
-        assert rerooted(world, sheet * 2 * len(steps)).code == world.code
+        assert world.with_marker(sheet * 2 * len(steps)).code == world.code
 
 
 @settings(max_examples=60)

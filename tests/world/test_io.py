@@ -53,7 +53,12 @@ def test_a_file_is_read_as_its_name_says(name: str, tmp_path: Path) -> None:
     file.write_bytes(FILES[name])
     world = World.load(file)
     assert world == families.path(2) == resolve_world(str(file))
+    assert type(Town.load(file)) is Town
     assert world.name in {"w", "W", "path(2)"}
+
+
+class Town(World):
+    """A subclass is read as itself."""
 
 
 @pytest.mark.parametrize("name", ["w.json", "w", "w.graphml", "w.net.xml"])

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 from tests.helpers import EMPTY, any_world, path, worlds
-from topo_verify import World, explore, families
+from topo_verify import World, families
 from topo_verify.checkers import Fold
 from topo_verify.robot.simulator import SimulatedRobot, exit_dart, first_percept, percepts
 from topo_verify.world.least_cost import BreadthFirstTree
@@ -77,11 +78,6 @@ def test_it_is_what_brute_force_finds(edges: int) -> None:
         assert cheapest_proof(world, world.least_cost()) == world.least_cost(), world
 
 
-@given(any_world(max_edges=25))
-def test_no_run_costs_less_in_larger_worlds(world: World) -> None:
-    assert explore(world, "folding").cost >= world.least_cost()
-
-
 def test_a_tree_is_walked_there_and_back_but_for_its_deepest_way() -> None:
     assert path(6, marker=0).least_cost() == 5
     assert path(6, marker=2).least_cost() == 2 * 5 - 3
@@ -113,26 +109,19 @@ def test_it_proves_every_world_at_the_least_cost(edges: int) -> None:
         assert len(doors) == world.least_cost(), world
 
 
-@given(any_world(max_edges=40))
-def test_it_proves_larger_worlds_at_the_least_cost(world: World) -> None:
-    assert proved(world, world.proof_tour())
-    assert len(world.proof_tour()) == world.least_cost()
-
-
-@pytest.mark.parametrize(
-    "world",
-    [
-        families.lattice(6, 6, holes=0.2, seed=1),
-        families.torus(4, 5),
-        families.random_tree(30, seed=2),
-        families.random_genus(30, 3, seed=4),
-        families.star(9),
-        families.complete(6),
-        path(2000, marker=700),
-    ],
-    ids=lambda world: world.name or "path",
+@given(
+    any_world(max_edges=40)
+    | st.sampled_from(
+        [
+            families.lattice(6, 6, holes=0.2, seed=1),
+            families.torus(4, 5),
+            families.random_genus(30, 3, seed=4),
+            families.star(9),
+        ]
+    )
 )
-def test_it_proves_worlds_of_the_families_at_the_least_cost(world: World) -> None:
+@example(path(2000, marker=700))
+def test_it_proves_larger_worlds_at_the_least_cost(world: World) -> None:
     assert proved(world, world.proof_tour())
     assert len(world.proof_tour()) == world.least_cost()
 
@@ -144,18 +133,8 @@ def test_the_weight_of_a_chord_is_the_length_of_its_loop(world: World) -> None:
         assert tree.weight(chord) == len(tree.loop(chord))
 
 
-def test_one_vertex_is_proved_by_walking_each_of_its_loops_once() -> None:
-    for world in worlds([3]):
-        if len(world.vertices) == 1:
-            assert len(world.proof_tour()) == 3
-
-
 def test_two_edges_between_two_vertices_are_one_walk_around() -> None:
     assert World.from_code(((2, 2), (2, 3, 0, 1))).proof_tour() == (1, 1)
-
-
-def test_the_world_without_a_dart_needs_no_move() -> None:
-    assert EMPTY.proof_tour() == ()
 
 
 def test_a_walk_along_a_path_ends_at_its_farther_end() -> None:

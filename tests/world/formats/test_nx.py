@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.world.formats.worlds import simple_planar
+from tests.world.formats.worlds import simple_planar, world_or_sentence
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
 from topo_verify.world.formats.nx import from_planar_embedding, from_positions, to_planar_embedding
@@ -120,24 +120,16 @@ def test_any_star_is_read_in_the_order_of_its_bearings(turns: list[int], x: floa
     assert around(world) == [str(turns.index(t)) for t in sorted(turns)]
 
 
-@pytest.mark.parametrize("make", [families.lattice, families.king])
-def test_a_lattice_drawn_is_that_lattice(make: Any) -> None:
-    world: World = make(4, 5, holes=0.2, seed=3)
+@pytest.mark.parametrize(
+    "name", ["nyc", "family:lattice(4,5,holes=0.2,seed=3)", "family:king(4,5,holes=0.2,seed=3)"]
+)
+def test_a_world_follows_from_its_positions(name: str) -> None:
+    world = resolve_world(name)
     graph: nx.Graph[int] = nx.Graph()
     graph.add_nodes_from(range(len(world.vertices)))
     graph.add_edges_from((world.vertex_of[a], world.vertex_of[b]) for a, b in world.edges)
     drawn = from_positions(graph, dict(enumerate(world.positions)))
-    darts = range(2 * len(world.edges))
-    assert world.code in {drawn.with_marker(dart).code for dart in darts}
-
-
-def test_the_street_network_of_the_package_follows_from_its_positions() -> None:
-    nyc = resolve_world("nyc")
-    graph: nx.Graph[int] = nx.Graph()
-    graph.add_nodes_from(range(len(nyc.vertices)))
-    graph.add_edges_from((nyc.vertex_of[a], nyc.vertex_of[b]) for a, b in nyc.edges)
-    drawn = from_positions(graph, dict(enumerate(nyc.positions)))
-    assert nyc.code in {drawn.with_marker(d).code for d in range(2 * len(nyc.edges))}
+    assert world.code in {drawn.with_marker(d).code for d in range(2 * len(world.edges))}
 
 
 def test_positions_may_be_attributes_of_either_kind_and_numbers_may_be_texts() -> None:
@@ -335,9 +327,5 @@ def test_a_drawing_that_is_no_world_is_refused() -> None:
     tip=st.tuples(st.floats(), st.floats()),
 )
 def test_any_geometry_gives_a_world_or_one_sentence(geometry: Any, tip: Any) -> None:
-    try:
-        world = from_positions(star(tip, (1, 0), geometry=geometry))
-    except InputError as refusal:
-        assert str(refusal).isprintable()  # noqa: PT017  a world is as good an outcome
-    else:
-        assert len(world.edges) == 2
+    world = world_or_sentence(lambda: from_positions(star(tip, (1, 0), geometry=geometry)))
+    assert world is None or len(world.edges) == 2
