@@ -74,6 +74,8 @@ class RefutationCertificate:
 
     Attributes:
         format: such as "drup".
+        checker: name and version.
+        checked: did the checker accept the proof?
         clauses, steps: their numbers.
         why: why it was refused, or "".
     """
