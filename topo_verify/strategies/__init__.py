@@ -1,11 +1,13 @@
 """Hypothesis strategies: worlds of many kinds, mappers, door words.
 
-general.py     worlds, planar_, nonplanar_,     shapes.py        bounds, and what is possible
-               tree_, dense_, uniform_worlds    growth.py        makes a world of bytes
-grids.py       lattices                         draws.py         draws the bytes
-symmetric.py   symmetric_worlds                 notes.py         notes and features
-mappers.py     mappers, policies, door_words    sample.py        STRATEGY by its name
-registration.py   called by Hypothesis
+    general.py     worlds, planar_, nonplanar_,     shapes.py        bounds, what is possible
+                   tree_, dense_, uniform_worlds    growth.py        makes a world of bytes
+    grids.py       lattices                         draws.py         draws the bytes
+    symmetric.py   symmetric_worlds                 notes.py         notes and features
+    mappers.py     mappers, policies, door_words    sample.py        STRATEGY by its name
+    registration.py   called by Hypothesis
+
+Arguments out of range, or bounds that no world keeps, raise `InputError`.
 """
 
 from __future__ import annotations

@@ -72,13 +72,7 @@ def worlds_of(
     kinds: EdgeKinds = BALANCED,
     **bounds: object,
 ) -> SearchStrategy[World]:
-    """Worlds within these bounds, for the strategy of this name.
-
-    Args:
-        bounds: further ones, as for `grown_shape`.
-    Raises:
-        InputError: an argument is out of range, two contradict each other, or no world keeps all.
-    """
+    """Worlds within these bounds and those of `grown_shape`, for the strategy of this name."""
     shape = grown_shape(strategy, marker=marker, **bounds)
     shape = replace(shape, max_cycles=max_cycles, dense=dense)
     edges = shape.edges_between(strategy, *edge_bounds(strategy, min_edges, max_edges))
@@ -89,7 +83,6 @@ def worlds_of(
 def _grown(
     draw: st.DrawFn, shape: Shape, kinds: EdgeKinds, least: int, most: int, marker: MarkerPlace
 ) -> World:
-    """Worlds that grow from bytes, with `least` to `most` edges."""
     steps = draw_bytes(draw, least, most)
     if not steps:
         return World((), (), None)
@@ -107,7 +100,7 @@ def _grown(
 
 
 def draw_bytes(draw: st.DrawFn, least: int, most: int) -> bytes:
-    """A string of `least` to `most` bytes; long ones are drawn as well."""
+    """A string of `least` to `most` bytes."""
     if least < most:  # an empty choice would slow shrinking down
         least = min(least + draw(st.sampled_from(_AT_LEAST)), most)
     return draw(st.binary(min_size=least, max_size=most))

@@ -34,11 +34,8 @@ def worlds(  # noqa: PLR0913  bounds are optional
     max_degree: int | None = None,
     marker: MarkerPlace = "any",
 ) -> SearchStrategy[World]:
-    """Every world within the bounds. Shrinks to few edges, genus 0, and stars.
+    """Every world within the bounds (shapes.py). Shrinks to few edges, genus 0, and stars.
 
-    Args: see `topo_verify.strategies.shapes`.
-    Raises:
-        InputError: no world keeps all the bounds.
     Example:
         >>> from hypothesis import find
         >>> find(worlds(simple=True), lambda world: len(world.vertices) == 3)
@@ -57,10 +54,7 @@ def planar_worlds(
     max_degree: int | None = None,
     marker: MarkerPlace = "any",
 ) -> SearchStrategy[World]:
-    """Every world of genus 0 within the bounds. Shrinks to few edges, and stars.
-
-    Args, Raises: as for `worlds`.
-    """
+    """Every world of genus 0 within the bounds. Shrinks to few edges, and stars."""
     return worlds_of("planar_worlds", max_genus=0, **locals())
 
 
@@ -78,11 +72,6 @@ def nonplanar_worlds(
     """Every world of this genus within the bounds; of any genus above 0 if None.
 
     Shrinks to few edges, the least genus, and stars with the handles at their hubs.
-
-    Args:
-        genus: 1 or more. The others: as for `worlds`.
-    Raises:
-        InputError: no world keeps all the bounds.
     """
     if genus is not None and integer("nonplanar_worlds", "genus", genus) == 0:
         raise InputError(
@@ -109,10 +98,7 @@ def tree_worlds(
     max_degree: int | None = None,
     marker: MarkerPlace = "any",
 ) -> SearchStrategy[World]:
-    """Every plane tree within the bounds. Shrinks to few edges, and stars.
-
-    Args, Raises: as for `worlds`.
-    """
+    """Every plane tree within the bounds. Shrinks to few edges, and stars."""
     return worlds_of("tree_worlds", max_cycles=0, **locals())
 
 
@@ -128,10 +114,7 @@ def dense_worlds(  # noqa: PLR0913  bounds are optional
     max_degree: int | None = None,
     marker: MarkerPlace = "any",
 ) -> SearchStrategy[World]:
-    """Every world within the bounds with 2m >= n(n-1)/2. Shrinks to few edges, then few handles.
-
-    Args, Raises: as for `worlds`.
-    """
+    """Every world within the bounds with 2m >= n(n-1)/2. Shrinks to few edges, then few handles."""
     return worlds_of("dense_worlds", kinds=CROWDED, dense=True, **locals())
 
 
@@ -141,11 +124,7 @@ _SPARE = 8
 
 @shown_as_called
 def uniform_worlds(*, edges: int) -> SearchStrategy[World]:
-    """Every world with this many edges, each equally likely. Shrinks towards rank 0.
-
-    Raises:
-        InputError: `edges` is not an integer from 0 to 200.
-    """
+    """Every world with this many edges (0 to 200), equally likely. Shrinks towards rank 0."""
     edges = integer("uniform_worlds", "edges", edges)
     if edges > WIDEST:
         raise InputError(f"uniform_worlds: expected at most {WIDEST} edges, got {edges}")

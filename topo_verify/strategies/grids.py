@@ -47,10 +47,7 @@ def lattices(
     """Rectangles of a grid with holes. Shrinks to few edges, then to whole rectangles.
 
     Args:
-        min_edges, max_edges: see `topo_verify.strategies.shapes`.
         marker: "any" exit, or "hub": at a vertex of the greatest degree.
-    Raises:
-        InputError: an argument is out of range.
     """
     least, most = edge_bounds("lattices", min_edges, max_edges)
     require_marker("lattices", marker, get_args(LatticeMarker))
@@ -92,8 +89,8 @@ class _RectangleSizes:
 def _sizes(least: int, bound: int) -> _RectangleSizes:
     """The rectangles with at least `least` edges and about `bound` at most.
 
-    They may exceed the bound by a quarter and one column, for holes; so every number of edges
-    occurs in several widths.
+    A quarter and one column more leave room for holes, so every number of edges occurs in several
+    widths.
     """
     rows = {
         c: [r for r in range(1, c + 1) if least <= 2 * r * c - r - c <= bound * 5 // 4 + 2 * r]
@@ -120,7 +117,6 @@ def _edges(grid: Grid) -> int:
 
 
 def _take_out(grid: Grid, node: Node, least: int) -> None:
-    """Remove a node if enough edges remain and the rest stays connected."""
     exits = grid.get(node, [])
     if exits and _edges(grid) - len(exits) >= least and _are_joined(grid, exits, without=node):
         del grid[node]
@@ -140,7 +136,6 @@ def _are_joined(grid: Grid, nodes: list[Node], *, without: Node) -> bool:
 
 
 def _thin(grid: Grid, bound: int, turn: int) -> None:
-    """Remove single edges, from the one that `turn` picks on, until at most `bound` remain."""
     streets = [(u, v) for u, exits in grid.items() for v in exits if u < v]
     spare = len(streets) - bound
     turn = scaled(len(streets), turn)
@@ -163,7 +158,6 @@ def _thin(grid: Grid, bound: int, turn: int) -> None:
 
 
 def _world(grid: Grid, draw_root: Callable[[list[int]], Dart]) -> World:
-    """The grid's world: darts numbered node by node, clockwise from the north; y upwards."""
     number = {
         street: dart
         for dart, street in enumerate((u, v) for u, exits in grid.items() for v in exits)

@@ -123,7 +123,6 @@ class _Sapling:
         self._labels = 1
 
     def grow(self, kinds: EdgeKinds, steps: bytes, further: bytes) -> Grown | None:
-        """Grow all the edges; None at a dead end."""
         for step, more in zip(steps, cycle(further), strict=False):
             place = step % PLACES + PLACES * more
             kind = kinds[step // PLACES]
@@ -191,7 +190,6 @@ class _Sapling:
             yield near, near
 
     def _far_ends(self, near: Dart, *, across: bool) -> list[Dart]:
-        """The corners, newest first, to which an edge may lead from this one."""
         # corner d lies on the face of dart d ^ 1
         face, vertex, here = self._face, self._vertex, self._face[near ^ 1]
         corners = range(len(face) - 1, -1, -1)
@@ -261,7 +259,6 @@ class _Sapling:
         self._count_join(u, v)
 
     def _label(self, dart: Dart, face: int) -> None:
-        """Label the darts along the face of this dart."""
         first = dart  # around the face
         while True:
             self._face[dart] = face
@@ -275,7 +272,6 @@ class _Sapling:
             self._joins[ends] = self._joins.get(ends, 0) + 1
 
     def _state(self) -> dict[str, Any]:
-        """A copy of everything that changes."""
         # shallow: their values do not change
         return {name: copy(value) for name, value in vars(self).items() if name != "_shape"}
 

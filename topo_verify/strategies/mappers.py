@@ -50,8 +50,6 @@ def mappers(
         algorithms: names; default: all of the catalogue.
         policies: default: all; `st.just(Policies())` for the reference policies.
         planar: if no algorithms are named, also draw those that are right in planar worlds only.
-    Raises:
-        InputError: no such algorithm, or none at all.
     """
     if algorithms is None:
         names = [name for name, a in CATALOGUE.items() if planar or a.assumes is None]
@@ -80,14 +78,11 @@ def door_words(
 ) -> SearchStrategy[tuple[Door, ...]]:
     """Sequences of doors, each less than the degree of the vertex that it leads out of.
 
-    Shrinks to few doors, then to low ones. At a vertex of degree above 256 only the first 256 doors
-    are drawn.
+    Shrinks to few doors, then to low ones. Of more than 256 doors only the first 256 are drawn.
 
     Args:
         world: where the robot walks, from the marker on.
         min_length, max_length: the number of doors.
-    Raises:
-        InputError: a length is out of range, or the world has no door and `min_length` is above 0.
     Example:
         >>> from hypothesis import find
         >>> find(door_words(World.from_id("m2/0"), min_length=2), lambda doors: True)

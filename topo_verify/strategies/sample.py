@@ -59,8 +59,6 @@ _KIND = resolve.CallSyntax("strategy", "", "'planar_worlds(max_edges=20)'", word
 def resolve_strategy(text: str) -> SearchStrategy[World]:
     """The strategy that the text names.
 
-    Raises:
-        InputError: no strategy has that name, or its arguments do not fit or admit no world.
     Example:
         >>> from hypothesis import find
         >>> find(resolve_strategy("nonplanar_worlds(genus=2)"), lambda world: True).genus
@@ -70,13 +68,7 @@ def resolve_strategy(text: str) -> SearchStrategy[World]:
 
 
 def sample(strategy: SearchStrategy[World], number: int, *, start: int = 0) -> list[World]:
-    """This many worlds of the strategy.
-
-    Args:
-        start: the seed.
-    Raises:
-        hypothesis.errors.Unsatisfiable: the strategy draws nothing at all.
-    """
+    """This many worlds of the strategy, with the seeds from `start` on."""
     drawn: list[World] = []
     with drawing_no_literals():
         while len(drawn) < number:
@@ -89,8 +81,8 @@ def sample(strategy: SearchStrategy[World], number: int, *, start: int = 0) -> l
 def drawing_no_literals() -> Generator[None]:
     """Within the block Hypothesis draws no literals of the loaded modules.
 
-    Otherwise draws would depend on what else is loaded and on a folder `.hypothesis` where it is
-    called. Hypothesis has no setting for this.
+    Otherwise draws would depend on what else is loaded and on a folder `.hypothesis`. Hypothesis
+    has no setting for this.
     """
     module: dict[str, Any] = providers.__dict__
     # the cache holds literals, too; other versions of Hypothesis lack these names

@@ -49,7 +49,7 @@ MANY = 10**9
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Shape:
-    """Bounds that a grown map keeps, without the number of edges, which is drawn first.
+    """Bounds that a grown map keeps, besides the number of edges.
 
     Attributes:
         max_parallel, max_loops: edges between two vertices, and from one vertex to itself.
@@ -118,11 +118,7 @@ class Shape:
         )
 
     def edges_between(self, strategy: str, min_edges: int, max_edges: int) -> tuple[int, int]:
-        """The least and the greatest possible number of edges within these bounds.
-
-        Raises:
-            InputError: none is possible; says how many edges it takes.
-        """
+        """The least and the greatest possible number of edges within these bounds."""
         # possible numbers have no gaps, and only degrees end them
         for least in range(min_edges, max_edges + 1):
             if self.is_possible(least):
@@ -171,11 +167,7 @@ def _range(least: int, most: int) -> str:
 
 
 def edge_bounds(strategy: str, min_edges: object, max_edges: object) -> tuple[int, int]:
-    """The bounds as plain integers.
-
-    Raises:
-        InputError: one is not a number of edges, or the least is above the greatest.
-    """
+    """The bounds as plain integers."""
     least = integer(strategy, "min_edges", min_edges)
     most = integer(strategy, "max_edges", max_edges)
     if most > LARGEST:
@@ -197,11 +189,7 @@ def grown_shape(
     max_degree: object = None,
     marker: str = "any",
 ) -> Shape:
-    """The shape that these arguments ask for.
-
-    Raises:
-        InputError: an argument is out of range or two contradict each other.
-    """
+    """The shape that these arguments ask for."""
     least = integer(strategy, "min_genus", min_genus)
     most = MANY if max_genus is None else integer(strategy, "max_genus", max_genus)
     _in_order(strategy, "genus", least, most)

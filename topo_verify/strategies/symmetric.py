@@ -99,11 +99,7 @@ def symmetric_worlds(
 ) -> SearchStrategy[World]:
     """Rosettes, in which all vertices look alike, and necklaces, in which all beads do.
 
-    Shrinks to few edges, then to rosettes, then to few sheets.
-
-    Args: see `topo_verify.strategies.shapes`. For a genus, filter.
-    Raises:
-        InputError: no rosette and no necklace keeps all the bounds.
+    Shrinks to few edges, then to rosettes, then to few sheets. For a genus, filter.
     """
     least, most = edge_bounds("symmetric_worlds", min_edges, max_edges)
     shape = grown_shape(
@@ -156,7 +152,6 @@ def cover(small: Small, sheets: int, root: Dart) -> World:
 
 @lru_cache(maxsize=256)
 def _kinds(shape: Shape, least: int, most: int) -> tuple[_CoverSizes | None, _CoverSizes | None]:
-    """The sizes of rosettes and of necklaces within the bounds; None if there are none."""
     # n sheets make n·darts/2 edges of a rosette, n·edges of a bead; -(-a // b) rounds up
     rosettes = {0: [1] * (least == 0 and not shape.leaf)}
     for darts in range(1, min(2 * most, shape.max_degree) + 1):

@@ -71,11 +71,7 @@ def load(cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -
 
 
 def decode(cls: type[W], text: str | bytes) -> W:
-    """The world in this world JSON.
-
-    Raises:
-        InputError: the text holds no world.
-    """
+    """The world in this world JSON."""
     from topo_verify.world.formats import world_json
 
     return world_json.decode(cls, text)
@@ -89,7 +85,7 @@ def encode(world: World) -> str:
 
 
 def save(world: World, path: str | PathLike[str]) -> None:
-    """Write world JSON to the file: all of it or, if anything fails, nothing.
+    """Write world JSON to the file, whole or not at all.
 
     Raises:
         InputError: the file cannot be written, or its name says another format.

@@ -161,7 +161,6 @@ def covering_walk(
 
 
 def _branches(tree: BreadthFirstTree, core: set[int], needed: Iterable[int]) -> list[int]:
-    """The vertices outside the core on the tree paths to the needed ones, ascending."""
     reached = {*core}
     for goal in needed:
         reached.update([*tree.climb(goal, reached)])
@@ -186,7 +185,6 @@ def _last(tree: BreadthFirstTree, core: set[int], branches: Iterable[int]) -> tu
 def _there_and_back(
     tree: BreadthFirstTree, children: dict[int, list[int]], vertex: int
 ) -> list[int]:
-    """The walk around all branches at this vertex, which it removes from `children`."""
     walk: list[int] = []
     todo = [(child, False) for child in reversed(children.pop(vertex, ()))]
     while todo:

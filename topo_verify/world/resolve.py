@@ -43,8 +43,8 @@ class CallSyntax:
     """What is called, for the error messages.
 
     Attributes:
-        kind: "family of worlds", say.
-        before: what stands before the call on a command line.
+        kind: such as "family of worlds".
+        before: the text before the call.
         example: a complete valid text.
         words: may arguments be quoted words, True, False and None, too?
     """
@@ -61,7 +61,6 @@ def call(
     """The result of the call.
 
     Args:
-        text: without what stands before the call.
         known: the functions by name.
         bare: a name alone is a call without arguments.
     Raises:
@@ -93,7 +92,7 @@ def call(
 
 
 def _arguments(text: str, syntax: CallSyntax) -> tuple[list[Argument], dict[str, Argument]]:
-    """The call's arguments by position and by name; TypeError, as from a call, if it is none."""
+    """The call's arguments by position and by name; TypeError if it is none."""
     if len(text) > MAX_LENGTH:
         raise TypeError(f"expected at most {MAX_LENGTH} characters, got {len(text)}")
     try:

@@ -3,12 +3,12 @@
 The embedding is a combinatorial map (rotation system). Every edge is two **darts**, one at each
 end; `alpha` exchanges the two darts of an edge, `sigma` turns a dart to the next exit of its
 vertex. The cycles of `sigma` are the vertices, those of `sigma∘alpha` (cross, then turn) the faces.
-The marker lies at a vertex and points at one of its darts, the `root`. A map with a root is a
-**rooted map**. Its only automorphism is the identity. So numbering its darts breadth-first from the
-root gives a canonical code: two worlds are isomorphic iff their codes are equal.
+The marker lies at a vertex and points at one of its darts, the `root`. The only automorphism of
+such a **rooted map** is the identity, so numbering its darts breadth-first from the root gives a
+canonical code: two worlds are isomorphic iff their codes are equal.
 
-Orientation: `sigma(d)` is the next exit **clockwise** after `d`, seen from above, as the robot
-enumerates exits. Mirror images are different worlds.
+Orientation: `sigma(d)` is the next exit **clockwise** after `d`, seen from above. Mirror images are
+different worlds.
 
 Source: docs/semantics.md, section 1; S. K. Lando and A. K. Zvonkin, "Graphs on Surfaces and Their
 Applications" (2004), chapter 1.
@@ -166,23 +166,23 @@ class World:
         return cls.formats.decode(cls, text)
 
     def to_json(self) -> str:
-        """World JSON on one line, the same bytes for the same world."""
+        """World JSON on one line."""
         return self.formats.encode(self)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write world JSON: the whole file or, if anything fails, nothing."""
+        """Write world JSON, whole or not at all."""
         self.formats.save(self, path)
 
     @cached_property
     def vertices(self) -> tuple[tuple[Dart, ...], ...]:
-        """The darts of each vertex, clockwise; if there is none, one empty vertex."""
+        """The darts of each vertex, clockwise."""
         if not self.alpha:
             return ((),)
         return cycles(self.sigma, self.starts)
 
     @cached_property
     def edges(self) -> tuple[tuple[Dart, Dart], ...]:
-        """The two darts of each edge, lesser first, ascending."""
+        """The darts of each edge, lesser first, ascending."""
         return tuple((dart, other) for dart, other in enumerate(self.alpha) if dart < other)
 
     @property
@@ -192,7 +192,7 @@ class World:
 
     @cached_property
     def vertex_of(self) -> tuple[int, ...]:
-        """The vertex (index into `vertices`) of each dart."""
+        """The vertex of each dart."""
         row = [0] * len(self.alpha)
         for vertex, rotation in enumerate(self.vertices):
             for dart in rotation:
@@ -201,7 +201,7 @@ class World:
 
     @cached_property
     def place_of(self) -> tuple[int, ...]:
-        """The place of each dart in its rotation, from 0."""
+        """The place of each dart in its rotation."""
         row = [0] * len(self.alpha)
         for rotation in self.vertices:
             for place, dart in enumerate(rotation):
@@ -220,14 +220,14 @@ class World:
 
     @cached_property
     def faces(self) -> tuple[tuple[Dart, ...], ...]:
-        """The cycles of sigma∘alpha; if there is no dart, one empty face."""
+        """The cycles of sigma∘alpha; without a dart, one empty face."""
         if not self.alpha:
             return ((),)
         return cycles(tuple(self.sigma[other] for other in self.alpha))
 
     @property
     def genus(self) -> int:
-        """g in V - E + F = 2 - 2g: the number of handles of the surface."""
+        """g in V - E + F = 2 - 2g."""
         return (2 - len(self.vertices) + len(self.edges) - len(self.faces)) // 2
 
     @property
@@ -237,7 +237,7 @@ class World:
 
     @cached_property
     def is_loopless(self) -> bool:
-        """Whether every edge has two vertices."""
+        """Whether there are no loops."""
         return all(self.vertex_of[a] != self.vertex_of[b] for a, b in self.edges)
 
     @cached_property
@@ -248,7 +248,7 @@ class World:
 
     @property
     def cost_bound(self) -> int:
-        """The most edge traversals that a run may cost: m·(n + (2m-1)·2(n-1)); m if n = 1."""
+        """The most edge traversals of a run: m·(n + (2m-1)·2(n-1)); m if n = 1."""
         m, n = len(self.edges), len(self.vertices)
         return m if n == 1 else m * (n + (2 * m - 1) * 2 * (n - 1))
 
@@ -283,7 +283,7 @@ class World:
 
     @cached_property
     def code(self) -> Code:
-        """The canonical code: equal for two worlds iff they are isomorphic. O(m)."""
+        """The canonical code. O(m)."""
         order, degrees = self._discovery
         number = {dart: place for place, dart in enumerate(order)}
         return degrees, tuple(number[self.alpha[dart]] for dart in order)
@@ -306,7 +306,7 @@ class World:
         return self.id if small else self.to_json()
 
     def is_isomorphic(self, other: World) -> bool:
-        """Whether a bijection of darts keeps alpha, sigma and the root."""
+        """Whether a bijection of darts keeps alpha, sigma and root."""
         return self.code == other.code
 
     def mirror(self) -> Self:

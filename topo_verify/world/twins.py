@@ -1,8 +1,8 @@
 """Twins: two different worlds that look the same to every robot without the marker's direction.
 
-Such a robot senses at a dart the degree, and whether the marker is here (`undirected`); without a
-marker the degree alone (`none`). Two darts are **alike** if no walk from them senses a difference;
-partition refinement finds them.
+Such a robot senses the degree, and whether the marker is here (`undirected`), or the degree alone
+(`none`). Two darts are **alike** if no walk from them senses a difference; partition refinement
+finds them.
 
 **Making a twin.** Exchange the far ends of two edges whose darts are alike: a robot senses the
 same. If the world stays connected and is not isomorphic to the original, it is a twin. One of
@@ -10,11 +10,10 @@ another genus is preferred, for two worlds may differ by their marked darts alon
 two copies of the world, joined crosswise at an edge on a cycle, are a twin.
 
 **When there is none.** With the mark, worlds that look like W are coverings of its quotient by
-alike darts, with the N sheets that W has, because the mark lies on one vertex. Only one exists
-if N = 1 (no two darts alike), if W has at most one cycle, or if N = 2 and the quotient has no
-cycle. In every world with up to 6 edges these are all cases, and otherwise one exchange makes a
-twin (`benchmarks/twins.py`). Neither is proved for larger worlds. Without a marker a world is
-determined iff it is a tree.
+alike darts, with the N sheets that W has, because the mark lies on one vertex. Only one exists if
+N = 1, if W has at most one cycle, or if N = 2 and the quotient has no cycle. Up to 6 edges these
+are all cases, and otherwise one exchange makes a twin (`benchmarks/twins.py`); neither is proved
+beyond. Without a marker only trees are determined.
 """
 
 from __future__ import annotations
@@ -123,7 +122,6 @@ def _has_cycle(world: World, classes: Sequence[int]) -> bool:
 
 
 def _joined(alpha: list[Dart], pairs: Iterable[tuple[Dart, Dart]], world: World) -> World | None:
-    """The world with these pairs of darts as edges; None if it is disconnected."""
     for a, b in pairs:
         alpha[a], alpha[b] = b, a
     copies = len(alpha) // len(world.alpha)
@@ -135,7 +133,6 @@ def _joined(alpha: list[Dart], pairs: Iterable[tuple[Dart, Dart]], world: World)
 
 
 def _exchanged(world: World) -> Iterator[World]:
-    """The worlds in which the far ends of two edges that look alike are exchanged."""
     alpha, classes = world.alpha, alike_darts(world, "undirected")
     for d, e in combinations(range(len(alpha)), 2):
         if classes[d] == classes[e] and e != alpha[d]:
@@ -145,7 +142,6 @@ def _exchanged(world: World) -> Iterator[World]:
 
 
 def _doubled(world: World) -> Iterator[World]:
-    """Two copies of the world, joined crosswise at an edge on a cycle."""
     size = len(world.alpha)
     for d, e in world.edges:
         copies = [end + k * size for k in range(2) for end in world.alpha]

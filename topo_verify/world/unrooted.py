@@ -46,7 +46,6 @@ def unrooted_count(edges: int, kind: WorldClass) -> int | None:
 
 @cache
 def _connected(most: int) -> list[int]:
-    """The connected pairs with 0 … `most` edges: the inverse Euler transform of all pairs."""
     pairs = _pairs(most)
     sums = [0] * (most + 1)  # for each n: Σ d·connected[d] over its divisors d
     connected = [0] * (most + 1)
@@ -58,7 +57,6 @@ def _connected(most: int) -> list[int]:
 
 
 def _pairs(edges: int) -> list[int]:
-    """The pairs with 0 … `edges` edges, connected or not."""
     size = 2 * edges
     total = [1] + [0] * size  # by the number of darts
     for k in range(1, size + 1):

@@ -192,7 +192,6 @@ def _rows(name: str, value: object) -> list[list[int]]:
 
 
 def _items(value: object) -> list[Any] | None:
-    """The items of a list or another sized collection; None for anything else."""
     if isinstance(value, (tuple, list)):  # the usual case, quickly
         return list(cast("Iterable[Any]", value))
     if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Sized):

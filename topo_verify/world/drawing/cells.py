@@ -122,7 +122,6 @@ def _translations(world: World) -> dict[Dart, list[int]]:
 
 
 def _tree(world: World, root: int) -> set[Dart]:
-    """The darts of a breadth-first spanning tree."""
     reached, queue, tree = {root}, deque([root]), set[Dart]()
     while queue:
         for dart in world.vertices[queue.popleft()]:
@@ -135,7 +134,6 @@ def _tree(world: World, root: int) -> set[Dart]:
 
 
 def _flat(world: World) -> _Torus:
-    """Vertices in the middle of their neighbours, then an affine map."""
     translation = _translations(world)
     moves = np.array([translation[dart] for dart in range(len(world.alpha))], float)
     tails = np.array(world.vertex_of)
@@ -192,7 +190,6 @@ def _level(sides: Floats) -> Floats:
 
 
 def _shifted(torus: _Torus) -> _Torus:
-    """The cell with its border far from vertices and its corners far from edges."""
     candidates: list[list[float]] = []
     for k in (0, 1):
         row: list[float] = sorted(set((torus.places[:, k] % 1).round(6).tolist()))

@@ -159,7 +159,6 @@ def _legs(curves: Sequence[Floats]) -> tuple[Floats, Floats, Ints, Ints, Floats]
 
 
 def _close(starts: Floats, steps: Floats) -> tuple[Ints, Ints]:
-    """Pairs of legs (the lesser first) with boxes in one cell of a grid."""
     ends = starts + steps
     low, high = np.minimum(starts, ends), np.maximum(starts, ends)
     extent = float((high.max(0) - low.min(0)).max())

@@ -83,7 +83,6 @@ def _share(cost: float, costs: Sequence[int]) -> float:
 
 
 def _strokes(world: World, layout: Layout, costs: Sequence[int], best: Dart) -> Iterator[str]:
-    """Strokes along the beginnings of darts, except under the arrow."""
     width = 0.42 * layout.radius
     yield f'<g fill="none" stroke-linecap="butt" stroke-width="{number(width)}">'
     for dart, along in sorted(leaving(world, layout).items()):

@@ -188,7 +188,6 @@ def _upright(sketch: Sketch) -> tuple[Floats, list[Floats]]:
 
 
 def _box(centres: Floats, chains: Sequence[Floats]) -> tuple[Floats, Floats]:
-    """The least corner of everything, and its size."""
     points = np.concatenate([centres, *chains])
     return points.min(0), points.max(0) - points.min(0)
 

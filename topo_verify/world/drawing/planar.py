@@ -326,7 +326,6 @@ def polished(mesh: Mesh, places: Floats, *, bend: float, steps: int) -> Floats:
 
 
 def _wishes(mesh: Mesh) -> Floats:
-    """The inverse of each triangle's wished shape."""
     ra, rb, rc = (mesh.radii[mesh.triangles[:, k]] for k in range(3))
     ab, ac, bc = ra + rb, ra + rc, rb + rc
     shape = np.zeros((len(ab), 2, 2))
@@ -337,7 +336,6 @@ def _wishes(mesh: Mesh) -> Floats:
 
 
 def _scaled(mesh: Mesh, places: Floats) -> Floats:
-    """The points with a frame that has four times the room of all wished triangles."""
     areas = 0.5 / np.linalg.det(_wishes(mesh))
     room = float(areas[mesh.weights >= RING].sum())
     centre = places[mesh.frame].mean(0)
@@ -347,7 +345,6 @@ def _scaled(mesh: Mesh, places: Floats) -> Floats:
 
 
 def _first_flip(triangles: Ints, places: Floats, move: Floats) -> float:
-    """The number of moves until the first triangle has no area."""
     a, da = places[triangles[:, 0]], move[triangles[:, 0]]
     u, v = places[triangles[:, 1]] - a, places[triangles[:, 2]] - a
     du, dv = move[triangles[:, 1]] - da, move[triangles[:, 2]] - da

@@ -201,7 +201,6 @@ def planarise(world: World, random: Random) -> PlaneMap | None:
 
 
 def _spanning_tree(world: World, random: Random) -> list[Dart]:
-    """One dart of each edge of a random, mostly breadth-first tree."""
     root = random.randrange(len(world.vertices))
     reached, queue, tree = {root}, deque([root]), list[Dart]()
     while queue:
@@ -297,7 +296,6 @@ class _Builder:
         return tuple(range(self.size - number, self.size))
 
     def triangle(self, a: int, b: int, c: int, weight: float) -> None:
-        """Add a counter-clockwise triangle."""
         self.triangles.append((a, b, c))
         self.weights.append(weight * (AROUND if min(a, b, c) < self.vertices else 1))
 
@@ -355,7 +353,6 @@ def over(plane: PlaneMap, outer: int, *, points: int) -> Mesh:
 
 
 def _radii(plane: PlaneMap, builder: _Builder) -> Floats:
-    """About the radius around which one circle for each neighbour fits."""
     degree = Counter(p for triangle in builder.triangles for p in triangle)
     drawn = {p for middle in builder.between.values() for p in middle}
     radii = np.full(builder.size, 0.5)

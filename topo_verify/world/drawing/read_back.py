@@ -31,9 +31,9 @@ class Picture:
 
     Attributes:
         circles: x, y and radius of each vertex.
-        curves: the parts of each edge, by its two darts, as points.
-        stubs: the beginnings of edges that are not shown whole, by their dart.
-        sides: of a surface that was cut open, by letter.
+        curves: the parts of each edge, by its two darts.
+        stubs: the beginnings of edges that leave a ball, by their dart.
+        sides: of a cut surface, by letter.
     """
 
     circles: dict[int, tuple[float, float, float]]
@@ -78,7 +78,6 @@ def read(svg: str) -> Picture:
 
 
 def _sides(corners: Floats, letters: str) -> dict[str, list[Floats]]:
-    """The sides of a polygon by their letters, two of each."""
     sides: dict[str, list[Floats]] = {}
     for letter, start, end in zip(letters, corners, np.roll(corners, -1, 0), strict=True):
         sides.setdefault(letter, []).append(np.array([start, end]))
@@ -161,7 +160,7 @@ def _seams(picture: Picture, _world: World) -> Iterator[str]:
 
 
 def _is_glued(side: Floats, partner: Floats, out: Floats, back: Floats) -> bool:
-    """Whether gluing the sides, end to start, makes these two points side."""
+    """Whether gluing the sides, end to start, makes these two points one."""
     (start, end), (last, first) = side, partner
     share = float((out - start) @ (end - start) / ((end - start) ** 2).sum())
     off = (out - start - share * (end - start), back - first - share * (last - first))
@@ -233,6 +232,5 @@ def inside(circles: Floats, line: Floats) -> Floats:
 
 
 def _depth(circle: Floats, line: Floats) -> float:
-    """How deep the polyline goes into the circle, about."""
     points = np.concatenate([line, (line[1:] + line[:-1]) / 2])
     return float(circle[2] - np.hypot(*(points - circle[:2]).T).min())

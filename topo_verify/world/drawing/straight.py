@@ -67,7 +67,6 @@ def _fan(world: World) -> Floats:
 
 
 def _leaves(world: World) -> dict[Dart, int]:
-    """The number of leaves beyond each dart."""
     leaves: dict[Dart, int] = {}
     todo = list(range(len(world.alpha)))
     while todo:

@@ -175,7 +175,6 @@ def legible(layout: Layout) -> float:
 
 
 def _vertices(world: World, layout: Layout) -> Iterator[str]:
-    """Circles, with names inside or, if there is room, beside."""
     radius, size = layout.radius, legible(layout)
     yield (
         f'<g stroke-width="{number(0.13 * radius)}" font-family="{FONT}" text-anchor="middle"'
@@ -205,7 +204,6 @@ MOST_NAMES = 250
 
 
 def _beside(layout: Layout, labels: Sequence[str], size: float) -> dict[int, Point]:
-    """Places for the names of small circles, clear of everything."""
     page = layout.width, layout.height
     circles = [c for vertex, c in enumerate(layout.centres) if vertex not in layout.hidden]
     parts = [data for parts in layout.paths for data in parts]
@@ -293,7 +291,6 @@ def places(world: World, layout: Layout, words: Mapping[Dart, str]) -> dict[Dart
 
 
 def _sampled(line: Floats, step: float, most: float) -> Floats:
-    """Points along a line up to a distance from its start."""
     return curves.place(line, np.arange(0.0, min(curves.length(line), most), step))
 
 

@@ -178,7 +178,6 @@ class WorldClass:
 
 
 def _terms(text: str) -> tuple[set[str], dict[str, list[int]]]:
-    """The words in the text of a class, and the numbers behind each kind of bound."""
     words: set[str] = set()
     bounds: dict[str, list[int]] = {"genus:": [], "genus<=": [], "max-degree:": []}
     for term in text.split(","):
@@ -198,7 +197,6 @@ def _terms(text: str) -> tuple[set[str], dict[str, list[int]]]:
 
 
 def _ends(table: rank_order.Table) -> list[tuple[int, int]]:
-    """The two vertices of each edge, once from each of its darts."""
     degrees, alpha = table
     vertex = [v for v, degree in enumerate(degrees) for _ in range(degree)]
     return [(vertex[dart], vertex[other]) for dart, other in enumerate(alpha)]

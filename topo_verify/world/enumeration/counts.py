@@ -92,7 +92,6 @@ def _all_maps(edges: int, highest: int, *, loopless: bool, simple: bool) -> Frac
 
 
 def _partitions(total: int, highest: int) -> Iterator[Degrees]:
-    """Every multiset of numbers 1 … highest with this sum."""
     if total == 0:
         yield ()
     for first in range(min(total, highest), 0, -1):
@@ -121,7 +120,6 @@ def _wirings(degrees: Degrees, *, loopless: bool) -> int:
 
 @cache
 def _simple_wirings(degrees: Degrees) -> int:
-    """The number of ways to join all darts such that the graph is simple."""
     if not degrees:
         return 1
     # d! ways to give the first vertex's d darts to the d chosen ones
@@ -175,7 +173,6 @@ def count_genus(edges: int, genus: int) -> int:
 
 
 def _next(known: list[list[int]], g: int, m: int) -> int:
-    """Q[g][m] from those before it."""
     # the recurrence times 6: all terms are integers
     total = 4 * (2 * m - 1) * known[g][m - 1]
     if g and m >= 2:

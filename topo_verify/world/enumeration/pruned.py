@@ -110,7 +110,6 @@ def _roots(edges: int, kind: WorldClass) -> Iterator[_Partial]:
 
 
 def _children(partial: _Partial, r: int) -> Iterator[_Partial]:
-    """Maps one step later, in rank order."""
     rank, degrees, opened, alpha, pruners = partial
     dart, u, created = opened[0], len(opened), len(alpha)
     # dead end: no open dart while darts remain
@@ -137,7 +136,6 @@ def _children(partial: _Partial, r: int) -> Iterator[_Partial]:
 
 
 def _all(pruners: Iterator[Pruner | None]) -> tuple[Pruner, ...] | None:
-    """All the pruners, or None if one found the step impossible."""
     kept: list[Pruner] = []
     for pruner in pruners:
         if pruner is None:

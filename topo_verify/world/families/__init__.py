@@ -2,14 +2,14 @@
 
 A world's name is the call that makes it again, without defaults, such as
 `lattice(10,10,holes=0.2,seed=7)`. All draws come from `random.Random(seed)`, the same on every
-machine with Python 3.11 to 3.13.
+machine with Python 3.11 to 3.13. Arguments out of range, and more than `MAX_DARTS` darts, raise
+`InputError`.
 
 **Holes** are `round(holes·nodes)` nodes removed at random. The largest component of the rest is
 kept (of equally large ones, that with the lowest node).
 
-**The marker** is drawn last: a vertex, then one of its exits, so an average over seeds is one over
-starting places too. Random maps have it at their root, families without a seed at dart 0.
-`marker=DART` changes nothing else.
+**The marker** is drawn last: a vertex, then one of its exits. Random maps have it at their root,
+families without a seed at dart 0. `marker=DART` changes nothing else.
 
 **Rotations** follow the drawing if there is one (node 0 at the top left, exits clockwise from the
 north, positions with y upwards; tori, shapes and solids without positions). Other families draw

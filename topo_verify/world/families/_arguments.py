@@ -11,11 +11,11 @@ from topo_verify.errors import InputError
 from topo_verify.world.rooted_map import Dart
 
 MAX_DARTS = 10**6
-"""Larger worlds take minutes and gigabytes, and are usually a mistake."""
+"""Larger worlds take minutes and gigabytes."""
 
 
 def integer(family: str, name: str, value: object, least: int) -> int:
-    """The value as a plain int (NumPy has others), at least `least`."""
+    """The value as a plain int, at least `least`."""
     if isinstance(value, SupportsIndex) and not isinstance(value, bool) and index(value) >= least:
         return index(value)
     raise InputError(f"{family}: {name} is {value!r}, expected an integer of {least} or more")

@@ -24,8 +24,6 @@ def lattice(
         holes: the share of removed nodes, 0 <= holes < 1.
         seed: 0 or more.
         marker: a dart; default: drawn.
-    Raises:
-        InputError: an argument is out of range, or more than `MAX_DARTS` darts.
     """
     return _drawn("lattice", (_NORTH, _EAST), (rows, columns), holes, seed, marker)
 
@@ -35,7 +33,7 @@ def king(
 ) -> World:
     """A grid, each node joined with its eight neighbours, as a king moves in chess.
 
-    Diagonals cross: a map of high genus. Arguments and errors as for `lattice`.
+    Diagonals cross: a map of high genus. Arguments as for `lattice`.
     """
     return _drawn("king", _KING, (rows, columns), holes, seed, marker)
 
@@ -43,10 +41,7 @@ def king(
 def king_torus(
     rows: int, columns: int, *, holes: float = 0.0, seed: int = 0, marker: Dart | None = None
 ) -> World:
-    """A `king` with joined opposite borders: degrees 8; simple from 3 by 3 on.
-
-    Arguments and errors as for `lattice`.
-    """
+    """A `king` with joined opposite borders: degrees 8; simple from 3 by 3 on."""
     return _drawn("king_torus", _KING, (rows, columns), holes, seed, marker, wrapped=True)
 
 
@@ -55,27 +50,21 @@ def torus(rows: int, columns: int, *, marker: Dart | None = None) -> World:
 
     Args:
         rows, columns: 1 or more; 1 makes loops, 2 parallel edges.
-        marker: a dart; default: 0 (places look alike, but for the direction).
-    Raises:
-        InputError: an argument is out of range, or more than `MAX_DARTS` darts.
+        marker: a dart; default: 0.
     """
     return _wrapped("torus", (_NORTH, _EAST), (rows, columns), marker)
 
 
 def triangular_torus(rows: int, columns: int, *, marker: Dart | None = None) -> World:
-    """A torus with one diagonal in each square. Genus 1, degrees 6; simple from 3 by 3 on.
-
-    Arguments and errors as for `torus`.
-    """
+    """A torus with one diagonal in each square. Genus 1, degrees 6; simple from 3 by 3 on."""
     return _wrapped("triangular_torus", (_NORTH, _NORTH_EAST, _EAST), (rows, columns), marker)
 
 
 def hexagonal_torus(rows: int, columns: int, *, marker: Dart | None = None) -> World:
     """A honeycomb with joined opposite borders, two nodes a cell. Genus 1, degrees 3.
 
-    Arguments and errors as for `torus`; simple from 2 by 2 on. It is the dual of the triangular
-    torus of the same size, faces taken as rotations: with north upwards, exits are listed
-    anticlockwise.
+    Simple from 2 by 2 on. It is the dual of the triangular torus of the same size, faces taken as
+    rotations: with north upwards, exits are listed anticlockwise.
     """
     rows, columns, darts = arguments.size("hexagonal_torus", (rows, columns), darts_each=6)
     name, marker, _ = arguments.settled(

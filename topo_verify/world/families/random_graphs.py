@@ -19,10 +19,7 @@ def regular(
 
     Args:
         nodes: more than degree; nodes·degree is even.
-        degree: 1 or more.
         holes, seed, marker: as for `lattice`.
-    Raises:
-        InputError: an argument is out of range, or more than `MAX_DARTS` darts.
     Source: A. Steger and N. C. Wormald, "Generating random regular graphs quickly", Combin. Probab.
         Comput. 8 (1999): pair free ends at random, keep the pairs that fit. Nearly uniform.
     """
@@ -44,15 +41,7 @@ def regular(
 
 
 def dense(nodes: int, probability: float, *, seed: int = 0, marker: Dart | None = None) -> World:
-    """A random graph, each pair of nodes joined with this probability; then rotations.
-
-    Args:
-        nodes: 1 or more.
-        probability: 0 to 1.
-        seed, marker: as for `lattice`.
-    Raises:
-        InputError: an argument is out of range, or more than `MAX_DARTS` darts are possible.
-    """
+    """A random graph, each pair of nodes joined with this probability; then rotations."""
     family = "dense"
     nodes = arguments.integer(family, "nodes", nodes, 1)
     probability = arguments.share(family, "probability", probability, whole=True)
@@ -64,7 +53,7 @@ def dense(nodes: int, probability: float, *, seed: int = 0, marker: Dart | None 
 
 
 def complete(nodes: int, *, seed: int = 0, marker: Dart | None = None) -> World:
-    """Every two nodes joined; random rotations. Arguments and errors as for `dense`."""
+    """Every two nodes joined; random rotations."""
     nodes = arguments.integer("complete", "nodes", nodes, 1)
     name, marker, random = arguments.settled(
         "complete", nodes, darts=nodes * (nodes - 1), marker=marker, seed=seed
@@ -75,14 +64,7 @@ def complete(nodes: int, *, seed: int = 0, marker: Dart | None = None) -> World:
 def complete_bipartite(
     left: int, right: int, *, seed: int = 0, marker: Dart | None = None
 ) -> World:
-    """Every one of `left` nodes joined with every one of `right` others; random rotations.
-
-    Args:
-        left, right: 1 or more.
-        seed, marker: as for `lattice`.
-    Raises:
-        InputError: an argument is out of range, or more than `MAX_DARTS` darts.
-    """
+    """Every one of `left` nodes joined with every one of `right` others; random rotations."""
     family = "complete_bipartite"
     left = arguments.integer(family, "left", left, 1)
     right = arguments.integer(family, "right", right, 1)
@@ -94,7 +76,6 @@ def complete_bipartite(
 
 
 def _regular_edges(nodes: int, degree: int, random: Random) -> Iterable[tuple[int, int]]:
-    """The edges of a random regular graph, in an order that the draws decide."""
     if 2 * degree >= nodes:  # draw the complement, because few pairs fit in a nearly full graph
         missing = set(_regular_edges(nodes, nodes - 1 - degree, random))
         return [pair for pair in combinations(range(nodes), 2) if pair not in missing]

@@ -43,11 +43,7 @@ def random_tree(edges: int, *, seed: int = 0, marker: Dart | None = None) -> Wor
     """A tree, uniform among all rooted plane trees with this many edges.
 
     Args:
-        edges: 0 or more.
-        seed: 0 or more.
         marker: a dart; default: the root.
-    Raises:
-        InputError: an argument is out of range, or more than `MAX_DARTS` darts.
     """
     edges = arguments.integer("random_tree", "edges", edges, 0)
     name, marker, random = arguments.settled(
@@ -57,10 +53,7 @@ def random_tree(edges: int, *, seed: int = 0, marker: Dart | None = None) -> Wor
 
 
 def random_planar(edges: int, *, seed: int = 0, marker: Dart | None = None) -> World:
-    """A planar map, uniform among all rooted ones; loops and parallel edges are usual.
-
-    Arguments and errors as for `random_tree`.
-    """
+    """A planar map, uniform among all rooted ones; loops and parallel edges are usual."""
     edges = arguments.integer("random_planar", "edges", edges, 0)
     name, marker, random = arguments.settled(
         "random_planar", edges, darts=2 * edges, marker=marker, seed=seed
@@ -77,10 +70,6 @@ def random_genus(edges: int, genus: int, *, seed: int = 0, marker: Dart | None =
 
     Args:
         edges: at least twice the genus, at most `MAX_EDGES`.
-        genus: 0 or more.
-        seed, marker: as for `random_tree`.
-    Raises:
-        InputError: an argument is out of range.
     """
     family = "random_genus"
     genus = arguments.integer(family, "genus", genus, 0)
@@ -103,7 +92,6 @@ def random_genus(edges: int, genus: int, *, seed: int = 0, marker: Dart | None =
 
 
 def _rooted(name: str, sigma: Sequence[Dart], root: Dart, marker: Dart | None) -> World:
-    """The world with edges of darts 0 and 1, 2 and 3 and so on."""
     if marker is None and sigma:
         marker = root
     try:
@@ -113,7 +101,6 @@ def _rooted(name: str, sigma: Sequence[Dart], root: Dart, marker: Dart | None) -
 
 
 def _turning(faces: Sequence[Sequence[Dart]]) -> list[Dart]:
-    """`sigma` of the map with these faces."""
     # along a face each dart is sigma∘alpha of the one before it, and alpha(d) = d ^ 1
     sigma = [0] * sum(map(len, faces))
     for face in faces:
@@ -179,7 +166,6 @@ def planar_map(word: Sequence[int], steps: Sequence[int], *, coin: int) -> tuple
 
 
 def _corners(word: Sequence[int], steps: Sequence[int]) -> tuple[list[int], list[int]]:
-    """The vertex and the label of each corner, in the order of the walk."""
     rises = iter(steps)
     vertices, labels = [0], [0]
     below: list[tuple[int, int]] = []
@@ -229,8 +215,8 @@ def _distance_to(corner: int, corners: int) -> Callable[[Dart], int]:
 class _Faces:
     """The faces of a map that begins as a tree; each call adds an edge.
 
-    `faces` are lists of darts in the order of a walk; `face_of` is the face of each dart. The world
-    of one vertex has one empty face.
+    `faces` are lists of darts in the order of a walk; `face_of` is the face of each dart.
+    One vertex has one empty face.
     """
 
     def __init__(self, walk: list[Dart]) -> None:
@@ -238,7 +224,6 @@ class _Faces:
         self.face_of = [0] * len(walk)
 
     def split(self, random: Random) -> None:
-        """Join a random corner with a random corner of its face."""
         face, first = self._corner(random)
         darts = self.faces[face]
         second = random.randrange(len(darts) or 1)
@@ -254,7 +239,6 @@ class _Faces:
             self.face_of[dart] = len(self.faces) - 1
 
     def join(self, random: Random) -> None:
-        """Join a random corner with a random corner of a random other face."""
         here_face, first = self._corner(random)
         there_face = (here_face + 1 + random.randrange(len(self.faces) - 1)) % len(self.faces)
         second = random.randrange(len(self.faces[there_face]))

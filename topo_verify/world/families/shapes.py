@@ -1,8 +1,7 @@
 """Small well-known graphs and the Platonic solids, drawn in the plane without crossings: genus 0.
 
-Nodes on a circle are numbered clockwise. Nothing is random; the marker is at dart 0 by default. The
-simplest world of each: `path(1)` (a node alone), `cycle(1)` (a loop), `star(1)` (an edge),
-`wheel(3)` (the tetrahedron), `prism(3)`.
+Nodes on a circle are numbered clockwise. The simplest world of each: `path(1)` (a node alone),
+`cycle(1)` (a loop), `star(1)` (an edge), `wheel(3)` (the tetrahedron), `prism(3)`.
 
 **Solids** look the same from every dart. The octahedron and the icosahedron are drawn with one
 corner in the middle and one outside, rings between them; the dodecahedron is the dual of the
@@ -26,8 +25,6 @@ def path(nodes: int, *, marker: Dart | None = None) -> World:
     Args:
         nodes: 1 or more.
         marker: a dart; default: 0, at the first node.
-    Raises:
-        InputError: an argument is out of range, or more than `MAX_DARTS` darts.
     """
 
     def rows(n: int) -> Iterable[list[int]]:
@@ -37,7 +34,7 @@ def path(nodes: int, *, marker: Dart | None = None) -> World:
 
 
 def cycle(nodes: int, *, marker: Dart | None = None) -> World:
-    """Nodes on a circle: one has a loop, two are joined twice. Arguments as for `path`."""
+    """Nodes on a circle: one has a loop, two are joined twice."""
 
     def graph(n: int) -> Graph:
         return {
@@ -49,7 +46,7 @@ def cycle(nodes: int, *, marker: Dart | None = None) -> World:
 
 
 def star(leaves: int, *, marker: Dart | None = None) -> World:
-    """One node joined with `leaves` others (1 or more). The rest as for `path`."""
+    """One node joined with `leaves` others (1 or more)."""
 
     def rows(n: int) -> Iterable[list[int]]:
         return [list(range(1, n + 1)), *([0] for _ in range(n))]
@@ -58,7 +55,7 @@ def star(leaves: int, *, marker: Dart | None = None) -> World:
 
 
 def wheel(rim: int, *, marker: Dart | None = None) -> World:
-    """A cycle of `rim` nodes (3 or more), each joined with a hub. The rest as for `path`."""
+    """A cycle of `rim` nodes (3 or more), each joined with a hub."""
 
     def rows(n: int) -> Iterable[list[int]]:
         return [
@@ -71,7 +68,7 @@ def wheel(rim: int, *, marker: Dart | None = None) -> World:
 
 
 def prism(sides: int, *, marker: Dart | None = None) -> World:
-    """Two nested cycles of `sides` nodes (3 or more), joined one to one. The rest as for `path`."""
+    """Two nested cycles of `sides` nodes (3 or more), joined one to one."""
 
     def rows(n: int) -> Iterable[list[int]]:
         return [
@@ -104,11 +101,7 @@ def _made(
 
 
 def tetrahedron(*, marker: Dart | None = None) -> World:
-    """4 vertices of degree 3, 6 edges, 4 triangles.
-
-    Raises:
-        InputError: it has no dart `marker`; the same for the other four.
-    """
+    """4 vertices of degree 3, 6 edges, 4 triangles."""
     return _named("tetrahedron", wheel(3), marker)
 
 

@@ -10,4 +10,7 @@
 - `embedding`: worlds of vertices and edges with coordinates
 - `markup`: reads XML that may be hostile
 - `files`: reads up to a limit, writes whole or not at all
+
+`decode(cls, data, name, stem)` reads, `encode(world)` writes. `name` and `source` name the input in
+messages, `stem` a world without a name. What is wrong raises an `InputError` that says where.
 """

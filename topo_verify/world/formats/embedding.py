@@ -1,18 +1,14 @@
 """Makes a world of a drawing: vertices with coordinates, and edges with their polylines.
 
 The rotation at a vertex (a *place* of the drawing) is the **clockwise order of the directions in
-which the edges (its *ways*) leave**, from the north on, y upwards. A way leaves along the first
-segment of its course (its polyline; default: straight) that has a length.
+which the edges (its *ways*) leave**, from the north on, y upwards: along the first segment of the
+way's course (its polyline; default: straight) that has a length. Directions are compared exactly:
+in fractions where floating point does not decide. Equal directions are an error.
 
-Directions are compared exactly: in fractions where floating point does not decide. Two ways that
-leave in the same direction have no order: an error names the place. A course of a single point is
-an error as well.
+A course is reversed if that brings its ends nearer to its places.
 
-**Which end is which.** A course is reversed if that brings its ends nearer to its places.
-
-**One street, two directions.** Directed graphs often hold a street twice, once for each direction
-of travel. A directed way with the same course as an earlier one, backwards, is merged with it, in
-pairs. Different courses stay apart, and undirected ways are never merged.
+**One street, two directions.** A directed way with the same course as an earlier one, backwards, is
+merged with it, in pairs. Different courses stay apart, and undirected ways are never merged.
 
 The marker points at the first dart of the first place, unless it is named. Where ways cross without
 a place (bridges) the map need not be planar.
@@ -37,14 +33,14 @@ W = TypeVar("W", bound=World)
 Point = tuple[float, float]
 
 FARTHEST = 1e12
-"""The largest coordinate, either way: products of differences do not overflow."""
+"""The largest coordinate, for products without overflow."""
 
 
 MOST_EDGES = 500_000
 """Of a file: a million darts."""
 
 MOST_POINTS = 1_000_000
-"""Of all polylines in a file, each 100 bytes and more in memory."""
+"""Of all polylines in a file."""
 
 
 class DrawnVertex(NamedTuple):
@@ -83,12 +79,9 @@ def as_world(
     """The world of the drawing.
 
     Args:
-        source: the name of the input in messages.
-        name: the name of the world.
         marker: the end that it points at; default: the first dart of the first place.
     Raises:
-        InputError: two ways leave a place in the same direction, a way has no direction, a place
-            has no way, or the drawing is not connected.
+        InputError: equal directions, a way of one point, a place without a way, several parts.
     """
     if not places:
         raise InputError(f"{source} has no vertex: a world has one at least")
@@ -112,7 +105,6 @@ def as_world(
 
 
 def _course(way: DrawnEdge, places: Sequence[DrawnVertex]) -> tuple[Point, ...]:
-    """The way's points from its start to its end, none twice in a row."""
     start, end = places[way.start], places[way.end]
     points = list(way.course) or [start.at, end.at]
     course = (points[0], *(b for a, b in pairwise(points) if a != b))
@@ -168,7 +160,6 @@ class _LeavingEnd(NamedTuple):
 
     @property
     def westward(self) -> bool:
-        """Whether the direction is west or due south."""
         x, y = self.direction
         return x < 0 or (x == 0 and y < 0)
 
@@ -260,11 +251,7 @@ def require_size(name: str, *, vertices: int, edges: int, points: int) -> None:
 
 
 def number(value: Any, subject: str, most: float = FARTHEST) -> float:
-    """The value as a coordinate.
-
-    Raises:
-        InputError: it is no number, or larger than `most`, either way.
-    """
+    """The value as a coordinate, at most `most` either way."""
     with suppress(TypeError, ValueError, OverflowError):
         coordinate = float(value)
         if abs(coordinate) <= most:
@@ -277,11 +264,7 @@ def number(value: Any, subject: str, most: float = FARTHEST) -> float:
 
 
 def line(text: str, subject: str) -> tuple[Point, ...]:
-    """The points of a polyline in well-known text, `LINESTRING (0 0, 1 2)`, without heights.
-
-    Raises:
-        InputError: the text is no such line.
-    """
+    """The points of a polyline in well-known text, `LINESTRING (0 0, 1 2)`, without heights."""
     match = re.fullmatch(r"\s*LINESTRING\s*(?:Z\s*)?\(([^()]*)\)\s*", text, re.IGNORECASE)
     if not match:
         raise InputError(
@@ -300,11 +283,7 @@ def _parts(text: str) -> Iterator[str]:
 
 
 def points(rows: Iterable[Sequence[object]], subject: str) -> tuple[Point, ...]:
-    """The points of a polyline, x and y each, without heights.
-
-    Raises:
-        InputError: a point has other coordinates than two or three numbers.
-    """
+    """The points of a polyline, without heights."""
     return tuple(_point(row, subject) for row in rows)
 
 

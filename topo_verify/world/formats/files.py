@@ -1,7 +1,4 @@
-"""Reads files up to a limit and writes them whole or not at all, for every format.
-
-Every failure is an `InputError` that names the file and what the system said.
-"""
+"""Reads files up to a limit and writes them whole or not at all. Failures raise `InputError`."""
 
 from __future__ import annotations
 
@@ -21,22 +18,14 @@ LIMIT = 64 * 2**20
 
 
 def read(path: str | PathLike[str]) -> bytes:
-    """The bytes of the file.
-
-    Raises:
-        InputError: it cannot be read or holds more than `LIMIT` bytes.
-    """
+    """The bytes of the file, at most `LIMIT`."""
     with opened(path) as file:
         return read_stream(file, name=shown(path))
 
 
 @contextmanager
 def opened(path: str | PathLike[str]) -> Generator[IO[bytes]]:
-    """The file, open for reading inside the block.
-
-    Raises:
-        InputError: it cannot be opened or, inside the block, read.
-    """
+    """The file, open for reading inside the block, where errors become `InputError`."""
     try:
         with Path(path).open("rb") as file:
             yield file
@@ -47,11 +36,7 @@ def opened(path: str | PathLike[str]) -> Generator[IO[bytes]]:
 
 
 def standard_input() -> IO[bytes]:
-    """Standard input, as bytes.
-
-    Raises:
-        InputError: it was closed before the start.
-    """
+    """Standard input, as bytes."""
     stream: TextIO | None = sys.stdin  # after <&-
     if stream is None:
         raise InputError("standard input is closed: name a file, or pipe the text in")
@@ -59,11 +44,7 @@ def standard_input() -> IO[bytes]:
 
 
 def lines(stream: IO[bytes], *, name: str) -> Iterator[bytes]:
-    """The lines of a stream of any length.
-
-    Raises:
-        InputError: a line has more than `LIMIT` bytes.
-    """
+    """The lines of a stream of any length, each of at most `LIMIT` bytes."""
     while line := stream.readline(LIMIT + 1):
         if len(line) > LIMIT:
             raise InputError(too_large(f"a line of {name}"))
@@ -71,11 +52,7 @@ def lines(stream: IO[bytes], *, name: str) -> Iterator[bytes]:
 
 
 def read_stream(stream: IO[bytes], *, name: str) -> bytes:
-    """The bytes of the stream until it ends.
-
-    Raises:
-        InputError: more than `LIMIT` bytes; an endless stream is safe.
-    """
+    """The bytes of the stream, at most `LIMIT`."""
     data = stream.read(LIMIT + 1)
     if len(data) > LIMIT:
         raise InputError(too_large(name))
@@ -83,7 +60,7 @@ def read_stream(stream: IO[bytes], *, name: str) -> bytes:
 
 
 def too_large(name: str) -> str:
-    """The error message for more than `LIMIT` bytes."""
+    """The error message for more."""
     return (
         f"{name} is larger than {LIMIT // 2**20} MiB, the most that is read (a million darts take"
         " less): give a smaller one"
@@ -94,10 +71,7 @@ def write(path: str | PathLike[str], text: str | bytes) -> None:
     """Write the bytes, or the text as UTF-8: all of it or nothing.
 
     A complete temporary file in the same folder replaces the old one. Links are followed and
-    permissions kept. Anything but a regular file (a pipe, a terminal) is written to directly.
-
-    Raises:
-        InputError: the system refuses; no temporary file remains.
+    permissions kept. A pipe or a terminal is written to directly.
     """
     try:
         data = text.encode() if isinstance(text, str) else text

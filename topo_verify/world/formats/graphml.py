@@ -1,13 +1,12 @@
 """GraphML: worlds with their rotation, and drawings as OSMnx and NetworkX write them.
 
 A graph whose data `format` is `topo-verify/graph` carries its rotation in the data that rotated.py
-lists, darts as `0 5 3`. `encode` writes such graphs.
+lists, darts as `0 5 3`.
 
-Any other graph is a **drawing** (embedding.py): nodes with `x` and `y` (y upwards, or degrees of
-longitude and latitude), edges directed or not, perhaps with a `geometry` in well-known text; other
-data are ignored. Vertices keep their ids as names. A street network of OSMnx (`save_graphml`) holds
-both directions of a street: each pair becomes one edge. A network in several parts is refused;
-`osmnx.truncate.largest_component` keeps one.
+Any other graph is a **drawing** (embedding.py): nodes with `x` and `y` (or longitude and latitude),
+edges directed or not, perhaps with a `geometry` in well-known text. A street network of OSMnx
+(`save_graphml`) holds both directions of a street: each pair becomes one edge. A network in several
+parts is refused; `osmnx.truncate.largest_component` keeps one.
 
 Source: U. Brandes and others, "GraphML Progress Report", Graph Drawing 2001.
 """
@@ -36,15 +35,7 @@ _WANTED = {
 
 
 def decode(cls: type[W], data: bytes, *, name: str = "GraphML", stem: str = "") -> W:
-    """The world in the bytes.
-
-    Args:
-        name: the name of the input in messages.
-        stem: the name of the world if the graph has none.
-    Raises:
-        InputError: the bytes are not GraphML; a node has neither position nor rotation; the drawing
-            or the rotation is refused.
-    """
+    """The world in the bytes."""
     reader = _Reader(name)
     markup.read(data, name=name, start=reader.start, end=reader.end)
     if not reader.is_graphml:
@@ -75,7 +66,6 @@ def _at(node: Mapping[str, str], subject: str) -> Point:
 
 
 def _rotated(cls: type[W], reader: _Reader, stem: str) -> W:
-    """The world of a graph that carries its rotation."""
     name, graph = reader.name, reader.about
     rotated.require_version(graph["format"], graph.get("version"), source=name)
     vertices: list[RotatedVertex] = []
@@ -117,7 +107,6 @@ class _Edge(NamedTuple):
 
     @property
     def name(self) -> str:
-        """The name in messages."""
         return " ".join(text for text in self[:3] if text is not None)
 
 
@@ -222,7 +211,6 @@ class _Reader:
         embedding.require_size(self.name, vertices=len(self.nodes), edges=edges, points=self.points)
 
     def _open(self, kind: str) -> str:
-        """The name of the open node or edge in messages."""
         given = (self.attributes.get(key) for key in ("source", "target", "id"))
         return self.what(kind, " ".join(text for text in given if text is not None))
 
@@ -231,7 +219,6 @@ class _Reader:
         return f"{self.name}: {kind} '{shown(name, limit=60)}'"
 
     def joined(self) -> Iterator[tuple[_Edge, int, int]]:
-        """Each edge with the numbers of its nodes."""
         number = {name: place for place, name in enumerate(self.nodes)}
         for edge in self.edges:
             start, end = (number.get(key or "") for key in edge[:2])
@@ -248,11 +235,7 @@ _UNFIT = re.compile("[^\t\n\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def encode(world: World) -> str:
-    """GraphML with the world's rotation, the same text for the same world.
-
-    Raises:
-        InputError: a text holds a character that XML cannot hold.
-    """
+    """GraphML with the world's rotation; refuses characters that XML cannot hold."""
     import networkx as nx
 
     from topo_verify.world.formats.nx import to_networkx

@@ -1,8 +1,7 @@
 """Reads XML that may be hostile, as a stream.
 
-A document type declaration is refused: entities are declared only there, so nothing expands
-("billion laughs") and nothing is fetched. The depth is limited here, the size by `files.LIMIT`.
-Only the caller keeps anything. Names come without their namespaces.
+A document type declaration is refused, so nothing expands ("billion laughs") and nothing is
+fetched. The depth is limited. Names come without their namespaces.
 
 Source: "XML security" in the manual of Python's standard library.
 """
@@ -21,21 +20,14 @@ _SEPARATOR = "\x01"
 """Between a namespace and a name; no document can hold it."""
 
 OnStart = Callable[[tuple[str, ...], dict[str, str]], None]
-"""Called at an element's start with the names from the root and its attributes."""
+"""Called with the names from the root, and the attributes."""
 
 OnEnd = Callable[[tuple[str, ...], str], None]
-"""Called at an element's end with the names from the root and the text just before it."""
+"""Called with the names from the root, and the text just before the end."""
 
 
 def read(data: bytes, *, name: str, start: OnStart, end: OnEnd) -> None:
-    """Go through the document.
-
-    Args:
-        name: the name of the input in messages.
-    Raises:
-        InputError: it is not XML, has a document type, or is nested too deeply; also whatever
-            `start` and `end` raise.
-    """
+    """Go through the document. Raises InputError, and whatever `start` and `end` raise."""
     path: list[str] = []
     text: list[str] = []
 

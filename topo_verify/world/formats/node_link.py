@@ -71,14 +71,7 @@ class _Header(msgspec.Struct):
 
 
 def decode(cls: type[W], text: str | bytes, *, name: str = "node-link JSON", stem: str = "") -> W:
-    """The world in the text.
-
-    Args:
-        name: the name of the input in messages.
-        stem: the name of the world if the text has none.
-    Raises:
-        InputError: the text is not node-link JSON, or its graph carries no world.
-    """
+    """The world in the text."""
     data = _parse(text, name)
     number = {node.id: place for place, node in enumerate(data.nodes)}
     if len(number) < len(data.nodes):
@@ -138,11 +131,7 @@ def _parse(text: str | bytes, name: str) -> _NodeLink:
 
 
 def encode(world: World) -> str:
-    """Node-link JSON on one line, the same text for the same world.
-
-    Raises:
-        InputError: a text holds half of a surrogate pair.
-    """
+    """Node-link JSON on one line, the same text for the same world."""
     data = _NodeLink(
         graph=_Graph(**rotated.attributes(world)),
         nodes=tuple(

@@ -1,14 +1,13 @@
 """NetworkX: every world as a multigraph and back, planar embeddings, graphs with positions.
 
-**Multigraphs with rotations** (`to_networkx`, `from_networkx`) hold every world whole: rotated.py
-names their attributes. Nodes are the numbers of the vertices, keys those of the edges.
+**Multigraphs with rotations** hold every world whole (rotated.py). Nodes are the numbers of the
+vertices, keys those of the edges.
 
 **Planar embeddings** (`networkx.PlanarEmbedding`) hold clockwise orders of simple planar graphs.
-Vertices come in the order of the nodes, each from its first neighbour on; when written, the
-marker's vertex and dart come first, so that they come back as the marker.
+Vertices come in the order of the nodes, each from its first neighbour on; the marker's vertex and
+dart are written first.
 
-**Graphs with positions** become worlds as embedding.py says, such as a street network from OSMnx,
-projected or not.
+**Graphs with positions** become worlds as embedding.py says, such as a street network from OSMnx.
 
 In the last two the marker is the first dart of the first vertex, unless `marker=("a", "b")` names
 its edge: it lies at a and points to b; in a multigraph a key may follow.
@@ -34,10 +33,10 @@ MarkerEnds = tuple[Any, ...]
 
 
 def to_networkx(world: World) -> nx.MultiGraph[int]:
-    """The world's graph; its attributes carry the rotation.
+    """The world's graph.
 
     The graph has `marker`; each node has `rotation`, its darts clockwise; each edge has `darts`.
-    Names and positions (`x`, `y`) come along where the world has them.
+    Names and positions (`x`, `y`) come along.
     """
     import networkx as nx
 
@@ -51,12 +50,10 @@ def to_networkx(world: World) -> nx.MultiGraph[int]:
 
 
 def from_networkx(graph: nx.Graph[Any]) -> World:
-    """The world of a graph with the attributes of `to_networkx`; others are ignored.
-
-    Nodes and keys may have been renamed.
+    """The world of a graph with the attributes of `to_networkx`; nodes and keys may be renamed.
 
     Raises:
-        InputError: a node has no rotation, an edge no darts, or they make no world.
+        InputError: attributes are missing or make no world.
     """
     given = cast("Any", graph)
     if "format" in given.graph:
@@ -163,13 +160,12 @@ def from_positions(
 
     Args:
         graph: its edges may have an attribute `geometry`: a list of (x, y), a text such as
-            LINESTRING (0 0, 1 2), or an object whose `coords` are such a list; default: straight.
+            LINESTRING (0 0, 1 2), or an object with `coords`; default: straight.
         positions: (x, y) of each node; default: the nodes' own attributes, `x` and `y` or `pos`.
-        marker: (node, neighbour) or (node, neighbour, key); default: the first dart of the first
-            node.
+        marker: (node, neighbour) or (node, neighbour, key).
         name: of the world.
     Raises:
-        InputError: a position is missing, a geometry is malformed, two edges leave a node at one
+        InputError: a position or geometry is missing or malformed, two edges leave a node at one
             angle, the graph is empty or not connected, or the marker names no edge or several.
     """
     given = cast("Any", graph)
@@ -215,7 +211,6 @@ def _geometry(graph: Any, label: tuple[Any, ...]) -> Sequence[Point]:
 
 
 def _row(value: Any, subject: str) -> list[Any]:
-    """The items of a row of any type."""
     if isinstance(value, str | bytes | Mapping) or not isinstance(value, Iterable):
         text = shown(repr(cast("Any", value)), limit=60)
         raise InputError(f"{subject} is {text}, expected x and y in a row, or such rows")

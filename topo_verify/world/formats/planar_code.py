@@ -3,13 +3,12 @@
     >>planar_code<<  3  2 3 0  1 3 0  1 2 0       (a triangle; a number is a byte)
 
 After the optional head the graphs follow one another: the number of vertices, then for each vertex
-the numbers of its neighbours in clockwise order, from 1, and a zero. A graph of more than 255
-vertices begins with a zero byte, and its numbers have two bytes: the high byte first, unless the
-head is `>>planar_code le<<`.
+its neighbours in clockwise order, from 1, and a zero. A graph of more than 255 vertices begins with
+a zero byte, and its numbers have two bytes: the high byte first, unless the head is
+`>>planar_code le<<`.
 
-Worlds that are not simple and planar are refused. The format has no marker: the marker is the first
-dart of the first vertex. Written worlds are numbered breadth-first from it, so isomorphic worlds
-give the same bytes.
+The format has no marker: it is the first dart of the first vertex. Written worlds are numbered
+breadth-first from it, so isomorphic worlds give the same bytes.
 
 What this does not show: that the writer meant clockwise; a mirror image is a valid file.
 
@@ -46,11 +45,8 @@ def decode(
     """The world in the bytes.
 
     Args:
-        name: the name of the input in messages.
         graph: its index; default: the only one.
         stem: the name of the world; with `graph`, the index follows.
-    Raises:
-        InputError: no graph of that number, several and none named, or no simple planar world.
     """
     neighbours = None
     number = -1
@@ -113,7 +109,6 @@ def require_simple_and_planar(world: World, subject: str) -> None:
 
 
 def _graphs(data: bytes, name: str) -> Iterator[list[Sequence[int]]]:
-    """The neighbours of each vertex, numbered from 1, graph by graph."""
     head = _HEAD.match(data)
     if data.startswith(b">>") and head is None:
         raise InputError(
@@ -129,7 +124,6 @@ def _graphs(data: bytes, name: str) -> Iterator[list[Sequence[int]]]:
 
 
 def _graph(data: bytes, at: int, name: str, *, little: bool) -> tuple[list[Sequence[int]], int]:
-    """The graph at this byte, and the position behind it."""
     wide = data[at] == 0  # no graph has 0 vertices
     size = data[at]
     if wide:

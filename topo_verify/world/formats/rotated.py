@@ -35,7 +35,7 @@ VERSION: Final = 1
 
 
 class RotatedVertex(NamedTuple):
-    """A node with its rotation; `label` names it in messages."""
+    """A node with its rotation; `label` is for messages."""
 
     label: str
     rotation: Any
@@ -63,10 +63,7 @@ def as_world(
     """The world with these rotations.
 
     Args:
-        source: the name of the input in messages.
         about: name, source and licence of the world.
-    Raises:
-        InputError: the darts make no world, or an edge joins other vertices than its darts are at.
     """
     given = {
         "vertices": [vertex.rotation for vertex in vertices],
@@ -95,7 +92,6 @@ T = TypeVar("T")
 
 
 def _of_all(subject: str, row: Sequence[T | None]) -> tuple[T, ...]:
-    """The row if all vertices have it, nothing if none has it."""
     present = tuple(value for value in row if value is not None)
     if present and len(present) < len(row):
         raise InputError(
@@ -122,11 +118,7 @@ def _require_ends(
 
 
 def point(x: object, y: object, subject: str) -> tuple[float, float] | None:
-    """The position with these coordinates; None if both are None.
-
-    Raises:
-        InputError: one is None, or not a number.
-    """
+    """The position with these coordinates; None if both are None."""
     if x is None and y is None:
         return None
     if x is None or y is None:
@@ -180,11 +172,7 @@ def _quoted(value: object) -> str:
 
 
 def darts_in(text: str, subject: str) -> list[int]:
-    """The darts in a text, as `0 5 3`.
-
-    Raises:
-        InputError: it holds something else.
-    """
+    """The darts in a text, as `0 5 3`."""
     words = text.split()
     for word in words:
         if not re.fullmatch(r"-?[0-9]{1,18}", word):

@@ -1,15 +1,12 @@
 """SUMO's road networks, `.net.xml`: the undirected graph of their streets.
 
 The reader takes each `<junction>` with `id`, `x`, `y` (y upwards) and each `<edge>` with `id`,
-`from`, `to` and an optional `shape`. It ignores everything else, and elements within a junction,
-whose id begins with ':'.
+`from`, `to` and an optional `shape`, except those within a junction, whose id begins with ':'.
 
 **Both directions of a street are one edge**, if their ids differ only in a leading '-' or their
-shapes are each other's reverse; the first shape counts. Others stay apart, such as the carriageways
-of a motorway.
+shapes are each other's reverse. Others stay apart, such as the carriageways of a motorway.
 
-embedding.py says how the drawing becomes a world. Networks in several parts are refused;
-`netconvert --keep-edges.components 1` keeps the largest.
+Networks in several parts are refused; `netconvert --keep-edges.components 1` keeps the largest.
 
 Source: Eclipse SUMO, user documentation, "SUMO Road Networks".
 """
@@ -28,14 +25,7 @@ W = TypeVar("W", bound=World)
 
 
 def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str = "") -> W:
-    """The world in the bytes.
-
-    Args:
-        name: the name of the input in messages.
-        stem: the name of the world.
-    Raises:
-        InputError: the bytes are not a SUMO network, or the drawing is refused.
-    """
+    """The world in the bytes."""
     places: dict[str, DrawnVertex] = {}
     edges: dict[str, dict[str, str]] = {}
     points = 0

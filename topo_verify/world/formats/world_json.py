@@ -3,12 +3,11 @@
     {"format": "topo-verify/world", "version": 1, "name": "triangle",
      "vertices": [[0, 5], [1, 2], [3, 4]], "edges": [[0, 1], [2, 3], [4, 5]], "marker": 0}
 
-Darts are any distinct integers, numbered 0 … 2m-1 in ascending order when read. `WorldFile` says
-the rest; the JSON Schema beside this file is made from it.
+Darts are any distinct integers, numbered 0 … 2m-1 in ascending order when read. The JSON Schema
+beside this file is made from `WorldFile`.
 
 Reading is strict, because a file read differently from its writer's meaning makes results about it
-worthless: no field may be unknown or repeated, no number of another kind. Every refusal names the
-file, the place in it and what belongs there.
+worthless: no field may be unknown or repeated, no number of another kind.
 
 What this does not show: that rotations were meant clockwise. A mirror image is a valid file.
 
@@ -93,14 +92,7 @@ def schema() -> dict[str, Any]:
 
 
 def decode(cls: type[W], text: str | bytes, *, name: str = "world JSON", stem: str = "") -> W:
-    """The world in the text; a byte order mark is ignored.
-
-    Args:
-        name: the name of the input in messages.
-        stem: the name of the world if the text has none.
-    Raises:
-        InputError: the text holds no world; says where and why.
-    """
+    """The world in the text; a byte order mark is ignored."""
     data = _parse(text, name)
     try:
         return cls.from_rotations(
@@ -183,7 +175,7 @@ def require_single_keys(text: str, name: str) -> None:
 
 
 def _sentence(error: str, name: str) -> str:
-    """msgspec's error as a sentence that names the place, problem belongs there and the mend."""
+    """msgspec's error as a sentence with the place, the right content and the mend."""
     problem, _, place = error.partition(" - at `$.")
     fields = schema()["$defs"]["WorldFile"]["properties"]
     named = re.match(r"\w+", place) or re.search(r"(?<=missing required field `)\w+", problem)
@@ -218,20 +210,12 @@ def to_data(world: World) -> WorldFile:
 
 
 def encode(world: World) -> str:
-    """World JSON on one line, the same text for the same world.
-
-    Raises:
-        InputError: a text holds half of a surrogate pair.
-    """
+    """World JSON on one line, the same text for the same world."""
     return encoded(to_data(world))
 
 
 def encoded(data: msgspec.Struct) -> str:
-    """The struct as JSON on one line.
-
-    Raises:
-        InputError: a text in it holds half of a surrogate pair.
-    """
+    """The struct as JSON on one line; refuses half of a surrogate pair."""
     try:
         return msgspec.json.encode(data).decode()
     except UnicodeEncodeError as error:
