@@ -119,7 +119,9 @@ def _least(table: bl.TextTable, place: int) -> int:
     longest = [_word(_title(table.columns[place])) if table.headed else 0]
     for row in table.rows:
         text = bl.cell_text(row[place])
-        longest.append(_length(text) if whole or _is_verdict(row[place]) else _word(text))
+        cell = row[place]
+        word = cell if isinstance(cell, str) else cell.text
+        longest.append(_length(text) if whole or word in VERDICTS else _word(text))
     return max(*longest, 1)
 
 
@@ -131,10 +133,6 @@ def _length(text: str) -> int:
     from rich.cells import cell_len
 
     return cell_len(text)
-
-
-def _is_verdict(cell: str | bl.Cell) -> bool:
-    return (cell if isinstance(cell, str) else cell.text) in VERDICTS
 
 
 def _title(column: str) -> str:

@@ -205,29 +205,19 @@ def spread(places: Sequence[float], gap: float) -> list[float]:
 
     Neighbours that are too near form a group, spaced evenly around its mean.
     """
-    order = sorted(range(len(places)), key=lambda k: (places[k], k))
     groups: list[list[int]] = []
-    for k in order:
+
+    def low(group: Sequence[int]) -> float:
+        return sum(places[k] for k in group) / len(group) - gap * (len(group) - 1) / 2
+
+    for k in sorted(range(len(places)), key=lambda k: (places[k], k)):
         groups.append([k])
-        while len(groups) > 1 and _low(groups[-1], places, gap) - _high(
-            groups[-2], places, gap
-        ) < gap * (1 - 1e-9):
-            last = groups.pop()
-            groups[-1] += last
+        while len(groups) > 1 and low(groups[-1]) - low(groups[-2]) < gap * (
+            len(groups[-2]) - 1e-9
+        ):
+            groups[-2:] = [groups[-2] + groups[-1]]
     moved = [0.0] * len(places)
     for group in groups:
         for step, k in enumerate(group):
-            moved[k] = _low(group, places, gap) + step * gap
+            moved[k] = low(group) + step * gap
     return moved
-
-
-def _middle(group: Sequence[int], places: Sequence[float]) -> float:
-    return sum(places[k] for k in group) / len(group)
-
-
-def _low(group: Sequence[int], places: Sequence[float], gap: float) -> float:
-    return _middle(group, places) - gap * (len(group) - 1) / 2
-
-
-def _high(group: Sequence[int], places: Sequence[float], gap: float) -> float:
-    return _middle(group, places) + gap * (len(group) - 1) / 2

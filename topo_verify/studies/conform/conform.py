@@ -243,7 +243,10 @@ def _keep(folder: str, attempt: Attempt, outcome: WorldOutcome) -> None:
     else:
         head = {**TRANSCRIPT, "world": world, "target": run.algorithm, "stopped": run.stopped}
         rows: list[object] = [head]
-        rows += [{"to" if way == ">" else "from": _text(line)} for way, line in attempt.lines]
+        rows += [
+            {"to" if way == ">" else "from": line.decode(errors="backslashreplace")}
+            for way, line in attempt.lines
+        ]
         rows += [
             {"found": finding.message} for level in outcome.findings.values() for finding in level
         ]
@@ -257,10 +260,6 @@ def file_name(world: str) -> str:
     plain = re.fullmatch(r"m[0-9]+/[0-9]+", world) or name == world
     tag = "" if plain and len(name) <= 80 else f"-{sha256(world.encode()).hexdigest()[:8]}"
     return name[:80] + tag
-
-
-def _text(line: bytes) -> str:
-    return line.decode(errors="backslashreplace")
 
 
 # ---------------------------------------------------------------- many worlds

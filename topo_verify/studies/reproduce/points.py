@@ -13,9 +13,11 @@ observation a size. What this does not show: that the cost is a power of m.
 from __future__ import annotations
 
 import csv
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from io import StringIO
+from itertools import product
 from math import log, sqrt
 from statistics import mean, stdev
 from typing import NamedTuple
@@ -131,7 +133,8 @@ def figure_points(
             for size in extent.sizes(figure.setting)
             if (rows := _rows(figure, extent, runs_of, size, by, runs))
         ]
-        points.extend(_grown(line))
+        fit = growth([(point.edges, point.mean) for point in line if point.mean > 0])
+        points.extend(msgspec.structs.replace(point, growth=fit) for point in line)
 
     for pair in extent.policies:
         for algorithm in figure.lines:
@@ -197,12 +200,6 @@ def _mean(values: Sequence[int]) -> tuple[float, float | None]:
 
 
 # ---------------------------------------------------------------- growth
-
-
-def _grown(line: Sequence[FigurePoint]) -> list[FigurePoint]:
-    """The points of a line, each with the growth of the line."""
-    fit = growth([(point.edges, point.mean) for point in line if point.mean > 0])
-    return [msgspec.structs.replace(point, growth=fit) for point in line]
 
 
 def growth(points: Iterable[tuple[float, float]]) -> GrowthFit | None:
@@ -298,11 +295,10 @@ def line_campaigns(
         name, ways = "{}, every pair of policies", every_pair.__name__
     elif engine == "compiled":
         ways = without_large_traces.__name__
-    worlds = {
-        line: dict.fromkeys(_graphs(line, figures, extent))
-        for figure in figures
-        for line in figure.lines
-    }
+    worlds: dict[str, dict[str, None]] = defaultdict(dict)
+    for figure in figures:
+        for line, size in product(figure.lines, extent.sizes(figure.setting)):
+            worlds[line] |= dict.fromkeys(extent.worlds(figure.setting, size))
     every = {graph for graphs in worlds.values() for graph in graphs}
     resolved = {graph: resolve_world(graph) for graph in every}
     campaigns: list[MapperCampaign] = []
@@ -319,14 +315,6 @@ def line_campaigns(
         named = [(graph, resolved[graph]) for graph in graphs]
         campaigns.append(MapperCampaign(campaign, named, kept))
     return campaigns
-
-
-def _graphs(line: str, figures: Sequence[Figure], extent: FigureExtent) -> Iterator[str]:
-    """The graphs in which the figures need a line."""
-    for figure in figures:
-        if line in figure.lines:
-            for size in extent.sizes(figure.setting):
-                yield from extent.worlds(figure.setting, size)
 
 
 def every_pair(

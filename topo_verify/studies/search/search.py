@@ -441,7 +441,11 @@ class Search:
             attained=costs.attained,
             worst=tuple(worst)[:KEPT_WORST],
             compare=self._compared(tally, mine) if compare else None,
-            every=self._every(tally, edges) if self.choices == "every" else None,
+            every=EveryCost(
+                *astuple(tally.choices), decided_by=decided_by(edges), judged_by=judged_by(edges)
+            )
+            if self.choices == "every"
+            else None,
         )
 
     def _compared(self, tally: Tally, mine: Sequence[Row]) -> CostComparison:
@@ -453,11 +457,6 @@ class Search:
             if row.cost > others.get(row.world, row.cost)
         ]
         return CostComparison(*astuple(tally.pairs), first=tuple(pairs[:KEPT_PAIRS]))
-
-    def _every(self, tally: Tally, edges: int) -> EveryCost:
-        return EveryCost(
-            *astuple(tally.choices), decided_by=decided_by(edges), judged_by=judged_by(edges)
-        )
 
 
 def _counterexample(row: Row, claim: str | None = None) -> Counterexample:

@@ -132,7 +132,8 @@ def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:
             if first.setdefault(finding.claim, finding) is finding:
                 reports.setdefault(finding.world, attempt.report)
                 if attempt.run.error is not None:
-                    raised[finding.world] = _place(attempt.run.error)
+                    last = traceback.extract_tb(attempt.run.error.__traceback__)[-1]
+                    raised[finding.world] = f"{last.filename}:{last.lineno}"
 
     trials = Trials(
         name=target.text,
@@ -146,8 +147,3 @@ def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:
     )
     trials.work(no_progress)
     return ClaimResults(edges, trials.part(), first, raised, reports)
-
-
-def _place(error: BaseException) -> str:
-    frames = traceback.extract_tb(error.__traceback__)
-    return f"{frames[-1].filename}:{frames[-1].lineno}"

@@ -8,7 +8,7 @@ The graph checks that a known state has as many ways and moves as before.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -184,13 +184,9 @@ class StateGraph:
             if number in (END, LOST) or number in shortest:
                 continue
             shortest[number] = choices
-            for way, to in self._taken(number):
-                queue.append((to, (*choices, way)))
+            ways = enumerate(self.nodes[number].ways)
+            queue += ((to, (*choices, way)) for way, to in ways if to is not None)
         return shortest
-
-    def _taken(self, number: int) -> Iterator[tuple[int, int]]:
-        ways = self.nodes[number].ways
-        return ((way, to) for way, to in enumerate(ways) if to is not None)
 
 
 def _culprit(path: JudgedPath) -> tuple[int, int] | None:
