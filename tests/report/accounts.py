@@ -6,14 +6,7 @@ from dataclasses import replace
 from datetime import UTC, datetime
 
 from tests.player.played import played
-from topo_verify.report.account import (
-    Account,
-    Ending,
-    Exhibit,
-    JudgedCase,
-    JudgedExtent,
-    JudgedSuite,
-)
+from topo_verify.report import account as acc
 from topo_verify.report.blocks import Bullets, Command, Raw, Text, TextTable, View
 from topo_verify.world import World
 
@@ -24,7 +17,7 @@ HOSTILE = (
 
 LONG_ID = f"m30/{'1234567890' * 4}321"
 
-RUN = Ending(
+RUN = acc.Ending(
     command="verify",
     again="topo-verify verify",
     code=1,
@@ -35,17 +28,17 @@ RUN = Ending(
 )
 
 
-def account(text: str = "a text", *, exhibit: bool = True) -> Account:
+def account(text: str = "a text", *, exhibit: bool = True) -> acc.Account:
     """An account with one case of each outcome, in which this text stands everywhere."""
     cases = (
-        JudgedCase("first", "ok", "passed", "3 of 3"),
-        JudgedCase(text, "failed", "failed", "3 of 3", text, f"topo-verify replay {text}"),
-        JudgedCase("third", "UNKNOWN", "undecided", message=text),
-        JudgedCase("fourth", "not-declared", "not-judged", "0 of 3", text),
+        acc.JudgedCase("first", "ok", "passed", "3 of 3"),
+        acc.JudgedCase(text, "failed", "failed", "3 of 3", text, f"topo-verify replay {text}"),
+        acc.JudgedCase("third", "UNKNOWN", "undecided", message=text),
+        acc.JudgedCase("fourth", "not-declared", "not-judged", "0 of 3", text),
     )
     world = replace(World.from_id("m3/14"), name=text, vertex_names=(text,) * 3)
     run = played(world, "basic", name=text)
-    shown = Exhibit(text, world, text, (text,), (run,), f"topo-verify replay {text}")
+    shown = acc.Exhibit(text, world, text, (text,), (run,), f"topo-verify replay {text}")
     blocks = (
         Text(text),
         Text(f"REFUTED: {text}"),
@@ -55,10 +48,10 @@ def account(text: str = "a text", *, exhibit: bool = True) -> Account:
         View(lambda width: (f"{width}",)),
         TextTable((text, ">n"), [(text, "5"), ("REFUTED", "6")], title=text),
     )
-    return Account(
+    return acc.Account(
         about=text,
-        extent=JudgedExtent("REFUTED", "1 of 3 worlds fail"),
-        suites=(JudgedSuite(text, cases),),
+        extent=acc.JudgedExtent("REFUTED", "1 of 3 worlds fail"),
+        suites=(acc.JudgedSuite(text, cases),),
         blocks=blocks,
         exhibits=(shown,) if exhibit else (),
     )

@@ -14,13 +14,7 @@ from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.robot.limits import Limits
-from topo_verify.studies.baseline.compare import (
-    EXAMPLES,
-    KINDS,
-    BaselineWorlds,
-    Comparison,
-    CostChange,
-)
+from topo_verify.studies.baseline import compare as study
 from topo_verify.studies.baseline.compare import compare as join
 from topo_verify.studies.baseline.file import Baseline
 from topo_verify.studies.baseline.record import baseline_runs
@@ -34,14 +28,14 @@ def recorded(mapper: Mapper | str | Target, *worlds: str, limits: Limits | None 
 
 def compare(
     baseline: Baseline, target: Target, *, tolerance: Fraction | str = "0", name: str = "baseline"
-) -> Comparison:
+) -> study.Comparison:
     """Run the mapper in the baseline's worlds and say what has changed."""
-    worlds, limits = BaselineWorlds(baseline, name), baseline.header.limits
+    worlds, limits = study.BaselineWorlds(baseline, name), baseline.header.limits
     runs = baseline_runs(target, worlds, len(baseline.entries), limits=limits)
     return join(baseline, target, runs.rows(0), tolerance=tolerance)
 
 
-def kinds(comparison: Comparison) -> dict[str, int]:
+def kinds(comparison: study.Comparison) -> dict[str, int]:
     """The kinds that occur."""
     return {kind: number for kind, number in comparison.kinds.items() if number}
 
@@ -124,9 +118,9 @@ def test_a_wrong_mapper_is_wrong_whatever_the_baseline_says(basic: Baseline) -> 
         assert [change.world for change in found.examples] == [
             *("m1/1", "m2/0", "m2/1", "m2/2", "m2/3")
         ]
-        assert len(found.examples) == EXAMPLES
+        assert len(found.examples) == study.EXAMPLES
         assert "not isomorphic" in found.examples[0].message
-        assert found.cost == CostChange(1, 1)  # m1/0 alone is right in both
+        assert found.cost == study.CostChange(1, 1)  # m1/0 alone is right in both
 
 
 def test_a_mapper_that_was_wrong_may_be_right_now() -> None:
@@ -200,7 +194,7 @@ def test_every_world_is_in_one_class_of_each_property(basic: Baseline) -> None:
         assert sum(group.worlds for group in groups) == len(basic.entries)
         assert sum(group.before for group in groups) == found.cost.before
         assert sum(group.after for group in groups) == found.cost.after
-        for kind in KINDS:
+        for kind in study.KINDS:
             assert sum(group.kinds[kind] for group in groups) == found.kinds[kind]
 
 

@@ -25,13 +25,8 @@ from topo_verify.programs.program import Program
 from topo_verify.robot.events import Augment, Confirm, Decision, Event, Evidence, Move, Pose, Reject
 from topo_verify.robot.limits import Limits
 from topo_verify.robot.percept import Door, Percept, Purpose
+from topo_verify.studies.baseline import record as study
 from topo_verify.studies.baseline.file import BaselineEntry
-from topo_verify.studies.baseline.record import (
-    MAX_TIMEOUTS,
-    baseline_runs,
-    entry_of,
-    replay_command,
-)
 from topo_verify.world.rooted_map import World
 
 WORLD = World.from_id("m9/67076232")
@@ -58,8 +53,8 @@ class Vague(ForwardingRobot):
 
 
 def seen(mapper: Mapper | str, world: World = WORLD) -> BaselineEntry:
-    (row,) = baseline_runs(one_target(mapper), [("here", world)], 1).rows(0)
-    return entry_of(row, world)
+    (row,) = study.baseline_runs(one_target(mapper), [("here", world)], 1).rows(0)
+    return study.entry_of(row, world)
 
 
 def test_the_cost_and_the_map_are_those_of_the_run() -> None:
@@ -141,7 +136,7 @@ def test_a_mapper_that_hangs_is_given_up_after_a_few_time_outs() -> None:
 
     limits = Limits(move_timeout=0.06)
     made = recording(one_target(hang), "edges<=2", limits=limits)
-    assert len(made.entries) == MAX_TIMEOUTS < made.header.total == 12
+    assert len(made.entries) == study.MAX_TIMEOUTS < made.header.total == 12
     assert {entry.failed for entry in made.entries} == {("map-isomorphic",)}
 
 
@@ -204,12 +199,12 @@ def test_a_program_that_is_killed_is_tried_again(
 
 def test_a_finding_of_a_program_is_shown_again_by_conform() -> None:
     with Program("./mapper --fast") as program:
-        line = replay_command(program.target, "m3/13", Limits(budget=9))
+        line = study.replay_command(program.target, "m3/13", Limits(budget=9))
     assert line == "topo-verify conform --cmd './mapper --fast' --worlds m3/13 --budget 9"
 
 
 @pytest.mark.parametrize("policies", [{}, {"pick": "last"}])
 def test_a_finding_of_a_mapper_is_shown_again_by_replay(policies: dict[str, Any]) -> None:
-    line = replay_command(one_target("basic", **policies), "m3/13", Limits())
+    line = study.replay_command(one_target("basic", **policies), "m3/13", Limits())
     words = "".join(f" --{name} {value}" for name, value in policies.items())
     assert line == f"topo-verify replay m3/13 --target basic{words}"

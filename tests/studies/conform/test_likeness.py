@@ -9,29 +9,21 @@ import pytest
 
 from tests.helpers import edited, place, trace_of, worlds
 from topo_verify import CATALOGUE
+from topo_verify.robot import events as ev
 from topo_verify.robot.event_words import event_words
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Event,
-    Finish,
-    Move,
-    Pose,
-    Record,
-    Reject,
-    Trace,
-)
 from topo_verify.robot.percept import Percept
 from topo_verify.studies.conform.likeness import Difference, KnownState, declares, first_difference
 
 
-def by_folding(event: Event) -> bool:
-    return isinstance(event, Reject) and event.rule == "folding"
+def by_folding(event: ev.Event) -> bool:
+    return isinstance(event, ev.Reject) and event.rule == "folding"
 
 
-def moves_alone(trace: Trace) -> Trace:
+def moves_alone(trace: ev.Trace) -> ev.Trace:
     """The run of a mapper that declares nothing."""
-    return tuple(e for e in trace if not isinstance(e, Pose | Reject | Confirm | Augment))
+    return tuple(
+        e for e in trace if not isinstance(e, ev.Pose | ev.Reject | ev.Confirm | ev.Augment)
+    )
 
 
 def test_a_run_is_like_itself() -> None:
@@ -69,8 +61,8 @@ def test_the_smallest_world_in_which_two_algorithms_part() -> None:
     )
 
 
-@pytest.mark.parametrize("kind", [Move, Pose, Reject, Confirm, Augment])
-def test_every_event_that_is_left_out_is_seen(kind: type[Event]) -> None:
+@pytest.mark.parametrize("kind", [ev.Move, ev.Pose, ev.Reject, ev.Confirm, ev.Augment])
+def test_every_event_that_is_left_out_is_seen(kind: type[ev.Event]) -> None:
     trace = trace_of("m4/41", "enhancement-ii")
     at = place(trace, kind)
     parted = first_difference(trace, (*trace[:at], *trace[at + 1 :]))
@@ -80,9 +72,9 @@ def test_every_event_that_is_left_out_is_seen(kind: type[Event]) -> None:
 
 def test_other_evidence_is_another_event() -> None:
     trace = trace_of("m4/41")
-    at = place(trace, Reject)
+    at = place(trace, ev.Reject)
     rejection = trace[at]
-    assert isinstance(rejection, Reject)
+    assert isinstance(rejection, ev.Reject)
     evidence = msgspec.structs.replace(rejection.evidence, step=2)
     parted = first_difference(trace, edited(trace, at, evidence=evidence))
     assert parted is not None
@@ -94,18 +86,18 @@ def test_what_is_no_promise_is_not_compared() -> None:
     trace = next(run for run in runs if any(map(by_folding, run)))
     at = next(when for when, event in enumerate(trace) if by_folding(event))
     rejection = trace[at]
-    assert isinstance(rejection, Reject)
+    assert isinstance(rejection, ev.Reject)
     assert rejection.evidence.contradiction is not None
     evidence = msgspec.structs.replace(rejection.evidence, contradiction="in my words")
     assert first_difference(trace, edited(trace, at, evidence=evidence)) is None
-    aimless = tuple(Move(e.door, e.percept) if isinstance(e, Move) else e for e in trace)
+    aimless = tuple(ev.Move(e.door, e.percept) if isinstance(e, ev.Move) else e for e in trace)
     assert first_difference(trace, aimless) is None
     assert first_difference(trace, edited(trace, -1, cost=None)) is None
 
 
 def test_a_run_that_ends_too_early_or_goes_on_is_seen() -> None:
     trace = trace_of("m3/14")
-    assert isinstance(trace[-1], Finish)
+    assert isinstance(trace[-1], ev.Finish)
     shorter, longer = trace[:-2], (*trace[:-1], trace[1])
     early, late = first_difference(trace, shorter), first_difference(trace, longer)
     assert early is not None
@@ -127,12 +119,12 @@ def test_of_a_mapper_that_declares_nothing_the_moves_are_compared() -> None:
 def test_what_differs_can_be_read() -> None:
     """Two events that are compared and differ have different words, however little it is."""
     trace = trace_of("m4/41", "enhancement-ii")
-    pose, grown, reject = (trace[place(trace, kind)] for kind in (Pose, Augment, Reject))
-    assert isinstance(reject, Reject)
+    pose, grown, reject = (trace[place(trace, kind)] for kind in (ev.Pose, ev.Augment, ev.Reject))
+    assert isinstance(reject, ev.Reject)
     hypotheses = tuple(range(40))
-    record = Record(3, (1, 2))
+    record = ev.Record(3, (1, 2))
     evidence = {"step": 9, "sequence": 4, "at": 8, "record": record, "expected": Percept(9, None)}
-    changed: list[tuple[Event, dict[str, Any]]] = [
+    changed: list[tuple[ev.Event, dict[str, Any]]] = [
         (msgspec.structs.replace(pose, hypotheses=hypotheses), {"hypotheses": (*hypotheses, 40)}),
         (msgspec.structs.replace(grown, kind="loop"), {"degree": 40}),
         *(

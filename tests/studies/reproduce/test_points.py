@@ -11,14 +11,8 @@ from msgspec.structs import replace
 
 from tests.studies.reproduce.rows import made_up, measured, planned_runs, rows_of
 from topo_verify.campaign.row import Row
+from topo_verify.studies.reproduce import points as pts
 from topo_verify.studies.reproduce.figures import FIGURES, PAIRS, FigureExtent
-from topo_verify.studies.reproduce.points import (
-    PlannedRun,
-    figure_points,
-    growth,
-    growth_csv,
-    points_csv,
-)
 
 DOCS = Path(__file__).resolve().parents[3] / "docs" / "figures"
 
@@ -29,27 +23,27 @@ FIGURE = FIGURES["3"]
 EXTENT = FigureExtent(graphs=3, quick=True)
 
 
-def rows(extent: FigureExtent = EXTENT) -> dict[PlannedRun, Row]:
+def rows(extent: FigureExtent = EXTENT) -> dict[pts.PlannedRun, Row]:
     """Made-up runs: graph k of a point costs 100 + k times 10."""
     return rows_of(FIGURE, extent, lambda run, k: made_up(run, 100 + 10 * (k % extent.graphs)))
 
 
 def test_a_point_is_the_mean_and_its_standard_error() -> None:
-    first = figure_points(FIGURE, EXTENT, rows())[0]
+    first = pts.figure_points(FIGURE, EXTENT, rows())[0]
     assert (first.algorithm, first.size, first.graphs) == ("basic", 4, 3)
     assert (first.mean, first.stderr) == (110, round(10 / sqrt(3), 2))
     assert (first.edges, first.held, first.of) == (10, 10, 10)
 
 
 def test_yardsticks_come_last_and_are_of_the_same_graphs() -> None:
-    *_, edges, least = [p for p in figure_points(FIGURE, EXTENT, rows()) if p.size == 10]
+    *_, edges, least = [p for p in pts.figure_points(FIGURE, EXTENT, rows()) if p.size == 10]
     assert (edges.algorithm, edges.mean, edges.stderr, edges.pick) == ("edges", 10, 0, None)
     assert (least.algorithm, least.mean) == ("least-cost", 20)
 
 
 def test_what_the_paper_states_stands_at_its_point_alone() -> None:
     extent = FigureExtent(graphs=3, quick=True, policies=PAIRS)
-    stated = [p for p in figure_points(FIGURE, extent, rows(extent)) if p.paper is not None]
+    stated = [p for p in pts.figure_points(FIGURE, extent, rows(extent)) if p.paper is not None]
     assert [(p.algorithm, p.size, p.paper, p.stated, p.pick) for p in stated] == [
         ("basic", 10, 10000, "more than 10,000", "nearest")
     ]
@@ -58,7 +52,7 @@ def test_what_the_paper_states_stands_at_its_point_alone() -> None:
 def test_a_point_that_lacks_a_run_is_left_out() -> None:
     runs = rows()
     del runs[next(run for run in runs if run.algorithm == "folding")]
-    points = figure_points(FIGURE, EXTENT, runs)
+    points = pts.figure_points(FIGURE, EXTENT, runs)
     assert [p.size for p in points if p.algorithm == "folding"] == [6, 8, 10]
 
 
@@ -66,12 +60,12 @@ def test_an_undecided_run_counts_as_undecided_and_not_as_a_cost() -> None:
     runs = rows()
     run = next(iter(runs))
     runs[run] = replace(made_up(run, 0), undecided="out of time")
-    first = figure_points(FIGURE, EXTENT, runs)[0]
+    first = pts.figure_points(FIGURE, EXTENT, runs)[0]
     assert (first.graphs, first.undecided, first.mean) == (2, 1, 115)
 
 
 def test_the_exponent_of_a_power_is_found_exactly() -> None:
-    fit = growth([(m, 7 * m**1.5) for m in (10, 20, 40, 80)])
+    fit = pts.growth([(m, 7 * m**1.5) for m in (10, 20, 40, 80)])
     assert fit is not None
     assert (fit.exponent, fit.stderr, fit.points) == (1.5, 0, 4)
 
@@ -80,20 +74,20 @@ def test_the_standard_error_is_that_of_the_slope() -> None:
     # log cost = log m ± 0.1 at log m = 0, 1, 2, 3: residuals by hand, Σ(x - x̄)² = 5.
     from math import exp
 
-    fit = growth([(exp(x), exp(x + y)) for x, y in ((0, 0.1), (1, -0.1), (2, -0.1), (3, 0.1))])
+    fit = pts.growth([(exp(x), exp(x + y)) for x, y in ((0, 0.1), (1, -0.1), (2, -0.1), (3, 0.1))])
     assert fit is not None
     assert fit.exponent == 1
     assert fit.stderr == round(sqrt(0.04 / 2 / 5), 4)
 
 
 def test_two_sizes_have_no_standard_error_and_one_has_no_exponent() -> None:
-    assert str(growth([(10, 10), (20, 40)])) == "2.00"
-    assert growth([(10, 10), (10, 12)]) is None
+    assert str(pts.growth([(10, 10), (20, 40)])) == "2.00"
+    assert pts.growth([(10, 10), (10, 12)]) is None
 
 
 def test_csv_has_a_row_a_point() -> None:
-    points = figure_points(FIGURE, EXTENT, rows())
-    lines = points_csv(points).splitlines()
+    points = pts.figure_points(FIGURE, EXTENT, rows())
+    lines = pts.points_csv(points).splitlines()
     assert lines[0] == "figure,algorithm,pick,order,size,graphs,edges,mean,stderr,paper"
     assert lines[1] == "3,basic,nearest,shortest,4,3,10.00,110.00,5.77,"
     assert lines[4] == "3,basic,nearest,shortest,10,3,10.00,110.00,5.77,10000"
@@ -112,7 +106,9 @@ def test_the_points_in_docs_are_those_that_this_code_makes(name: str) -> None:
     extent = FigureExtent(graphs)
     worlds = {*extent.worlds(figure.setting, min(figure.setting.sizes))}
     planned = [run for run in planned_runs([figure], extent) if run.world in worlds]
-    made = points_csv(figure_points(figure, extent, {run: measured(run) for run in planned}))
+    made = pts.points_csv(
+        pts.figure_points(figure, extent, {run: measured(run) for run in planned})
+    )
     lines = made.splitlines()[1:]
     assert len(lines) == len(figure.lines) + 2
     assert {*lines} <= {*(folder / f"figure-{name}.csv").read_text().splitlines()}
@@ -130,14 +126,16 @@ def test_the_growth_in_docs_is_that_of_the_points_in_docs(setting: str) -> None:
     ]
     for fit in kept:
         line = {p["size"]: p for p in points if p["algorithm"] == fit["algorithm"]}.values()
-        found = growth([(float(p["edges"]), float(p["mean"])) for p in line])
+        found = pts.growth([(float(p["edges"]), float(p["mean"])) for p in line])
         assert found is not None
         assert (f"{found.exponent:.4f}", f"{found.stderr:.4f}") == (fit["exponent"], fit["stderr"])
 
 
 def test_growth_csv_has_each_line_once() -> None:
-    points = figure_points(FIGURE, EXTENT, {r: made_up(r, 100, 10 + len(r.world)) for r in rows()})
-    text = growth_csv([*points, *points], {"3": "lattice"})
+    points = pts.figure_points(
+        FIGURE, EXTENT, {r: made_up(r, 100, 10 + len(r.world)) for r in rows()}
+    )
+    text = pts.growth_csv([*points, *points], {"3": "lattice"})
     assert text.splitlines()[0] == "graphs_of,algorithm,pick,order,exponent,stderr,points"
     assert [line.split(",")[1] for line in text.splitlines()[1:]] == [
         "basic", "folding", "edges", "least-cost",

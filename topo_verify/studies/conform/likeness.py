@@ -12,18 +12,8 @@ from itertools import zip_longest
 
 import msgspec
 
+from topo_verify.robot import events as ev
 from topo_verify.robot.event_words import event_words
-from topo_verify.robot.events import (
-    Augment,
-    Confirm,
-    Event,
-    Evidence,
-    Move,
-    Pose,
-    Reject,
-    Start,
-    Trace,
-)
 
 SHOWN = 4
 """Events shown before the first difference."""
@@ -83,12 +73,12 @@ class Likeness(msgspec.Struct, frozen=True, omit_defaults=True):
     detail: str = ""
 
 
-def declares(trace: Iterable[Event]) -> bool:
+def declares(trace: Iterable[ev.Event]) -> bool:
     """Whether the trace holds a declared decision."""
-    return any(isinstance(event, Pose | Reject | Confirm | Augment) for event in trace)
+    return any(isinstance(event, ev.Pose | ev.Reject | ev.Confirm | ev.Augment) for event in trace)
 
 
-def first_difference(reference: Trace, mapper: Trace) -> Difference | None:
+def first_difference(reference: ev.Trace, mapper: ev.Trace) -> Difference | None:
     """The first difference between the two runs, or None."""
     silent = not declares(mapper)
     ours = _events(reference, silent=silent)
@@ -111,20 +101,20 @@ def first_difference(reference: Trace, mapper: Trace) -> Difference | None:
     return None
 
 
-def _events(trace: Trace, *, silent: bool) -> list[tuple[int, Event]]:
-    kinds = (Move,) if silent else (Move, Pose, Reject, Confirm, Augment)
+def _events(trace: ev.Trace, *, silent: bool) -> list[tuple[int, ev.Event]]:
+    kinds = (ev.Move,) if silent else (ev.Move, ev.Pose, ev.Reject, ev.Confirm, ev.Augment)
     return [(when, event) for when, event in enumerate(trace) if isinstance(event, kinds)]
 
 
-def _bare(event: Event) -> Event:
-    if isinstance(event, Move):
-        return Move(event.door, event.percept)
-    if isinstance(event, Reject) and event.rule in ("folding", "planar"):
-        return msgspec.structs.replace(event, evidence=Evidence(event.evidence.step))
+def _bare(event: ev.Event) -> ev.Event:
+    if isinstance(event, ev.Move):
+        return ev.Move(event.door, event.percept)
+    if isinstance(event, ev.Reject) and event.rule in ("folding", "planar"):
+        return msgspec.structs.replace(event, evidence=ev.Evidence(event.evidence.step))
     return event
 
 
-def _state(trace: Sequence[Event]) -> KnownState:
+def _state(trace: Sequence[ev.Event]) -> KnownState:
     """What the reference knows after these events."""
     vertices: list[int] = []
     explored: list[tuple[int, int]] = []
@@ -133,21 +123,21 @@ def _state(trace: Sequence[Event]) -> KnownState:
     doors: list[int] = []
     for event in trace:
         match event:
-            case Start(percept=percept):
+            case ev.Start(percept=percept):
                 vertices.append(percept.degree)
-            case Move(door):
+            case ev.Move(door):
                 doors.append(door)
-            case Pose():
+            case ev.Pose():
                 edge, hypotheses = event.edge, list(event.hypotheses)
-            case Reject(hypothesis=h) | Confirm(hypothesis=h) if h in hypotheses:
+            case ev.Reject(hypothesis=h) | ev.Confirm(hypothesis=h) if h in hypotheses:
                 hypotheses.remove(h)
-            case Augment(end, kind, dart, degree):
+            case ev.Augment(end, kind, dart, degree):
                 explored.append((min(end, dart), max(end, dart)))
                 vertices += [degree] if kind == "new" else []
                 edge, hypotheses, doors = None, [], []
             case _:
                 pass
-    moves = sum(isinstance(event, Move) for event in trace)
+    moves = sum(isinstance(event, ev.Move) for event in trace)
     return KnownState(
         moves, tuple(vertices), tuple(explored), edge, tuple(hypotheses), tuple(doors)
     )

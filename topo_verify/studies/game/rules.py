@@ -26,23 +26,15 @@ from itertools import accumulate, count
 from typing import NamedTuple
 
 from topo_verify.errors import InternalError
+from topo_verify.studies.game import folds as fd
 from topo_verify.studies.game.drawn import DrawnWorld
-from topo_verify.studies.game.folds import (
-    FoldCode,
-    Sight,
-    crossed,
-    distances,
-    first_fold,
-    open_darts,
-    vertices,
-)
 from topo_verify.studies.game.search import GameChoice
 
 
 class FoldState(NamedTuple):
     """A state of `ProofRules`: a fold, the robot's reference dart, the open worlds ascending."""
 
-    code: FoldCode
+    code: fd.FoldCode
     at: int
     open: tuple[int, ...]
 
@@ -55,8 +47,8 @@ class GameEnding(NamedTuple):
         bound: least moves to go, for a world, an unproved fold and a dart of it.
     """
 
-    is_proved: Callable[[FoldCode], bool]
-    bound: Callable[[DrawnWorld, FoldCode, int], int]
+    is_proved: Callable[[fd.FoldCode], bool]
+    bound: Callable[[DrawnWorld, fd.FoldCode, int], int]
 
 
 class ProofRules:
@@ -64,21 +56,23 @@ class ProofRules:
 
     def __init__(self, worlds: Sequence[DrawnWorld], ending: GameEnding) -> None:
         self._worlds, self._ending = worlds, ending
-        self._proved = dict[FoldCode, bool]()
-        self._crossed = dict[tuple[FoldCode, int, Sight], tuple[FoldCode, int]]()
+        self._proved = dict[fd.FoldCode, bool]()
+        self._crossed = dict[tuple[fd.FoldCode, int, fd.Sight], tuple[fd.FoldCode, int]]()
 
     def starts(self) -> list[FoldState]:
         """The states after the first percept."""
         by_degree = defaultdict[int, list[int]](list)
         for number, world in enumerate(self._worlds):
             by_degree[world.degrees[0]].append(number)
-        return list(self._open((first_fold(degree), 0, held) for degree, held in by_degree.items()))
+        return list(
+            self._open((fd.first_fold(degree), 0, held) for degree, held in by_degree.items())
+        )
 
     def choices(self, state: FoldState) -> Iterator[GameChoice[FoldState]]:
         """The open darts of the fold."""
-        _, vertex = vertices(state.code[0])
-        far = distances(state.code, vertex[state.at])
-        for dart in open_darts(state.code):
+        _, vertex = fd.vertices(state.code[0])
+        far = fd.distances(state.code, vertex[state.at])
+        for dart in fd.open_darts(state.code):
             yield GameChoice(far[vertex[dart]] + 1, tuple(self._open(self._answers(state, dart))))
 
     def worlds(self, state: FoldState) -> int:
@@ -99,19 +93,19 @@ class ProofRules:
         for number in state.open:
             yield self._ending.bound(self._worlds[number], state.code, state.at)
 
-    def _answers(self, state: FoldState, dart: int) -> Iterator[tuple[FoldCode, int, list[int]]]:
+    def _answers(self, state: FoldState, dart: int) -> Iterator[tuple[fd.FoldCode, int, list[int]]]:
         """By percept: the fold then, the robot's dart, the worlds."""
-        by_sight = defaultdict[Sight, list[int]](list)
+        by_sight = defaultdict[fd.Sight, list[int]](list)
         for number in state.open:
             world = self._worlds[number]
             by_sight[world.sight(world.alpha[world.placed(state.code)[dart]])].append(number)
         for sight, held in by_sight.items():
             key = state.code, dart, sight
             if key not in self._crossed:
-                self._crossed[key] = crossed(*key)
+                self._crossed[key] = fd.crossed(*key)
             yield *self._crossed[key], held
 
-    def _open(self, answers: Iterable[tuple[FoldCode, int, list[int]]]) -> Iterator[FoldState]:
+    def _open(self, answers: Iterable[tuple[fd.FoldCode, int, list[int]]]) -> Iterator[FoldState]:
         """The answers that do not end the game."""
         for code, at, held in answers:
             if code not in self._proved:
@@ -180,7 +174,7 @@ class ClassRules:
 
     def _open(self, places: Sequence[tuple[int, int]]) -> list[ClassState]:
         """The places by percept, without single ones and those that do not count."""
-        by_sight = defaultdict[Sight, list[tuple[int, int]]](list)
+        by_sight = defaultdict[fd.Sight, list[tuple[int, int]]](list)
         for number, dart in places:
             by_sight[self._worlds[number].sight(dart)].append((number, dart))
         states = map(tuple, by_sight.values())

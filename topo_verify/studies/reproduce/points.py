@@ -37,16 +37,7 @@ from topo_verify.checkers.claims import LARGE
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
-from topo_verify.studies.reproduce.figures import (
-    EDGES,
-    LEAST,
-    PAIRS,
-    REFERENCE,
-    YARDSTICKS,
-    Figure,
-    FigureExtent,
-    PolicyPair,
-)
+from topo_verify.studies.reproduce import figures as fig
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
@@ -106,20 +97,20 @@ class FigurePoint(msgspec.Struct, frozen=True):
     growth: GrowthFit | None = None
 
     @property
-    def pair(self) -> PolicyPair | None:
+    def pair(self) -> fig.PolicyPair | None:
         """The policies; None for a yardstick."""
         if self.pick is None or self.order is None:
             return None
-        return PolicyPair(self.pick, self.order)
+        return fig.PolicyPair(self.pick, self.order)
 
     @property
     def is_reference(self) -> bool:
         """Whether its policies are the reference, if any."""
-        return self.pair in (None, REFERENCE)
+        return self.pair in (None, fig.REFERENCE)
 
 
 def figure_points(
-    figure: Figure, extent: FigureExtent, runs: Mapping[PlannedRun, Row]
+    figure: fig.Figure, extent: fig.FigureExtent, runs: Mapping[PlannedRun, Row]
 ) -> list[FigurePoint]:
     """The points of a figure by lines, each in the order of sizes; yardsticks come last.
 
@@ -127,7 +118,7 @@ def figure_points(
     """
     points: list[FigurePoint] = []
 
-    def draw(name: str, pair: PolicyPair | None, runs_of: str, by: PolicyPair) -> None:
+    def draw(name: str, pair: fig.PolicyPair | None, runs_of: str, by: fig.PolicyPair) -> None:
         line = [
             _point(figure, name, size, pair, rows)
             for size in extent.sizes(figure.setting)
@@ -139,17 +130,17 @@ def figure_points(
     for pair in extent.policies:
         for algorithm in figure.lines:
             draw(algorithm, pair, algorithm, pair)
-    for name in YARDSTICKS:
+    for name in fig.YARDSTICKS:
         draw(name, None, figure.lines[0], extent.policies[0])
     return points
 
 
 def _rows(
-    figure: Figure,
-    extent: FigureExtent,
+    figure: fig.Figure,
+    extent: fig.FigureExtent,
     algorithm: str,
     size: int,
-    pair: PolicyPair,
+    pair: fig.PolicyPair,
     runs: Mapping[PlannedRun, Row],
 ) -> list[Row]:
     """The runs of one point; none if one is missing."""
@@ -161,11 +152,11 @@ def _rows(
 
 
 def _point(
-    figure: Figure, name: str, size: int, pair: PolicyPair | None, rows: Sequence[Row]
+    figure: fig.Figure, name: str, size: int, pair: fig.PolicyPair | None, rows: Sequence[Row]
 ) -> FigurePoint:
-    stated = figure.stated.get((name, size)) if pair == REFERENCE else None
+    stated = figure.stated.get((name, size)) if pair == fig.REFERENCE else None
     decided = [row for row in rows if row.undecided is None]
-    number = {EDGES: "edges", LEAST: "least"}.get(name, "cost")
+    number = {fig.EDGES: "edges", fig.LEAST: "least"}.get(name, "cost")
     average, error = _mean([getattr(row, number) for row in decided])
     asked = [] if pair is None else decided
     return FigurePoint(
@@ -283,7 +274,7 @@ class PlannedRun(NamedTuple):
 
 
 def line_campaigns(
-    figures: Sequence[Figure], extent: FigureExtent, engine: Engine, store: Store
+    figures: Sequence[fig.Figure], extent: fig.FigureExtent, engine: Engine, store: Store
 ) -> list[MapperCampaign]:
     """A campaign for each algorithm, in all the graphs that the figures need it in.
 
@@ -291,7 +282,7 @@ def line_campaigns(
         InputError: the store has runs of other sources, or of another engine.
     """
     name, ways = "{}", None
-    if extent.policies != (REFERENCE,):
+    if extent.policies != (fig.REFERENCE,):
         name, ways = "{}, every pair of policies", every_pair.__name__
     elif engine == "compiled":
         ways = without_large_traces.__name__
@@ -322,7 +313,7 @@ def every_pair(
 ) -> Iterator[Attempt]:
     """Runs of an algorithm with each of `PAIRS`."""
     assert isinstance(target.mapper, Algorithm)
-    for pair in PAIRS:
+    for pair in fig.PAIRS:
         mapper = target.mapper.with_policies(pick=pair.pick, order=pair.order)
         yield once(Target(target.text, mapper))
 
@@ -338,6 +329,6 @@ def without_large_traces(
 
 def runs_of(row: Row) -> Iterator[PlannedRun]:
     """The runs that a row is about: of a lost worker those of each pair."""
-    pairs = PAIRS if row.policies is None else (row.policies,)
+    pairs = fig.PAIRS if row.policies is None else (row.policies,)
     for pair in pairs:
         yield PlannedRun(row.world, row.mapper, pair.pick, pair.order)

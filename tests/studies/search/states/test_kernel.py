@@ -20,12 +20,6 @@ from topo_verify.errors import InputError, InternalError
 from topo_verify.programs.loader import Target
 from topo_verify.robot.simulator import percepts
 from topo_verify.studies.search.states import every, graph, kernel, table
-from topo_verify.studies.search.states.every import (
-    cost_range,
-    every_choice,
-    judged_by,
-    require_edges,
-)
 from topo_verify.studies.search.states.memory import state
 from topo_verify.studies.search.states.script import ChoicePoint, ScriptedPolicies, scripted
 
@@ -51,7 +45,7 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> Callable[[str, World], tuple[int
 
     def count(name: str, world: World) -> tuple[int, ...]:
         seen.clear()
-        costs = cost_range(searched(CATALOGUE[name], world))
+        costs = every.cost_range(searched(CATALOGUE[name], world))
         return len(seen), sum(seen.values()), costs.cheapest, costs.dearest
 
     monkeypatch.setattr(graph, "state", noted)
@@ -150,7 +144,7 @@ def runs_in(world: World, name: str = "basic") -> list[Attempt]:
         return Attempt(found, judge(found))
 
     target = Target(name, CATALOGUE[name])
-    return list(every_choice(target, world, run, (target,)))
+    return list(every.every_choice(target, world, run, (target,)))
 
 
 LARGE = World.from_id("m5/402")
@@ -186,19 +180,19 @@ def test_a_claim_that_only_the_kernel_finds_false_is_a_bug_of_ours(
 
 def test_larger_worlds_than_can_be_searched_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(InputError, match="for basic it goes to 6 edges"):
-        require_edges("basic", CATALOGUE["basic"], 7)
+        every.require_edges("basic", CATALOGUE["basic"], 7)
     with pytest.raises(InputError, match="for folding it goes to 4 edges"):
-        require_edges("folding", CATALOGUE["folding"], 5)
-    require_edges("basic", CATALOGUE["basic"], 6)
+        every.require_edges("folding", CATALOGUE["folding"], 5)
+    every.require_edges("basic", CATALOGUE["basic"], 6)
     monkeypatch.setattr(table, "find_spec", Mock(return_value=None))
-    require_edges("basic", CATALOGUE["basic"], 4)
+    every.require_edges("basic", CATALOGUE["basic"], 4)
     with pytest.raises(InputError, match="the extra `fast`"):
-        require_edges("basic", CATALOGUE["basic"], 5)
+        every.require_edges("basic", CATALOGUE["basic"], 5)
 
 
 def test_it_is_said_what_judged_the_choices() -> None:
-    assert judged_by(4) == "every claim, on a run for each choice"
-    assert "a model: claims 3 and 4 in each state" in judged_by(5)
+    assert every.judged_by(4) == "every claim, on a run for each choice"
+    assert "a model: claims 3 and 4 in each state" in every.judged_by(5)
 
 
 # ---------------------------------------------------------------- mistakes in the kernel

@@ -30,16 +30,9 @@ from topo_verify.campaign.run import Exploration
 from topo_verify.errors import InputError, InternalError
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
+from topo_verify.studies.search.states import script as sc
 from topo_verify.studies.search.states import table
 from topo_verify.studies.search.states.graph import StateGraph
-from topo_verify.studies.search.states.script import (
-    ChoicePoint,
-    Chooser,
-    Listed,
-    choices_of,
-    choices_text,
-    scripted,
-)
 from topo_verify.world.rooted_map import World
 
 Decider = Literal["mapper", "model"]
@@ -147,13 +140,13 @@ def _by_kernel(
     runs: list[Attempt] = []
     for order, cost in ((model.cheap, model.cheapest), (model.dear, model.dearest)):
         chooser = RecordedChoices(table.Ordered(world, order))
-        tried = run(Target(text, scripted(algorithm, chooser)))
+        tried = run(Target(text, sc.scripted(algorithm, chooser)))
         if not tried.report.ok:  # here, by other choices than the model judged
             return _by_running(text, algorithm, world, run)
         if tried.run.cost != cost:
             raise InternalError(
                 f"{text} in {world_argument(world)} costs {tried.run.cost} where the model says"
-                f" {cost}: --choices {choices_text(chooser.choices)}"
+                f" {cost}: --choices {sc.choices_text(chooser.choices)}"
             )
         runs.append(tried)
     return CostRange(*model[1:5]), runs
@@ -176,12 +169,12 @@ def _require_failing(
 class RecordedChoices:
     """Makes the choices of another chooser and keeps their numbers and words."""
 
-    def __init__(self, chooser: Chooser) -> None:
+    def __init__(self, chooser: sc.Chooser) -> None:
         self._chooser = chooser
         self.choices: list[int] = []
         self.words: list[str] = []
 
-    def __call__(self, moment: ChoicePoint) -> int:
+    def __call__(self, moment: sc.ChoicePoint) -> int:
         """What the other chooser takes."""
         number = self._chooser(moment)
         self.choices.append(number)
@@ -199,7 +192,7 @@ def replayable(tried: Attempt, text: str, choices: tuple[int, ...]) -> Attempt:
 
 def with_choices(report: Report, text: str, choices: tuple[int, ...], limits: Limits) -> Report:
     """The report, whose findings name the command that makes the same choices."""
-    chosen = choices_text(choices)
+    chosen = sc.choices_text(choices)
     words = ["topo-verify", "explore", report.world, "--target", text, "--choices", chosen]
     replay = shlex.join([*words, *limits.options])
     changed = [
@@ -226,9 +219,9 @@ class ListedChoices:
                 f"--choices {text}: {target.text} leaves no choices open; it is for algorithms of"
                 " the catalogue"
             )
-        self._choices = choices_of(text)
-        self._listed = Listed(self._choices)
-        self.target = Target(target.text, scripted(target.mapper, self._listed))
+        self._choices = sc.choices_of(text)
+        self._listed = sc.Listed(self._choices)
+        self.target = Target(target.text, sc.scripted(target.mapper, self._listed))
 
     def made(self, run: Exploration) -> Exploration:
         """The run, if it made each of the choices; it cannot be repeated in a witness world.
