@@ -62,11 +62,8 @@ def test_without_colours_a_verdict_that_is_no_pass_has_a_mark(
     assert not re.search(r"\x1b\[[0-9;]*3[0-9]m", text)  # bold may be, no colour
     plain = re.sub(r"\x1b\[[0-9;]*m", "", text).split("\n")[:-1]
     assert [line.rstrip() for line in plain] == [
-        "PROVED",
-        "EXHAUSTED",
-        "SAMPLED",
-        "? UNKNOWN",
-        "! REFUTED",
+        *("PROVED", "EXHAUSTED", "SAMPLED"),
+        *("? UNKNOWN", "! REFUTED"),
     ]
 
 

@@ -13,16 +13,8 @@ from topo_verify.report.junit import junit
 ATTRIBUTES = {
     "testsuites": set[str](),
     "testsuite": {
-        "id",
-        "package",
-        "name",
-        "tests",
-        "failures",
-        "errors",
-        "skipped",
-        "hostname",
-        "timestamp",
-        "time",
+        *("id", "package", "name", "tests", "failures", "errors"),
+        *("skipped", "hostname", "timestamp", "time"),
     },
     "properties": set[str](),
     "property": {"name", "value"},

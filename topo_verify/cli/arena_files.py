@@ -35,11 +35,11 @@ from topo_verify.report.blocks import Block, Bullets, Cell, Command, Text, TextT
 from topo_verify.report.league import ratio_plot
 from topo_verify.report.markdown import markdown
 from topo_verify.studies.arena.league import (
-    DearestWorld,
     League,
     LeagueBehind,
     LeagueEntry,
     MeanInterval,
+    MostExpensiveWorld,
 )
 from topo_verify.studies.arena.suites import Suite
 from topo_verify.studies.conform.conform import file_name
@@ -205,7 +205,7 @@ def broken_blocks(entries: Sequence[LeagueEntry]) -> Iterator[Block]:
 
 def dearest_exhibits(league: League) -> Iterator[Exhibit]:
     """Each ranked mapper in its most expensive world of all suites, run once more."""
-    dearest: dict[str, DearestWorld] = {}
+    dearest: dict[str, MostExpensiveWorld] = {}
     for entry in league.entries():
         one, other = entry.dearest, dearest.get(entry.mapper)
         if entry.place is not None and one is not None:

@@ -86,7 +86,7 @@ class FamilyCosts(msgspec.Struct, frozen=True):
     ratio: MeanInterval
 
 
-class DearestWorld(msgspec.Struct, frozen=True):
+class MostExpensiveWorld(msgspec.Struct, frozen=True):
     """The world in which a mapper's cost is the highest multiple of the least one."""
 
     world: str
@@ -136,7 +136,7 @@ class LeagueEntry(msgspec.Struct, frozen=True, kw_only=True):
     ms_per_move: float | None
     claims: dict[str, Status]
     judgements: tuple[Judgement, ...]
-    dearest: DearestWorld | None
+    dearest: MostExpensiveWorld | None
     counterexample: LeagueCounterexample | None
 
 
@@ -249,7 +249,7 @@ class League:
             ms_per_move=round(1000 * seconds / moves, 4) if moves else None,
             claims={judgement.claim: judgement.status for judgement in judgements},
             judgements=judgements,
-            dearest=_dearest(decided) if whole else None,
+            dearest=_most_expensive(decided) if whole else None,
             counterexample=None if failure is None else self._counterexample(failure),
         )
 
@@ -313,9 +313,9 @@ def _costs(family: SuiteFamily, runs: Sequence[Row]) -> FamilyCosts:
     return FamilyCosts(family.name, len(runs), edges, least, cost, mean_interval([sample]))
 
 
-def _dearest(runs: Sequence[Row]) -> DearestWorld:
+def _most_expensive(runs: Sequence[Row]) -> MostExpensiveWorld:
     run = max(runs, key=lambda one: one.ratio)  # the first of equals
-    return DearestWorld(run.world, run.edges, run.least, run.cost, round(run.ratio, 6))
+    return MostExpensiveWorld(run.world, run.edges, run.least, run.cost, round(run.ratio, 6))
 
 
 # ---------------------------------------------------------------- intervals
