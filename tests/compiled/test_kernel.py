@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from types import SimpleNamespace
@@ -38,6 +39,17 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     forget()
     yield tmp_path / "compiled"
     forget()
+
+
+def plant_another_version(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let `digest` return 1 more."""
+    changed = module_source(ws.SMALL).replace("return h", "return h + 1")
+
+    def source(_layout: ws.WordLayout, *, checked: bool) -> str:
+        assert not checked
+        return changed
+
+    monkeypatch.setattr(kernel, "module_source", source)
 
 
 def test_every_index_is_unsigned() -> None:
@@ -113,13 +125,7 @@ def test_a_change_in_any_kernel_is_a_change_of_all_machine_code(
 ) -> None:
     compiled(digest, ws.SMALL)
     forget()
-    changed = module_source(ws.SMALL).replace("return h", "return h + 1")
-
-    def source(_layout: ws.WordLayout, *, checked: bool) -> str:
-        assert not checked
-        return changed
-
-    monkeypatch.setattr(kernel, "module_source", source)
+    plant_another_version(monkeypatch)
     compiled(digest, ws.SMALL)
     assert len(list(cache.iterdir())) == 2
 
@@ -148,13 +154,7 @@ def filled(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("TOPO_VERIFY_CACHE", str(folder))
         true = digest_of_trace()
-        changed = module_source(ws.SMALL).replace("return h", "return h + 1")
-
-        def source(_layout: ws.WordLayout, *, checked: bool) -> str:
-            assert not checked
-            return changed
-
-        patch.setattr(kernel, "module_source", source)
+        plant_another_version(patch)
         assert digest_of_trace() == true + 1
     forget()
     return folder / "compiled"
@@ -179,18 +179,6 @@ def flipped(kept: Path, suffix: str) -> None:
     file.write_bytes(data)
 
 
-def flip_code(kept: Path) -> None:
-    flipped(kept, "nbc")
-
-
-def flip_index(kept: Path) -> None:
-    flipped(kept, "nbi")
-
-
-def flip_sums(kept: Path) -> None:
-    flipped(kept, "sums")
-
-
 def copy_code(kept: Path) -> None:
     (file,) = (another_version(kept) / "__pycache__").glob("*.nbc")
     shutil.copy(file, kept / "__pycache__")
@@ -205,9 +193,10 @@ def remove_sums(kept: Path) -> None:
     file.unlink()
 
 
-@pytest.mark.parametrize(
-    "damage", [flip_code, flip_index, flip_sums, copy_code, copy_all, remove_sums]
-)
+FLIPS = [partial(flipped, suffix=suffix) for suffix in ("nbc", "nbi", "sums")]
+
+
+@pytest.mark.parametrize("damage", [*FLIPS, copy_code, copy_all, remove_sums])
 def test_damaged_machine_code_is_compiled_again_with_a_warning(
     damage: Callable[[Path], None], kept: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
