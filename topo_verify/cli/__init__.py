@@ -1,9 +1,8 @@
 """The command line: one file a command; arguments, progress, printing and exit codes.
 
 runs.py       worlds as the user names them; judged runs, findings and walks as shown
-options.py    options that commands share
+options.py    options that commands share, and the stores that they name
 output.py     results on stdout and in files
-kept_runs.py  the store of runs of some commands
 failures.py   exit codes, and the sentences that go with them
 """
 

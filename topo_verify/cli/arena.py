@@ -14,20 +14,9 @@ from topo_verify.campaign.campaign import close
 from topo_verify.campaign.targets import targets as targets_of
 from topo_verify.campaign.work import processors
 from topo_verify.checkers.findings import Verdict
+from topo_verify.cli import arena_files as files
 from topo_verify.cli import options
-from topo_verify.cli.arena_files import (
-    REPORT,
-    VARYING,
-    Memory,
-    broken_blocks,
-    dearest_exhibits,
-    plot_of,
-    standings,
-    suite_blocks,
-    write_folder,
-)
 from topo_verify.cli.arena_game import game_of_catalogue
-from topo_verify.cli.kept_runs import open_store, stored_rows
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import unjudged
 from topo_verify.errors import InputError, plural
@@ -120,7 +109,7 @@ def arena(
     folder = None if out is None else options.make_folder(out, "--out")
     if folder is not None:
         watch()  # before a mapper is loaded
-        output.ask(report=str(folder / REPORT))
+        output.ask(report=str(folder / files.REPORT))
     mappers = _loaded(asked, in_process=in_process)
     league = League(mappers, suites, seed, limits)
     _require_players(league)
@@ -135,9 +124,9 @@ def arena(
         table = league.entries()
         _run_again(output, league, table)
         if output.exhibits:
-            dearest.extend(dearest_exhibits(league))
+            dearest.extend(files.dearest_exhibits(league))
         if folder is not None:
-            write_folder(folder, league, table, dearest, output.found.exhibits)
+            files.write_folder(folder, league, table, dearest, output.found.exhibits)
         _add_timing(output, league, table)
         yield from map(_result, table)
         close(mappers)
@@ -205,9 +194,9 @@ def _play(output: Output, league: League, folder: Path | None, workers: int) -> 
         for suite in league.suites:
             if not league.plays(mapper, suite):
                 output.note(f"{mapper.text} assumes planar worlds: left out of {suite.name}")
-    with open_store(output, folder) as store:
+    with options.open_store(output, folder) as store:
         campaigns = matches(league, store)
-        for row in stored_rows(output, campaigns, workers, store):
+        for row in options.stored_rows(output, campaigns, workers, store):
             league.made[row.mapper, row.world] = row
         measure(league, store, output.progress)
 
@@ -232,18 +221,22 @@ def _add_timing(output: Output, league: League, table: Sequence[LeagueEntry]) ->
 
 
 def _show(
-    league: League, table: Sequence[LeagueEntry], *, memory: Memory | None, pictures: bool = False
+    league: League,
+    table: Sequence[LeagueEntry],
+    *,
+    memory: files.Memory | None,
+    pictures: bool = False,
 ) -> Iterator[Block]:
     for number, suite in enumerate(league.suites):
         if number:
             yield Text("")
-        yield standings(suite, table, league.seed, memory)
+        yield files.standings(suite, table, league.seed, memory)
     if memory is not None and any(entry.place is not None for entry in table):
         yield Text("")
-        yield Text(VARYING)
+        yield Text(files.VARYING)
     for suite in league.suites:
-        yield from suite_blocks(suite, table)
-        if pictures and (plot := plot_of(league, suite, table)):
+        yield from files.suite_blocks(suite, table)
+        if pictures and (plot := files.plot_of(league, suite, table)):
             alt = f"cost / LB against the number of edges in suite {suite.name}"
             yield PictureBlock(plot, alt)
     ranked = {entry.mapper: entry for entry in table if entry.place is not None}
@@ -251,7 +244,7 @@ def _show(
         for sentence in unjudged(mapper, "these worlds", entry.judgements):
             yield Text("")
             yield sentence
-    yield from broken_blocks(table)
+    yield from files.broken_blocks(table)
 
 
 # ---------------------------------------------------------------- the account

@@ -34,13 +34,7 @@ from topo_verify.report.account import Exhibit
 from topo_verify.report.blocks import Block, Bullets, Cell, Command, Text, TextTable
 from topo_verify.report.league import ratio_plot
 from topo_verify.report.markdown import markdown
-from topo_verify.studies.arena.league import (
-    League,
-    LeagueBehind,
-    LeagueEntry,
-    MeanInterval,
-    MostExpensiveWorld,
-)
+from topo_verify.studies.arena import league as lg
 from topo_verify.studies.arena.suites import Suite
 from topo_verify.studies.conform.conform import file_name
 from topo_verify.world.formats import files
@@ -53,7 +47,7 @@ VARIES = ("ms_per_move",)
 
 # ---------------------------------------------------------------- for people
 
-Memory = Callable[[LeagueEntry], float | None]
+Memory = Callable[[lg.LeagueEntry], float | None]
 """The mebibytes of a mapper in its most expensive world of a suite, if known."""
 
 
@@ -64,7 +58,7 @@ VARYING = (
 
 
 def standings(
-    suite: Suite, table: Sequence[LeagueEntry], seed: int, memory: Memory | None
+    suite: Suite, table: Sequence[lg.LeagueEntry], seed: int, memory: Memory | None
 ) -> Block:
     """The ranked mappers of a suite; a shared place is followed by `=`.
 
@@ -94,7 +88,7 @@ def standings(
     return TextTable(columns, rows, title)
 
 
-def suite_blocks(suite: Suite, table: Sequence[LeagueEntry]) -> Iterator[Block]:
+def suite_blocks(suite: Suite, table: Sequence[lg.LeagueEntry]) -> Iterator[Block]:
     """Why mappers lost in a suite, its families, and why others have no place."""
     ranked = ranked_in(suite, table)
     yield from _loss_blocks(suite, ranked)
@@ -113,7 +107,7 @@ def suite_blocks(suite: Suite, table: Sequence[LeagueEntry]) -> Iterator[Block]:
                 yield Bullets(entry.why)
 
 
-def _loss_blocks(suite: Suite, ranked: Sequence[LeagueEntry]) -> Iterator[Block]:
+def _loss_blocks(suite: Suite, ranked: Sequence[lg.LeagueEntry]) -> Iterator[Block]:
     rows = [
         (entry.mapper, lost.world, str(lost.edges), str(lost.cost), str(lost.other))
         for entry in ranked
@@ -130,7 +124,7 @@ def _loss_blocks(suite: Suite, ranked: Sequence[LeagueEntry]) -> Iterator[Block]
                 yield Command(entry.losses[0].show, "side by side: ")
 
 
-def _families(suite: Suite, ranked: Sequence[LeagueEntry]) -> TextTable:
+def _families(suite: Suite, ranked: Sequence[lg.LeagueEntry]) -> TextTable:
     rows = [
         (of_family[0].family, f"{of_family[0].edges:.0f}", *(_figure(f.ratio) for f in of_family))
         for of_family in zip(*(entry.families for entry in ranked), strict=True)
@@ -139,14 +133,14 @@ def _families(suite: Suite, ranked: Sequence[LeagueEntry]) -> TextTable:
     return TextTable(columns, rows, f"{suite.name}: cost/LB by family")
 
 
-def claims_in_words(entry: LeagueEntry) -> str:
+def claims_in_words(entry: lg.LeagueEntry) -> str:
     """How many claims hold, and how many were judged in part or not at all."""
     if {*entry.claims.values()} == {"ok"}:
         return f"{len(entry.claims)} hold"
     return in_words(entry.claims, "hold")
 
 
-def _figure(figure: MeanInterval | LeagueBehind | None, sign: str = "") -> str:
+def _figure(figure: lg.MeanInterval | lg.LeagueBehind | None, sign: str = "") -> str:
     if figure is None:
         return "-"
     mean = f"{figure.mean:{sign}.2f}"
@@ -156,22 +150,22 @@ def _figure(figure: MeanInterval | LeagueBehind | None, sign: str = "") -> str:
     return f"{mean} ± {reach:.2f}" if reach else f"{mean} exact"
 
 
-def _free(entry: LeagueEntry) -> str:
+def _free(entry: lg.LeagueEntry) -> str:
     rejected = entry.rejected_free + entry.rejected_moving
     return f"{entry.rejected_free / rejected:.0%}" if rejected else "-"
 
 
-def _varying(entry: LeagueEntry, memory: float | None) -> tuple[str, str]:
+def _varying(entry: lg.LeagueEntry, memory: float | None) -> tuple[str, str]:
     time = "-" if entry.ms_per_move is None else f"{entry.ms_per_move:.3f}"
     return time, "-" if memory is None else f"{memory:.0f}"
 
 
-def ranked_in(suite: Suite, table: Sequence[LeagueEntry]) -> list[LeagueEntry]:
+def ranked_in(suite: Suite, table: Sequence[lg.LeagueEntry]) -> list[lg.LeagueEntry]:
     """The entries of the mappers that have a place in a suite."""
     return [entry for entry in table if entry.suite == suite.name and entry.place is not None]
 
 
-def plot_of(league: League, suite: Suite, table: Sequence[LeagueEntry]) -> str:
+def plot_of(league: lg.League, suite: Suite, table: Sequence[lg.LeagueEntry]) -> str:
     """The plot of a suite; "" if no mapper has a place in it."""
     ranked = ranked_in(suite, table)
     points = {
@@ -181,7 +175,7 @@ def plot_of(league: League, suite: Suite, table: Sequence[LeagueEntry]) -> str:
     return ratio_plot(suite, ranked, points) if ranked else ""
 
 
-def broken_blocks(entries: Sequence[LeagueEntry]) -> Iterator[Block]:
+def broken_blocks(entries: Sequence[lg.LeagueEntry]) -> Iterator[Block]:
     """The mappers that broke a claim, each with its counterexample."""
     broken = {e.mapper: e.counterexample for e in entries if e.counterexample is not None}
     if broken:
@@ -203,9 +197,9 @@ def broken_blocks(entries: Sequence[LeagueEntry]) -> Iterator[Block]:
 # ---------------------------------------------------------------- the files
 
 
-def dearest_exhibits(league: League) -> Iterator[Exhibit]:
+def dearest_exhibits(league: lg.League) -> Iterator[Exhibit]:
     """Each ranked mapper in its most expensive world of all suites, run once more."""
-    dearest: dict[str, MostExpensiveWorld] = {}
+    dearest: dict[str, lg.MostExpensiveWorld] = {}
     for entry in league.entries():
         one, other = entry.dearest, dearest.get(entry.mapper)
         if entry.place is not None and one is not None:
@@ -230,8 +224,8 @@ def dearest_exhibits(league: League) -> Iterator[Exhibit]:
 
 def write_folder(
     folder: Path,
-    league: League,
-    table: Sequence[LeagueEntry],
+    league: lg.League,
+    table: Sequence[lg.LeagueEntry],
     dearest: Sequence[Exhibit],
     counterexamples: Sequence[Exhibit],
 ) -> None:
@@ -268,7 +262,7 @@ def _stem(exhibit: Exhibit) -> str:
     return file_name(exhibit.runs[0].name if exhibit.runs else exhibit.title).lstrip("-")
 
 
-def _results(league: League, table: Sequence[LeagueEntry]) -> str:
+def _results(league: lg.League, table: Sequence[lg.LeagueEntry]) -> str:
     entries = [
         {name: value for name, value in entry.items() if name not in VARIES}
         for entry in msgspec.to_builtins(table)
@@ -279,7 +273,7 @@ def _results(league: League, table: Sequence[LeagueEntry]) -> str:
     return json.dumps(whole, indent=1) + "\n"
 
 
-def _timing(league: League, table: Sequence[LeagueEntry]) -> str:
+def _timing(league: lg.League, table: Sequence[lg.LeagueEntry]) -> str:
     rows = [
         {
             "mapper": entry.mapper,
@@ -293,8 +287,8 @@ def _timing(league: League, table: Sequence[LeagueEntry]) -> str:
 
 
 def _table(
-    league: League,
-    table: Sequence[LeagueEntry],
+    league: lg.League,
+    table: Sequence[lg.LeagueEntry],
     dearest: Sequence[Exhibit],
     counterexamples: Sequence[Exhibit],
 ) -> str:
@@ -329,12 +323,12 @@ TABLE = (
 )
 
 
-def table_csv(entries: Sequence[LeagueEntry]) -> str:
+def table_csv(entries: Sequence[lg.LeagueEntry]) -> str:
     """A row for each mapper and suite, then a row for each of several families."""
     return _csv(TABLE, [row for entry in entries for row in _rows(entry)])
 
 
-def _rows(entry: LeagueEntry) -> Iterator[Sequence[object]]:
+def _rows(entry: lg.LeagueEntry) -> Iterator[Sequence[object]]:
     ratio, behind = entry.ratio, entry.behind
     broken = entry.counterexample
     one = entry.families[0] if len(entry.families) == 1 else None
@@ -361,7 +355,7 @@ RUNS = (
 )
 
 
-def runs_csv(league: League, table: Sequence[LeagueEntry]) -> str:
+def runs_csv(league: lg.League, table: Sequence[lg.LeagueEntry]) -> str:
     """A row for each run of a ranked mapper, by suite and mapper."""
     return _csv(
         RUNS,

@@ -8,17 +8,9 @@ from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result, Rows
 from topo_verify.errors import InputError
 from topo_verify.report.blocks import Block, Text, TextTable
-from topo_verify.studies.game.values import (
-    MOST_EDGES,
-    PLAYERS,
-    CostsOfRobot,
-    GameValue,
-    MapperCosts,
-    game_values,
-    mapper_costs,
-)
+from topo_verify.studies.game import values as game
 
-GameEntry = GameValue | MapperCosts
+GameEntry = game.GameValue | game.MapperCosts
 
 
 ALLOWED = {"--game", "texts", "--target", "--format", "--quiet"}
@@ -35,27 +27,27 @@ def game_of_catalogue(output: Output, edges: int, names: Sequence[str]) -> int:
         raise InputError(f"{others[0]} means nothing to --game: leave out one of them")
     asked = [name for text in names for name in text.split(",") if name != "all"]
     for name in asked:
-        if name not in PLAYERS:
-            known = ", ".join(PLAYERS)
+        if name not in game.PLAYERS:
+            known = ", ".join(game.PLAYERS)
             raise InputError(f"target {name!r}: --game plays mappers of the catalogue: {known}")
-    if not 1 <= edges <= MOST_EDGES:
+    if not 1 <= edges <= game.MOST_EDGES:
         raise InputError(
-            f"--game {edges}: expected 1 to {MOST_EDGES} edges; with more, the search has no end"
+            f"--game {edges}: expected 1 to {game.MOST_EDGES} edges; larger searches have no end"
         )
-    mappers = asked or PLAYERS
+    mappers = asked or game.PLAYERS
     return output.run("arena", lambda: _results(output, edges, mappers), _show, game=edges)
 
 
 def _results(output: Output, edges: int, mappers: Sequence[str]) -> Iterator[Result[GameEntry]]:
     for m in range(1, edges + 1):
-        values: list[GameValue] = []
-        for value in game_values(m):
+        values: list[game.GameValue] = []
+        for value in game.game_values(m):
             output.progress(f"{m} edges, knowing {value.knows}", m - 1, edges)
             values.append(value)
             exact = value.value.worst_is_value and value.value.mean_is_value
             yield Result(value, incomplete=not exact)
         for name in mappers:
-            costs = mapper_costs(name, m, values)
+            costs = game.mapper_costs(name, m, values)
             yield Result(costs, failed=costs.failing is not None)
 
 
@@ -63,8 +55,8 @@ def _results(output: Output, edges: int, mappers: Sequence[str]) -> Iterator[Res
 
 
 def _show(entries: Sequence[GameEntry]) -> Iterator[Block]:
-    values = [entry for entry in entries if isinstance(entry, GameValue)]
-    yield _mapper_table([entry for entry in entries if isinstance(entry, MapperCosts)])
+    values = [entry for entry in entries if isinstance(entry, game.GameValue)]
+    yield _mapper_table([entry for entry in entries if isinstance(entry, game.MapperCosts)])
     yield Text("")
     yield _map_table([entry for entry in values if entry.knows == "nothing"])
     yield Text("")
@@ -74,7 +66,7 @@ def _show(entries: Sequence[GameEntry]) -> Iterator[Block]:
         yield Text("≥: the search was cut short; no robot pays less, perhaps none so little.")
 
 
-def _mapper_table(entries: Sequence[MapperCosts]) -> TextTable:
+def _mapper_table(entries: Sequence[game.MapperCosts]) -> TextTable:
     return Rows(entries).table(
         (">m", lambda e: e.game),
         ("mapper", lambda e: e.mapper),
@@ -88,7 +80,7 @@ def _mapper_table(entries: Sequence[MapperCosts]) -> TextTable:
     )
 
 
-def _map_table(entries: Sequence[GameValue]) -> TextTable:
+def _map_table(entries: Sequence[game.GameValue]) -> TextTable:
     return Rows(entries).table(
         (">m", lambda e: e.game),
         ("worlds", lambda e: f"{e.worlds} {e.drawn}"),
@@ -104,7 +96,7 @@ def _map_table(entries: Sequence[GameValue]) -> TextTable:
     )
 
 
-def _knowledge_table(entries: Sequence[GameValue]) -> TextTable:
+def _knowledge_table(entries: Sequence[game.GameValue]) -> TextTable:
     base = {(entry.game, entry.drawn): entry for entry in entries if entry.knows == "nothing"}
     return Rows(entries).table(
         (">m", lambda e: e.game),
@@ -117,15 +109,15 @@ def _knowledge_table(entries: Sequence[GameValue]) -> TextTable:
     )
 
 
-def _worst(costs: CostsOfRobot) -> str:
+def _worst(costs: game.CostsOfRobot) -> str:
     return f"{'' if costs.worst_is_value else '≥ '}{costs.worst}"
 
 
-def _mean(costs: CostsOfRobot) -> str:
+def _mean(costs: game.CostsOfRobot) -> str:
     return f"{'' if costs.mean_is_value else '≥ '}{costs.mean:.2f}"
 
 
-def _more(mean: float | None, than: CostsOfRobot | None, *, least: bool = False) -> str:
+def _more(mean: float | None, than: game.CostsOfRobot | None, *, least: bool = False) -> str:
     """Excess of one mean over another in percent, with ≥ or ≤ if either is only a bound."""
     if mean is None or than is None:
         return "-"
@@ -133,7 +125,7 @@ def _more(mean: float | None, than: CostsOfRobot | None, *, least: bool = False)
     return f"{sign}{100 * (mean / than.mean - 1):.1f} %"
 
 
-def _saved(costs: CostsOfRobot, nothing: CostsOfRobot) -> str:
+def _saved(costs: game.CostsOfRobot, nothing: game.CostsOfRobot) -> str:
     """How far a mean is below that of the robot that knows nothing, in percent; `-` if unknown."""
     if costs is nothing or not costs.mean_is_value:
         return "-"

@@ -13,8 +13,6 @@ from topo_verify.campaign.judge import judge
 from topo_verify.campaign.run import explore
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli import options
-from topo_verify.cli.kept_runs import opened, stored_rows
-from topo_verify.cli.options import Mappers
 from topo_verify.cli.output import Output, Result, Rows
 from topo_verify.cli.runs import exhibit_of
 from topo_verify.errors import plural
@@ -84,7 +82,7 @@ def compare(
     output: Output,
     *,
     baseline: str,
-    mappers: Mappers,
+    mappers: options.Mappers,
     workers: int,
     store: str | None,
     tolerance: str,
@@ -98,9 +96,9 @@ def compare(
     def compared() -> Iterator[Result[Comparison]]:
         then = file.load(baseline)
         named, limits = BaselineWorlds(then, baseline), then.header.limits
-        with opened(store) as kept, mappers.opened(then.header.policies) as target:
+        with options.opened(store) as kept, mappers.opened(then.header.policies) as target:
             runs = baseline_runs(target, named, len(then.entries), limits=limits, store=kept)
-            rows = stored_rows(output, [runs], workers, kept)
+            rows = options.stored_rows(output, [runs], workers, kept)
             entry = join(then, target, rows, tolerance=tolerance, name=baseline)
             if output.exhibits:
                 _run_again(output, then, target, entry)

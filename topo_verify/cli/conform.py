@@ -16,17 +16,8 @@ from topo_verify.campaign.judge import Report, judge
 from topo_verify.campaign.run import explore
 from topo_verify.campaign.targets import each_text, one_target, target_arguments
 from topo_verify.campaign.work import processors
-from topo_verify.cli import options
-from topo_verify.cli.options import Mappers
+from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result
-from topo_verify.cli.runs import (
-    MOST_EXHIBITS,
-    NamedWorld,
-    exhibit_of,
-    judged,
-    target_title,
-    unjudged,
-)
 from topo_verify.errors import plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.player.scenes import Playback
@@ -89,7 +80,7 @@ def _seeds(_context: click.Context, _option: click.Parameter, value: str | None)
 def conform(
     output: Output,
     *,
-    mappers: Mappers,
+    mappers: options.Mappers,
     texts: tuple[str, ...],
     like: str | None,
     pick: str | None,
@@ -229,7 +220,7 @@ def _shown(levels: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Ite
         yield from _findings(level, shared)
     yield from _costs(levels[-1])
     judgements = [one for level in levels for one in level.judgements]
-    for sentence in unjudged(first.target, "these worlds", judgements) if first.passed else ():
+    for sentence in runs.unjudged(first.target, "these worlds", judgements) if first.passed else ():
         yield Text("")
         yield sentence
 
@@ -345,16 +336,16 @@ def _exhibits(
         return
     worlds = {at.name: at.world for at in study.corpus if at.name in first}
     for number, (name, findings) in enumerate(first.items()):
-        runs: tuple[PlayedRun, ...] = ()
-        if not batch and number < MOST_EXHIBITS:
-            runs = tuple(_runs_in(study.campaign, worlds[name], findings))
+        played: tuple[PlayedRun, ...] = ()
+        if not batch and number < runs.MOST_EXHIBITS:
+            played = tuple(_runs_in(study.campaign, worlds[name], findings))
         notes = dict.fromkeys(f"{other.kind}: {other.message}" for other in findings)
         yield acc.Exhibit(
-            title=target_title(study.target, name),
+            title=runs.target_title(study.target, name),
             world=worlds[name],
             name=name,
             notes=tuple(notes),
-            runs=runs,
+            runs=played,
             again=findings[0].replay,
         )
 
@@ -364,7 +355,7 @@ def _runs_in(
 ) -> Iterator[PlayedRun]:
     for target in campaign.load():
         report = judge(explore(world, target, limits=campaign.limits), strict=campaign.strict)
-        exhibit = exhibit_of(report)
+        exhibit = runs.exhibit_of(report)
         yield from exhibit.runs if exhibit is not None else ()
     if any(finding.difference is not None for finding in findings):
         asked = Asked(*campaign.asked)
@@ -381,8 +372,8 @@ def _failing_run(study: Conform, levels: Sequence[LevelResult]) -> Report | None
     world = next(at.world for at in study.corpus if at.name == finding.world)
     for target in campaign.load():
         run = explore(world, target, limits=campaign.limits)
-        named = NamedWorld(world, finding.world)
-        report, _ = judged(run, named, campaign.limits, strict=campaign.strict)
+        named = runs.NamedWorld(world, finding.world)
+        report, _ = runs.judged(run, named, campaign.limits, strict=campaign.strict)
         if any(one.claim == finding.claim for one in report.findings):
             return report
     return None

@@ -20,24 +20,8 @@ from topo_verify.campaign.run import Engine, Exploration, on_engine
 from topo_verify.campaign.run import explore as run_mapper
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.checkers.findings import Verdict
-from topo_verify.cli import options
-from topo_verify.cli.options import Mappers
+from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result, Rows, entry_of
-from topo_verify.cli.play import (
-    player_option,
-    require_one_world,
-    svg_option,
-    write_animation,
-    write_page,
-)
-from topo_verify.cli.runs import (
-    NamedWorld,
-    claims_cell,
-    finding_blocks,
-    judged,
-    named_worlds,
-    unjudged,
-)
 from topo_verify.errors import InputError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.programs.loader import Target
@@ -48,7 +32,7 @@ from topo_verify.robot.limits import Limits
 from topo_verify.studies.gap import gap as measure
 from topo_verify.studies.search.states.every import ListedChoices
 from topo_verify.world.formats import files
-from topo_verify.world.rooted_map import Code
+from topo_verify.world.rooted_map import Code, World
 
 
 class ChosenPolicies(msgspec.Struct, frozen=True):
@@ -173,8 +157,10 @@ class _ExploreOptions:
 @options.engine
 @marker_option
 @click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
-@player_option
-@svg_option
+@options.player
+@click.option(
+    "--svg", metavar="FILE", help="Write an animated SVG of the run (one short run only)."
+)
 @options.strict
 @click.option(
     "--gap", is_flag=True, help="Count the hypotheses that were walked although already refuted."
@@ -184,7 +170,7 @@ def explore(
     output: Output,
     *,
     worlds: tuple[str, ...],
-    mappers: Mappers,
+    mappers: options.Mappers,
     choices: str | None,
     engine: Engine,
     marker: int | Literal["all"] | None,
@@ -202,15 +188,15 @@ def explore(
     """
     everywhere = marker == "all"
 
-    def runs() -> Iterator[Result[ExploreEntry]]:
+    def explored() -> Iterator[Result[ExploreEntry]]:
         targets = on_engine(engine, mappers.load(), limits)
         if everywhere:
             _require_one_marker({"--trace": trace, "--player": player, "--gap": gap})
-        starts = named_worlds(worlds, marker if isinstance(marker, int) else None)
+        starts = runs.named_worlds(worlds, marker if isinstance(marker, int) else None)
         for option, value in (("--trace", trace), ("--svg", svg), ("--choices", choices)):
             if value is not None and not (everywhere and option == "--choices"):
                 _require_one_run(option, value, targets, starts)
-        require_one_world(player, len(starts))
+        runs.require_one_world(player, len(starts))
         listed = None
         if choices is not None and not everywhere:
             if mappers.pick is not None or mappers.order is not None:
@@ -225,7 +211,7 @@ def explore(
 
     return output.run(
         "explore",
-        runs,
+        explored,
         _show_markers if everywhere else _show,
         account=_account,
         in_process=mappers.in_process,
@@ -233,7 +219,7 @@ def explore(
 
 
 def _require_one_run(
-    option: str, value: str, targets: Sequence[Target], starts: Sequence[NamedWorld]
+    option: str, value: str, targets: Sequence[Target], starts: Sequence[runs.NamedWorld]
 ) -> None:
     if value == "-":
         raise InputError(f"{option} -: standard output is for the results; name a file")
@@ -254,7 +240,7 @@ def _require_one_marker(others: Mapping[str, object]) -> None:
 
 def _results(
     output: Output,
-    starts: Sequence[NamedWorld],
+    starts: Sequence[runs.NamedWorld],
     targets: Sequence[Target],
     asked: _ExploreOptions,
 ) -> Iterator[Result[ExploreEntry]]:
@@ -286,12 +272,12 @@ def _results(
                 _write_heat_map(output, asked.svg, at, target, entries)
     finally:  # an interrupt keeps the runs that are done
         if asked.player is not None and played:
-            write_page(asked.player, starts[0].world, starts[0].name, played)
+            runs.write_page(asked.player, starts[0].world, starts[0].name, played)
 
 
 def _explored(
     output: Output,
-    at: NamedWorld,
+    at: runs.NamedWorld,
     target: Target,
     asked: _ExploreOptions,
     played: list[PlayedRun],
@@ -302,22 +288,30 @@ def _explored(
         files.write(asked.trace, write_trace(run.kept_trace).decode())
     if asked.choices is not None:
         run = asked.choices.made(run)
-    report, incomplete = judged(run, at, asked.limits, strict=asked.strict)
+    report, incomplete = runs.judged(run, at, asked.limits, strict=asked.strict)
     if asked.choices is not None:
         report = asked.choices.named(report, asked.limits)
     output.found.keep(report)
     played.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
     if asked.svg is not None and not asked.everywhere:
-        write_animation(asked.svg, at.world, played[0])
+        _animate(asked.svg, at.world, played[0])
     return _result(run, at, report, incomplete=incomplete, gap=asked.gap)
 
 
-def _placed(at: NamedWorld) -> Iterator[NamedWorld]:
+def _animate(file: str, world: World, run: PlayedRun) -> None:
+    from topo_verify.player.animation import animated_svg
+    from topo_verify.player.scenes import Playback
+
+    playback = Playback(world, run.trace, run.judgements, run.stopped)
+    files.write(file, animated_svg(playback, name=run.name))
+
+
+def _placed(at: runs.NamedWorld) -> Iterator[runs.NamedWorld]:
     for dart in range(len(at.world.alpha)):
-        yield NamedWorld(replace(at.world.with_marker(dart), name=at.name), at.text, dart)
+        yield runs.NamedWorld(replace(at.world.with_marker(dart), name=at.name), at.text, dart)
 
 
-def _as_at(place: NamedWorld, entry: ExploreEntry) -> ExploreEntry:
+def _as_at(place: runs.NamedWorld, entry: ExploreEntry) -> ExploreEntry:
     root = place.world.root
     assert root is not None, "a place is a dart"
     return msgspec.structs.replace(
@@ -326,7 +320,7 @@ def _as_at(place: NamedWorld, entry: ExploreEntry) -> ExploreEntry:
 
 
 def _write_heat_map(
-    output: Output, file: str, at: NamedWorld, target: Target, entries: Sequence[ExploreEntry]
+    output: Output, file: str, at: runs.NamedWorld, target: Target, entries: Sequence[ExploreEntry]
 ) -> None:
     if not all(entry.ok for entry in entries):
         output.note(f"--svg {file}: not written, since not every run delivered a true map")
@@ -357,7 +351,7 @@ def _show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
         sentence
         for entry in entries
         if not entry.findings and entry.stopped is None
-        for sentence in unjudged(entry.algorithm, entry.world, entry.judgements)
+        for sentence in runs.unjudged(entry.algorithm, entry.world, entry.judgements)
     )
     for sentence in sentences:
         yield Text("")
@@ -366,7 +360,7 @@ def _show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
 
 
 def _wrong(entry: ExploreEntry, run: str) -> Iterator[Block]:
-    yield from finding_blocks(entry.findings, run)
+    yield from runs.finding_blocks(entry.findings, run)
     if entry.stopped is not None and not entry.findings:
         yield Text(f"{run} is not decided: {entry.stopped}")
 
@@ -395,7 +389,7 @@ def _row(entry: ExploreEntry) -> tuple[str, ...]:
         f"{entry.cost / entry.least_cost:.2f}" if entry.least_cost else "-",
         str(entry.rejected_free),
         str(entry.rejected_moving),
-        claims_cell(entry.claims, incomplete=not entry.ok and not entry.findings),
+        runs.claims_cell(entry.claims, incomplete=not entry.ok and not entry.findings),
     )
 
 
@@ -433,7 +427,7 @@ def _size(entry: ExploreEntry) -> str:
 
 
 def _result(
-    run: Exploration, at: NamedWorld, report: Report, *, incomplete: bool, gap: bool = False
+    run: Exploration, at: runs.NamedWorld, report: Report, *, incomplete: bool, gap: bool = False
 ) -> Result[ExploreEntry]:
     # The gap is a share of all false hypotheses, so all must be declared.
     measured = None
@@ -534,7 +528,9 @@ def _marker_title(group: Sequence[ExploreEntry]) -> str:
 def _marker_row(group: Sequence[ExploreEntry]) -> tuple[str, ...]:
     decided = [entry for entry in group if entry.ok]
     bad = next((entry for entry in group if not entry.ok), None)
-    claims = claims_cell((bad or group[0]).claims, incomplete=bad is not None and not bad.findings)
+    claims = runs.claims_cell(
+        (bad or group[0]).claims, incomplete=bad is not None and not bad.findings
+    )
     if not decided:
         return (group[0].algorithm, *"-" * 6, claims)
     average = mean(entry.cost for entry in decided)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Generator, Sequence
-from contextlib import contextmanager, redirect_stdout
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager, nullcontext, redirect_stdout
 from copy import copy
 from dataclasses import dataclass
 from functools import wraps
@@ -16,14 +16,18 @@ import click
 from click.core import ParameterSource
 from click.shell_completion import CompletionItem
 
+from topo_verify.campaign.backend import MapperCampaign
 from topo_verify.campaign.campaign import close
+from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import ENGINES, policies_of
+from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import one_target, target_text, targets
 from topo_verify.checkers.claims import LARGE
 from topo_verify.cli.failures import epilog
 from topo_verify.cli.output import Output
-from topo_verify.errors import InputError, shown
+from topo_verify.errors import InputError, plural, shown
 from topo_verify.programs.library import LIBRARY
+from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import MOST_SECONDS, Limits
@@ -227,6 +231,11 @@ def policies(command: Callable[..., int]) -> Callable[..., int]:
 
 marker = click.option(
     "--marker", type=int, metavar="DART", help="Let the marker point at this DART instead."
+)
+
+
+player = click.option(
+    "--player", metavar="FILE", help="Write a page that shows the run in a browser, step by step."
 )
 
 
@@ -449,3 +458,58 @@ store = click.option(
 strict = click.option(
     "--strict", is_flag=True, help=f"Ask every claim in worlds over {LARGE} edges, too."
 )
+
+
+# ---------------------------------------------------------------- stores of runs
+
+STORE, OLD_STORE = "runs.db", "runs.jsonl"
+"""The file in the folder that keeps the runs; the one in which version 0.2 kept them."""
+
+
+@contextmanager
+def open_store(output: Output, folder: Path | None) -> Generator[Store | None]:
+    """The store in a folder; None without a folder.
+
+    Raises:
+        InputError: the file cannot be used.
+    """
+    if folder is None:
+        yield None
+        return
+    if (folder / OLD_STORE).exists() and not (folder / STORE).exists():
+        output.note(
+            f"topo-verify 0.2 or before wrote {folder / OLD_STORE}: its runs are made again, in"
+            f" {STORE}; remove the old file"
+        )
+    with Store(folder / STORE) as store:
+        yield store
+
+
+def opened(path: str | None) -> AbstractContextManager[Store | None]:
+    """The store in a file; None without a file."""
+    if path is None:
+        return nullcontext()
+    watch()  # before a mapper is loaded
+    return Store(path)
+
+
+def stored_rows(
+    output: Output, campaigns: Sequence[MapperCampaign], workers: int, store: Store | None
+) -> Iterator[Row]:
+    """The rows of all campaigns; missing ones are made, and kept in the store."""
+    total = sum(campaign.total for campaign in campaigns)
+    if store is not None:
+        output.timing["from_store"] = stored = sum(campaign.stored for campaign in campaigns)
+        if stored:
+            output.note(f"{stored} of {plural(total, 'run')} are in {store.path}")
+    try:
+        for campaign in campaigns:
+            yield from campaign.rows(workers, output.progress)
+    except KeyboardInterrupt:
+        if store is not None:
+            stored = sum(campaign.stored for campaign in campaigns)
+            output.note(
+                f"{stored} of {plural(total, 'run')} are kept in {store.path}; the same command"
+                " goes on"
+            )
+        raise

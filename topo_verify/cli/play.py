@@ -8,16 +8,12 @@ import click
 import msgspec
 
 from topo_verify.campaign.run import explore as run_mapper
-from topo_verify.cli import options
-from topo_verify.cli.options import Mappers
+from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result
-from topo_verify.cli.runs import judged, named_world
-from topo_verify.errors import InputError, plural
+from topo_verify.errors import plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.report.blocks import Block, Text
 from topo_verify.robot.limits import Limits
-from topo_verify.world.formats import files
-from topo_verify.world.rooted_map import World
 
 
 class PlayEntry(msgspec.Struct, frozen=True):
@@ -32,50 +28,6 @@ class PlayEntry(msgspec.Struct, frozen=True):
     file: str
     algorithms: tuple[str, ...]
     findings: int
-
-
-player_option = click.option(
-    "--player", metavar="FILE", help="Write a page that shows the run in a browser, step by step."
-)
-
-
-svg_option = click.option(
-    "--svg", metavar="FILE", help="Write an animated SVG of the run (one short run only)."
-)
-
-
-def require_one_world(file: str | None, number: int) -> None:
-    """Raise InputError if the file is standard output, or the number of worlds is not 1."""
-    if file is None:
-        return
-    if file == "-":
-        raise InputError("--player -: standard output is for the results; name a file")
-    if number != 1:
-        raise InputError(f"--player {file}: expected one WORLD, got {number}; name one")
-
-
-def write_page(file: str, world: World, name: str, runs: Sequence[PlayedRun]) -> None:
-    """Write the page that shows these runs in a world of this name.
-
-    Raises:
-        InputError: the file cannot be written.
-    """
-    from topo_verify.player.page import player_page
-
-    files.write(file, player_page(world, runs, name=name))
-
-
-def write_animation(file: str, world: World, run: PlayedRun) -> None:
-    """Write the run as an animated SVG.
-
-    Raises:
-        InputError: the run is too long, or the file cannot be written.
-    """
-    from topo_verify.player.animation import animated_svg
-    from topo_verify.player.scenes import Playback
-
-    playback = Playback(world, run.trace, run.judgements, run.stopped)
-    files.write(file, animated_svg(playback, name=run.name))
 
 
 @options.command(
@@ -98,7 +50,7 @@ def play(
     output: Output,
     *,
     world: str,
-    mappers: Mappers,
+    mappers: options.Mappers,
     marker: int | None,
     file: str,
     strict: bool,
@@ -112,23 +64,23 @@ def play(
 
     def played() -> Iterator[Result[PlayEntry]]:
         targets = mappers.load()
-        at = named_world(world, marker)
-        require_one_world(file, 1)
-        runs: list[PlayedRun] = []
+        at = runs.named_world(world, marker)
+        runs.require_one_world(file, 1)
+        recorded: list[PlayedRun] = []
         for number, mapper in enumerate(targets):
             output.progress(f"{mapper.text} in {at.name}", number, len(targets))
             run = run_mapper(at.world, mapper, limits=limits)
-            report, _ = judged(run, at, limits, strict=strict)
-            runs.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
-        write_page(file, at.world, at.name, runs)
-        findings = sum(len(one.findings) for run in runs for one in run.judgements)
-        yield Result(PlayEntry(at.name, file, tuple(run.name for run in runs), findings))
+            report, _ = runs.judged(run, at, limits, strict=strict)
+            recorded.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
+        runs.write_page(file, at.world, at.name, recorded)
+        findings = sum(len(one.findings) for run in recorded for one in run.judgements)
+        yield Result(PlayEntry(at.name, file, tuple(run.name for run in recorded), findings))
 
     return output.run("play", played, _show, in_process=mappers.in_process)
 
 
 def _show(entries: Sequence[PlayEntry]) -> Iterator[Block]:
     for entry in entries:
-        runs = ", ".join(entry.algorithms)
+        names = ", ".join(entry.algorithms)
         found = f"; {plural(entry.findings, 'finding')}" if entry.findings else ""
-        yield Text(f"{entry.file}: {runs} in {entry.world}{found}. Open it in a browser.")
+        yield Text(f"{entry.file}: {names} in {entry.world}{found}. Open it in a browser.")

@@ -9,8 +9,6 @@ import click
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.cli import options
-from topo_verify.cli.kept_runs import opened, stored_rows
-from topo_verify.cli.options import Mappers
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import finding_blocks
 from topo_verify.errors import plural
@@ -44,7 +42,7 @@ SHOWN = 3
 def record(
     output: Output,
     *,
-    mappers: Mappers,
+    mappers: options.Mappers,
     engine: Engine,
     out: str,
     worlds: tuple[str, ...],
@@ -66,13 +64,13 @@ def record(
                     failing.append(row)
                 yield row
 
-        with opened(store) as file, mappers.opened() as target:
+        with options.opened(store) as file, mappers.opened() as target:
             on_engine(engine, (target,), limits)  # fails early
             named, total = CorpusWorlds(corpus), corpus.total
             runs = study.baseline_runs(
                 target, named, total, limits=limits, engine=engine, store=file
             )
-            rows = noted(stored_rows(output, [runs], workers, file))
+            rows = noted(options.stored_rows(output, [runs], workers, file))
             baseline = study.record(target, corpus, rows, worlds=texts, seed=seed, limits=limits)
         # A partial baseline would make later comparisons look complete.
         whole = len(baseline.entries) == total

@@ -13,18 +13,8 @@ import msgspec
 from topo_verify.campaign.judge import Report, in_words, judge_trace, strict_option
 from topo_verify.campaign.run import explore as run_mapper
 from topo_verify.checkers import Finding, Judgement, Status
-from topo_verify.cli import options
-from topo_verify.cli.options import Mappers
+from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result, entry_of
-from topo_verify.cli.play import player_option, require_one_world, write_page
-from topo_verify.cli.runs import (
-    NamedWorld,
-    judged,
-    named_world,
-    other_findings,
-    unjudged,
-    walk_view,
-)
 from topo_verify.errors import InputError, InternalError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.player.walk import Extent
@@ -96,7 +86,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     metavar="K",
     meaning="Show the walk from event K on.  [default: the last moves before the first finding]",
 )
-@player_option
+@options.player
 @click.option("--kernel", "proved", is_flag=True, help="Have the judge proved in Coq judge, too.")
 @options.strict
 @options.limits
@@ -104,7 +94,7 @@ def replay(
     output: Output,
     *,
     what: str,
-    mappers: Mappers,
+    mappers: options.Mappers,
     marker: int | None,
     world_text: str | None,
     everything: bool,
@@ -125,7 +115,7 @@ def replay(
     reports: list[Report] = []
 
     def replayed() -> Iterator[Result[ReplayEntry]]:
-        require_one_world(player, 1)
+        runs.require_one_world(player, 1)
         data = _bytes(what)
         if data is not None and _is_trace(data):
             # These options would be ignored silently.
@@ -143,7 +133,7 @@ def replay(
                     f"--world {world_text}: expected a trace, got {what}; leave --world out"
                 )
             mapper = mappers.load_one()
-            trace, at = None, named_world(what, marker, data)
+            trace, at = None, runs.named_world(what, marker, data)
             report, stopped, incomplete = _ran(output, at, mapper, limits, strict=strict)
         events = len(report.run.trace) if report.run else 1
         if first is not None and first >= events:
@@ -151,7 +141,7 @@ def replay(
         if player is not None and report.run is not None:
             run = report.run
             played = PlayedRun(report.target, tuple(run.trace), report.judgements, run.stopped)
-            write_page(player, run.world, report.world, [played])
+            runs.write_page(player, run.world, report.world, [played])
         reports.append(report)
         ok = not report.findings and not incomplete
         kernel = _judged_in_coq(output, report) if proved else None
@@ -201,7 +191,7 @@ def _judged(
     start = trace[0]
     assert isinstance(start, Start), "read_trace refuses any other first event"
     at = (
-        named_world(world_text, marker)
+        runs.named_world(world_text, marker)
         if world_text is not None
         else _own_world(name, start, marker)
     )
@@ -226,7 +216,7 @@ def _judged(
     return msgspec.structs.replace(report, world=at.name).of(report.run), stopped
 
 
-def _own_world(name: str, start: Start, marker: int | None) -> NamedWorld:
+def _own_world(name: str, start: Start, marker: int | None) -> runs.NamedWorld:
     """The world that a trace names by its id: a trace must not choose which file is read."""
     if start.world is None:
         raise InputError(f"{name} does not name its world; name it with --world")
@@ -234,15 +224,15 @@ def _own_world(name: str, start: Start, marker: int | None) -> NamedWorld:
         World.from_id(start.world)
     except InputError as error:
         raise InputError(f"{name}, line 1: {error}; name the world with --world") from error
-    return named_world(start.world, marker)
+    return runs.named_world(start.world, marker)
 
 
 def _ran(
-    output: Output, at: NamedWorld, mapper: Target, limits: Limits, *, strict: bool
+    output: Output, at: runs.NamedWorld, mapper: Target, limits: Limits, *, strict: bool
 ) -> tuple[Report, str | None, bool]:
     output.progress(f"{mapper.text} in {at.name}", 0, 1)
     run = run_mapper(at.world, mapper, limits=limits)
-    report, incomplete = judged(run, at, limits, strict=strict)
+    report, incomplete = runs.judged(run, at, limits, strict=strict)
     return msgspec.structs.replace(report, world=at.name).of(report.run), run.stopped, incomplete
 
 
@@ -276,13 +266,13 @@ def _show(
         reason = f"not decided, {entry.stopped}"
         yield Text(words + (reason if undecided else in_words(entry.claims, "claims hold")))
         if not undecided:
-            yield from unjudged(entry.target, entry.world, entry.judgements)
+            yield from runs.unjudged(entry.target, entry.world, entry.judgements)
         if entry.kernel is not None:
             yield Text(_in_coq(entry.kernel))
         if not entry.ok or asked.to_end:
             yield Text("")
-            yield from walk_view(report, asked)
-            yield from other_findings(report, asked)
+            yield from runs.walk_view(report, asked)
+            yield from runs.other_findings(report, asked)
         elif not undecided:
             yield Text("Nothing is wrong; --all shows the walk.")
 

@@ -12,7 +12,6 @@ from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Engine, explore, require_compiled
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options
-from topo_verify.cli.kept_runs import open_store, stored_rows
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import finding_blocks
 from topo_verify.errors import InputError
@@ -134,11 +133,11 @@ def _runs(
     if engine == "compiled":
         # Before the workers start, so that they find compiled kernels in the cache.
         explore(World.from_id("m1/0"), engine=engine)
-    with open_store(output, folder) as store:
+    with options.open_store(output, folder) as store:
         assert store is not None, "there is a folder"
         campaigns = pts.line_campaigns(figures, extent, engine, store)
         here = 0 if workers == 1 else workers
-        rows = stored_rows(output, campaigns, here, store)
+        rows = options.stored_rows(output, campaigns, here, store)
         return {run: row for row in rows for run in pts.runs_of(row)}
 
 

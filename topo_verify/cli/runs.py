@@ -35,6 +35,7 @@ from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, View
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
+from topo_verify.world.formats import files
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
@@ -242,6 +243,25 @@ def other_findings(report: Report, extent: walk.Extent) -> Iterator[Block]:
         if len(others) > OTHERS:
             lines.append(f"and {len(others) - OTHERS} more: --format json shows them")
         yield Bullets(tuple(lines))
+
+
+def require_one_world(file: str | None, number: int) -> None:
+    """Raise InputError if the file is standard output, or the number of worlds is not 1."""
+    if file == "-":
+        raise InputError("--player -: standard output is for the results; name a file")
+    if file is not None and number != 1:
+        raise InputError(f"--player {file}: expected one WORLD, got {number}; name one")
+
+
+def write_page(file: str, world: World, name: str, runs: Sequence[PlayedRun]) -> None:
+    """Write the page that shows these runs in a world of this name.
+
+    Raises:
+        InputError: the file cannot be written.
+    """
+    from topo_verify.player.page import player_page
+
+    files.write(file, player_page(world, runs, name=name))
 
 
 MOST_EXHIBITS = 12

@@ -19,7 +19,6 @@ from topo_verify.campaign.store import Store, StoredCampaign
 from topo_verify.campaign.targets import targets
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options
-from topo_verify.cli.options import Mappers
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import unjudged
 from topo_verify.errors import InputError, plural
@@ -73,7 +72,7 @@ from topo_verify.world.enumeration.classes import WorldClass
 def search(
     output: Output,
     *,
-    mappers: Mappers,
+    mappers: options.Mappers,
     edges: int,
     kind: str,
     workers: int | None,
@@ -150,7 +149,7 @@ def _backend(
 
 
 def _searches(
-    mappers: Mappers, compare: str | None, ledger: str | None
+    mappers: options.Mappers, compare: str | None, ledger: str | None
 ) -> list[tuple[Target, ...]]:
     if bool(mappers.texts) == (compare is not None):
         raise InputError("expected either a TARGET or two mappers with --compare A,B")

@@ -8,10 +8,8 @@ import click
 import msgspec
 
 from topo_verify.checkers import check
-from topo_verify.cli import options
+from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result, entry_of
-from topo_verify.cli.play import player_option, require_one_world, write_page
-from topo_verify.cli.runs import named_world
 from topo_verify.errors import InputError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.report.blocks import Block, Text, TextTable
@@ -71,7 +69,7 @@ class TourEntry(msgspec.Struct, frozen=True):
 @click.option(
     "-o", "file", metavar="LOG", help="Write the walk as a log, with what should be seen."
 )
-@player_option
+@options.player
 @click.option(
     "--against", "log", metavar="LOG", help="Judge the map by this log, and go on where it ends."
 )
@@ -95,12 +93,12 @@ def tour(
     """
 
     def toured() -> Iterator[Result[TourEntry]]:
-        require_one_world(player, 1)
+        runs.require_one_world(player, 1)
         if file == "-":
             raise InputError("-o -: standard output is for the results; name a file")
         if world == log == "-":
             raise InputError("expected '-' once, since standard input holds one thing; name a file")
-        at = named_world(world, marker)
+        at = runs.named_world(world, marker)
         if log is None:
             trace = tour_log(at.world)
             onward: Sequence[Event] = trace[1:]
@@ -115,7 +113,7 @@ def tour(
             files.write(file, write_trace(trace))
         if player is not None:
             marked = [one for one in check(at.world, trace) if one.claim == "percepts-true"]
-            write_page(player, at.world, at.name, [PlayedRun("tour", trace, marked)])
+            runs.write_page(player, at.world, at.name, [PlayedRun("tour", trace, marked)])
         moves = [event for event in onward if isinstance(event, Move)]
         entry = TourEntry(
             world=at.name,

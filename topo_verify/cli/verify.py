@@ -10,7 +10,6 @@ import click
 from topo_verify.checkers import CLAIMS, Finding
 from topo_verify.cli import options
 from topo_verify.cli.failures import version
-from topo_verify.cli.options import Mappers
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.runs import finding_blocks, unjudged
 from topo_verify.errors import plural
@@ -32,7 +31,7 @@ from topo_verify.studies.verify.parts import Part
 def verify(
     output: Output,
     *,
-    mappers: Mappers,
+    mappers: options.Mappers,
     quick: bool,
     seed: int,
     limits: Limits,
