@@ -49,9 +49,9 @@ ENTRIES = {
     "compare": "compare.Comparison",
     "replay": "replay.ReplayEntry",
     "play": "play.PlayEntry",
-    "certify": "certify.CertifyEntry certify.CertificateEntry",
+    "certify": "certify.CertifyEntry certify.study.CertificateEntry",
     "tour": "tour.TourEntry",
-    "arena": "arena.LeagueEntry arena_game.GameValue arena_game.MapperCosts",
+    "arena": "arena.LeagueEntry arena_game.game.GameValue arena_game.game.MapperCosts",
     "header": "header.HeaderEntry",
     "reproduce": "reproduce.pts.FigurePoint",
 }

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -16,20 +15,17 @@ from topo_verify.checkers import Finding
 from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.cli.runs import finding_line
-from topo_verify.errors import InputError, InternalError, plural
-from topo_verify.proofs.mechanised import certificate_format, certificates, evidence
-from topo_verify.proofs.mechanised.certificates import CertificateCheck
+from topo_verify.errors import InputError, plural
+from topo_verify.proofs.mechanised import certificates
 from topo_verify.report.blocks import Block, Bullets, Text, TextTable
-from topo_verify.robot.events import Trace
 from topo_verify.robot.limits import MOST_SECONDS
+from topo_verify.studies import certificates as study
 from topo_verify.studies.advice import Advice, advice
 from topo_verify.studies.log_file import read_log
 from topo_verify.studies.log_report import Certificate, OpenDoor, open_doors
 from topo_verify.studies.log_report import certify as judge
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
-
-NumbersChecker = Callable[[Sequence[int]], CertificateCheck]
 
 MOST_OPEN_DOORS = 100
 """Most open doors of a log that are listed, nearest first."""
@@ -40,78 +36,6 @@ class DecisionCount(msgspec.Struct, frozen=True):
 
     entailed: int
     total: int
-
-
-class CertifiedDecisions(msgspec.Struct, frozen=True):
-    """How many of the decisions that follow Coq accepted.
-
-    Attributes:
-        by: the checker; "" if nothing was checked.
-        why: the reason why some are not certified; "" if all are.
-    """
-
-    certified: int
-    entailed: int
-    by: str
-    why: str
-
-
-class KernelCheck(msgspec.Struct, frozen=True):
-    """The certificate for Coq of one log, and the answer of its checker.
-
-    Attributes:
-        statement: map, undetermined or impossible.
-        file: the certificate.
-        accepted: null if nothing checked the certificate.
-        by: the checker.
-        why: the reason why nothing was checked.
-        command: checks it again, in the folder of the certificate.
-        delivered: whether Coq accepted that the delivered map is the world.
-        decisions: those of the log that follow, certified.
-    """
-
-    statement: str
-    file: str
-    accepted: bool | None
-    by: str
-    why: str
-    command: str
-    delivered: bool
-    decisions: CertifiedDecisions
-
-    @property
-    def incomplete(self) -> bool:
-        """Whether the certificate, or a decision that follows, was left unchecked."""
-        return self.accepted is None or bool(self.decisions.entailed and not self.decisions.by)
-
-
-class ReceivedDecisions(msgspec.Struct, frozen=True):
-    """How many decisions of a log a certificate proves to follow."""
-
-    certified: int
-    total: int
-
-
-class CertificateEntry(msgspec.Struct, frozen=True):
-    """One received certificate.
-
-    Attributes:
-        accepted: null if nothing checked the certificate.
-        by: what accepted or refused it; "" if nothing did.
-        statement: map, undetermined or impossible, of an accepted certificate; else null.
-        why: the reason why it is refused, not checked, or silent about a part of the log; else "".
-        delivered: whether it states that the delivered map is the world.
-        decisions: those of the log if one is given, else those in the certificate.
-        certificate: its file.
-    """
-
-    certificate: str
-    accepted: bool | None
-    by: str
-    statement: str | None
-    why: str
-    delivered: bool
-    decisions: ReceivedDecisions
 
 
 class CertifyEntry(msgspec.Struct, frozen=True):
@@ -139,7 +63,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     decisions: DecisionCount
     witnesses: tuple[str, ...]
     findings: tuple[Finding, ...]
-    kernel: KernelCheck | None
+    kernel: study.KernelCheck | None
 
 
 @options.command(
@@ -192,10 +116,12 @@ def certify(
     doing = partial(output.progress, done=0, total=1)
     if received is not None:
 
-        def checked() -> Iterator[Result[CertificateEntry]]:
+        def checked() -> Iterator[Result[study.CertificateEntry]]:
             with certificates.checking(timeout=timeout, progress=doing) as check:
                 log = None if about is None else read_log(about)
-                yield _checked(received, log, check)
+                entry = study.check_received(received, log, check)
+                incomplete = entry.accepted is None or bool(entry.why)
+                yield Result(entry, failed=entry.accepted is False, incomplete=incomplete)
 
         return output.run("certify", checked, _show_received)
 
@@ -212,7 +138,10 @@ def certify(
                     raise InputError(f"{_name(trace)}: {error}") from error
                 if map_file is not None and certificate.map is not None:
                     certificate.map.save(map_file)
-                proof = _prove(traces, number, log, certificate, check) if proving else None
+                proof = None
+                if proving:
+                    file = f"{_stem(traces, number)}.cert"
+                    proof = study.prove_log(trace, log, certificate, file, check)
                 yield _result(trace, certificate, folder, proof)
 
     return output.run("certify", certified, _show)
@@ -237,7 +166,7 @@ def _name(trace: str) -> str:
 
 
 def _result(
-    trace: str, certificate: Certificate, folder: str | None, proof: KernelCheck | None
+    trace: str, certificate: Certificate, folder: str | None, proof: study.KernelCheck | None
 ) -> Result[CertifyEntry]:
     replay_command = shlex.join(["topo-verify", "certify", trace])
     findings = tuple(
@@ -336,57 +265,6 @@ def _decisions(entry: CertifyEntry) -> str:
 # ---------------------------------------------------------------- a certificate made here
 
 
-def _prove(
-    traces: Sequence[str], number: int, log: Trace, certificate: Certificate, check: NumbersChecker
-) -> KernelCheck:
-    # The certificate comes from a second fold. If the folds differed, Coq would accept a true
-    # statement, but not the one that the user reads.
-    stated = certificates.certificate_of(log)
-    shown = "undetermined" if certificate.fold is not None else "impossible"
-    if stated.statement != ("map" if certificate.map is not None else shown):
-        raise InternalError(f"{traces[number]}: two folds of one log differ: {stated.statement}")
-    file = f"{_stem(traces, number)}.cert"
-    text = certificate_format.text_of(stated)
-    files.write(file, text)
-    checked = check(certificate_format.parse(text.encode(), name=file))
-    # None: not checked. For a true conclusion some evidence is accepted (coq/Accepted.v), so a
-    # refusal is Python's mistake.
-    if checked.accepted is False:
-        raise InternalError(
-            f"{checked.by} refuses {file}, so our conclusion or our evidence is wrong:"
-            f" {checked.why}"
-        )
-    log_name = "LOG" if traces[number] == "-" else traces[number]
-    return entry_of(
-        KernelCheck,
-        checked,
-        statement=stated.statement,
-        file=file,
-        command=shlex.join(["topo-verify", "certify", "--check", file, "--log", log_name]),
-        decisions=_certified_decisions(
-            checked, certificate.entailed, too_long=stated.decisions.too_long
-        ),
-    )
-
-
-def _certified_decisions(
-    checked: CertificateCheck, entailed: int, *, too_long: bool
-) -> CertifiedDecisions:
-    if not entailed:
-        return CertifiedDecisions(0, 0, "", "")
-    if not checked.accepted:
-        return CertifiedDecisions(0, entailed, "", "the certificate is not checked")
-    if too_long:
-        why = f"their evidence has more than {evidence.MOST:,} steps"
-        return CertifiedDecisions(0, entailed, "", why)
-    why = (
-        "the others follow in planar worlds only, or rest on one that does, and the proofs in Coq"
-        " do not speak of planarity"
-    )
-    missing = checked.certified < entailed
-    return CertifiedDecisions(checked.certified, entailed, checked.by, why if missing else "")
-
-
 def _stem(traces: Sequence[str], number: int) -> str:
     name = "standard_input" if traces[number] == "-" else Path(traces[number]).stem
     stem = re.sub(r"\W", "_", name, flags=re.ASCII)
@@ -400,7 +278,7 @@ _STATED = {
 }
 
 
-def _show_proof(proof: KernelCheck) -> Iterator[Block]:
+def _show_proof(proof: study.KernelCheck) -> Iterator[Block]:
     outcome = f"accepted by {proof.by}" if proof.accepted else f"NOT CHECKED: {proof.why}"
     delivered = " The delivered map is that world." if proof.delivered else ""
     proved, decisions = proof.decisions, ""
@@ -420,31 +298,7 @@ def _show_proof(proof: KernelCheck) -> Iterator[Block]:
 # ---------------------------------------------------------------- a certificate received
 
 
-def _checked(file: str, log: Trace | None, check: NumbersChecker) -> Result[CertificateEntry]:
-    numbers = certificate_format.parse(files.read(file), name=file)
-    if log is not None and not certificates.is_about(numbers, log):
-        checked = certificates.CertificateCheck(
-            accepted=False, by="topo-verify", why="the certificate is about another log"
-        )
-    else:
-        checked = check(numbers)
-    # What no certificate can state counts as not proved.
-    silent = ""
-    if log is not None and checked.accepted:
-        silent = certificate_format.left_out(log)
-        total = certificate_format.decisions_in(log)
-        checked = replace(checked, why=silent, decisions=total)
-    entry = entry_of(
-        CertificateEntry,
-        checked,
-        certificate=file,
-        decisions=ReceivedDecisions(checked.certified, checked.decisions),
-    )
-    incomplete = checked.accepted is None or bool(silent)
-    return Result(entry, failed=checked.accepted is False, incomplete=incomplete)
-
-
-def _show_received(entries: Sequence[CertificateEntry]) -> Iterator[Block]:
+def _show_received(entries: Sequence[study.CertificateEntry]) -> Iterator[Block]:
     for entry in entries:
         if entry.statement is None:
             word = "NOT CHECKED" if entry.accepted is None else f"REFUSED by {entry.by}"

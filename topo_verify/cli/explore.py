@@ -29,6 +29,7 @@ from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.events import write_trace
 from topo_verify.robot.limits import Limits
+from topo_verify.studies.gap import Gap
 from topo_verify.studies.gap import gap as measure
 from topo_verify.studies.search.states.every import ListedChoices
 from topo_verify.world.formats import files
@@ -40,22 +41,6 @@ class ChosenPolicies(msgspec.Struct, frozen=True):
 
     pick: str | None
     order: str | None
-
-
-class MeasuredGap(msgspec.Struct, frozen=True):
-    """The gap of a rule to the best possible one; see `topo_verify.studies.gap`.
-
-    Attributes:
-        false: false hypotheses posed.
-        walked: how many of them were rejected by motion.
-        refutable: how many were walked although the history before the walk refuted them.
-        share: refutable / false.
-    """
-
-    false: int
-    walked: int
-    refutable: int
-    share: float
 
 
 class ExploreEntry(msgspec.Struct, frozen=True):
@@ -92,7 +77,7 @@ class ExploreEntry(msgspec.Struct, frozen=True):
     claims: dict[str, Status]
     judgements: tuple[Judgement, ...]
     stopped: str | None
-    gap: MeasuredGap | None
+    gap: Gap | None
     marker: int | None
     place: int
     same_as: int | None = None
@@ -432,8 +417,7 @@ def _result(
     # The gap is a share of all false hypotheses, so all must be declared.
     measured = None
     if gap and report.ok and not {"not-declared", "partial"} & {*report.claims.values()}:
-        counts = measure(run.trace)
-        measured = MeasuredGap(*counts, share=counts.share)
+        measured = measure(run.trace)
     entry = entry_of(
         ExploreEntry,
         run,

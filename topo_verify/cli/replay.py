@@ -19,6 +19,7 @@ from topo_verify.errors import InputError, InternalError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.player.walk import Extent
 from topo_verify.programs.loader import Target
+from topo_verify.proofs.mechanised import judge
 from topo_verify.report.blocks import Block, Text
 from topo_verify.robot.events import Finish, Start, read_trace
 from topo_verify.robot.limits import Limits
@@ -31,20 +32,6 @@ OF_A_MAPPER = ("--target", "--cmd", "--library", "--pick", "--order")
 
 KERNEL_TIMEOUT = 600
 """Time limit of each program of Coq and OCaml, in seconds."""
-
-
-class KernelJudgement(msgspec.Struct, frozen=True):
-    """The judgement of the judge that is proved in Coq.
-
-    Attributes:
-        by: what judged; "" if Coq or OCaml is not installed.
-        why: the reason why the run was not judged; "" if it was.
-        judgements: of the claims that Coq defines, the same as those of the checkers.
-    """
-
-    by: str
-    why: str
-    judgements: tuple[Judgement, ...]
 
 
 class ReplayEntry(msgspec.Struct, frozen=True):
@@ -64,7 +51,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     claims: dict[str, Status]
     judgements: tuple[Judgement, ...]
     stopped: str | None
-    kernel: KernelJudgement | None
+    kernel: judge.ProvedOpinion | None
 
 
 @options.command(
@@ -236,12 +223,10 @@ def _ran(
     return msgspec.structs.replace(report, world=at.name).of(report.run), run.stopped, incomplete
 
 
-def _judged_in_coq(output: Output, report: Report) -> KernelJudgement:
+def _judged_in_coq(output: Output, report: Report) -> judge.ProvedOpinion:
     """The extracted judge's judgement; InternalError if it differs from the checkers'."""
-    from topo_verify.proofs.mechanised import judge
-
     if report.run is None:
-        return KernelJudgement("", "the run has no trace", ())
+        return judge.ProvedOpinion("", why="the run has no trace")
     opinion = judge.second_opinion(
         (report.run.world, report.run.trace),
         timeout=KERNEL_TIMEOUT,
@@ -254,7 +239,7 @@ def _judged_in_coq(output: Output, report: Report) -> KernelJudgement:
                 f"{opinion.by} says of {judgement.claim}: {judgement.status}, judged"
                 f" {judgement.judged} of {judgement.of}; the checkers say otherwise"
             )
-    return KernelJudgement(opinion.by, opinion.why, opinion.judgements)
+    return opinion
 
 
 def _show(
@@ -277,7 +262,7 @@ def _show(
             yield Text("Nothing is wrong; --all shows the walk.")
 
 
-def _in_coq(kernel: KernelJudgement) -> str:
+def _in_coq(kernel: judge.ProvedOpinion) -> str:
     if kernel.why:
         return f"Not judged by the judge that is proved in Coq: {kernel.why}"
     return f"Judged again by {kernel.by}: the same of {len(kernel.judgements)} of 10 claims."

@@ -13,6 +13,7 @@ corpus.py      what WORLDS means
 beside.py      a function called in worker processes
 log_file.py    a robot's log, read from a file
 log_report.py  what a log proves without its world
+certificates.py  the same, stated and proved in Coq
 advice.py      where a robot goes next
 map_check.py   a map judged by a log
 """

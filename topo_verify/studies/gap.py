@@ -10,7 +10,8 @@ Source: docs/semantics.md, section 11.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+
+import msgspec
 
 from topo_verify.checkers import Fold
 from topo_verify.checkers.darts import KnownDart
@@ -18,17 +19,20 @@ from topo_verify.checkers.map_on_fold import MapOnFold
 from topo_verify.robot.events import Augment, Confirm, Event, Move, Pose, Reject, Start
 
 
-class Gap(NamedTuple):
-    """False hypotheses: posed; rejected by motion; of these, already refuted by the fold."""
+class Gap(msgspec.Struct, frozen=True):
+    """The gap of a rule to the best possible one.
+
+    Attributes:
+        false: false hypotheses posed.
+        walked: how many of them were rejected by motion.
+        refutable: how many were walked although the history before the walk refuted them.
+        share: refutable / false; 0 without false hypotheses.
+    """
 
     false: int
     walked: int
     refutable: int
-
-    @property
-    def share(self) -> float:
-        """The gap; 0 if no false hypothesis was posed."""
-        return self.refutable / self.false if self.false else 0.0
+    share: float
 
 
 def gap(trace: Sequence[Event]) -> Gap:
@@ -65,4 +69,4 @@ def gap(trace: Sequence[Event]) -> Gap:
                 on_fold.grow(event)
             case _:
                 pass
-    return Gap(false, walked, refutable)
+    return Gap(false, walked, refutable, refutable / false if false else 0.0)

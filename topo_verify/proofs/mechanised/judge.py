@@ -44,7 +44,13 @@ TracedRun = tuple[World, Sequence[ev.Event]]
 
 @dataclass(frozen=True, slots=True)
 class ProvedOpinion:
-    """The judgements of one trace for `judged_claims`, or why there are none."""
+    """The judgement of the judge that is proved in Coq.
+
+    Attributes:
+        by: what judged; "" if Coq or OCaml is not installed.
+        judgements: of the claims that Coq defines, the same as those of the checkers.
+        why: the reason why the run was not judged; "" if it was.
+    """
 
     by: str
     judgements: tuple[Judgement, ...] = ()

@@ -1,0 +1,173 @@
+"""Certificates for Coq of what a log proves: made here and checked, or received and checked."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable, Sequence
+
+import msgspec
+
+from topo_verify.errors import InternalError
+from topo_verify.proofs.mechanised import certificate_format, certificates, evidence
+from topo_verify.robot.events import Trace
+from topo_verify.studies.log_report import Certificate
+from topo_verify.world.formats import files
+
+NumbersChecker = Callable[[Sequence[int]], certificates.CertificateCheck]
+
+
+class CertifiedDecisions(msgspec.Struct, frozen=True):
+    """How many of the decisions that follow Coq accepted.
+
+    Attributes:
+        by: the checker; "" if nothing was checked.
+        why: the reason why some are not certified; "" if all are.
+    """
+
+    certified: int
+    entailed: int
+    by: str
+    why: str
+
+
+class KernelCheck(msgspec.Struct, frozen=True):
+    """The certificate for Coq of one log, and the answer of its checker.
+
+    Attributes:
+        statement: map, undetermined or impossible.
+        file: the certificate.
+        accepted: null if nothing checked the certificate.
+        by: the checker.
+        why: the reason why nothing was checked.
+        command: checks it again, in the folder of the certificate.
+        delivered: whether Coq accepted that the delivered map is the world.
+        decisions: those of the log that follow, certified.
+    """
+
+    statement: str
+    file: str
+    accepted: bool | None
+    by: str
+    why: str
+    command: str
+    delivered: bool
+    decisions: CertifiedDecisions
+
+    @property
+    def incomplete(self) -> bool:
+        """Whether the certificate, or a decision that follows, was left unchecked."""
+        return self.accepted is None or bool(self.decisions.entailed and not self.decisions.by)
+
+
+class ReceivedDecisions(msgspec.Struct, frozen=True):
+    """How many decisions of a log a certificate proves to follow."""
+
+    certified: int
+    total: int
+
+
+class CertificateEntry(msgspec.Struct, frozen=True):
+    """One received certificate.
+
+    Attributes:
+        accepted: null if nothing checked the certificate.
+        by: what accepted or refused it; "" if nothing did.
+        statement: map, undetermined or impossible, of an accepted certificate; else null.
+        why: the reason why it is refused, not checked, or silent about a part of the log; else "".
+        delivered: whether it states that the delivered map is the world.
+        decisions: those of the log if one is given, else those in the certificate.
+        certificate: its file.
+    """
+
+    certificate: str
+    accepted: bool | None
+    by: str
+    statement: str | None
+    why: str
+    delivered: bool
+    decisions: ReceivedDecisions
+
+
+def prove_log(
+    trace: str, log: Trace, certificate: Certificate, file: str, check: NumbersChecker
+) -> KernelCheck:
+    """Write the certificate of a log to a file and have it checked.
+
+    Args:
+        trace: the file of the log.
+    Raises:
+        InternalError: Coq refuses it, or it states another result than the fold.
+    """
+    # The certificate comes from a second fold. If the folds differed, Coq would accept a true
+    # statement, but not the one that the user reads.
+    stated = certificates.certificate_of(log)
+    shown = "undetermined" if certificate.fold is not None else "impossible"
+    if stated.statement != ("map" if certificate.map is not None else shown):
+        raise InternalError(f"{trace}: two folds of one log differ: {stated.statement}")
+    text = certificate_format.text_of(stated)
+    files.write(file, text)
+    checked = check(certificate_format.parse(text.encode(), name=file))
+    # None: not checked. For a true conclusion some evidence is accepted (coq/Accepted.v), so a
+    # refusal is Python's mistake.
+    if checked.accepted is False:
+        raise InternalError(
+            f"{checked.by} refuses {file}, so our conclusion or our evidence is wrong:"
+            f" {checked.why}"
+        )
+    log_name = "LOG" if trace == "-" else trace
+    return KernelCheck(
+        stated.statement,
+        file,
+        checked.accepted,
+        checked.by,
+        checked.why,
+        shlex.join(["topo-verify", "certify", "--check", file, "--log", log_name]),
+        checked.delivered,
+        _certified(checked, certificate.entailed, too_long=stated.decisions.too_long),
+    )
+
+
+def _certified(
+    checked: certificates.CertificateCheck, entailed: int, *, too_long: bool
+) -> CertifiedDecisions:
+    if not entailed:
+        return CertifiedDecisions(0, 0, "", "")
+    if not checked.accepted:
+        return CertifiedDecisions(0, entailed, "", "the certificate is not checked")
+    if too_long:
+        why = f"their evidence has more than {evidence.MOST:,} steps"
+        return CertifiedDecisions(0, entailed, "", why)
+    why = (
+        "the others follow in planar worlds only, or rest on one that does, and the proofs in Coq"
+        " do not speak of planarity"
+    )
+    missing = checked.certified < entailed
+    return CertifiedDecisions(checked.certified, entailed, checked.by, why if missing else "")
+
+
+def check_received(file: str, log: Trace | None, check: NumbersChecker) -> CertificateEntry:
+    """The result of checking a received certificate, about this log if one is given.
+
+    Raises:
+        InputError: the file is not a certificate, or no certificate can be about that log.
+    """
+    numbers = certificate_format.parse(files.read(file), name=file)
+    if log is not None and not certificates.is_about(numbers, log):
+        checked = certificates.CertificateCheck(
+            accepted=False, by="topo-verify", why="the certificate is about another log"
+        )
+    else:
+        checked = check(numbers)
+    why, total = checked.why, checked.decisions
+    if log is not None and checked.accepted:
+        # What no certificate can state counts as not proved.
+        why, total = certificate_format.left_out(log), certificate_format.decisions_in(log)
+    return CertificateEntry(
+        file,
+        checked.accepted,
+        checked.by,
+        checked.statement,
+        why,
+        checked.delivered,
+        ReceivedDecisions(checked.certified, total),
+    )
