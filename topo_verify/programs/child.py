@@ -1,19 +1,14 @@
 """A program as a child process: lines to it, lines from it, and its end.
 
-The program runs in its own session. It may flood a stream, close it, stop reading, ignore
-signals, or start children. Against all of these hold three invariants: the kept output is bounded;
-nothing here blocks for longer than a tick, so that a time limit can strike between two ticks; `end`
-leaves no process behind.
+The program may flood a stream, stop reading, ignore signals, or start children. Three invariants
+hold: the kept output is bounded; nothing blocks for longer than a tick, so that a time limit can
+strike; `end` leaves no process behind.
 
-    one move     write, poll, read: three system calls
+A move is three system calls: write, poll, read. Harness and program take turns, so they are fastest
+on one processor (process.py), where a poll sleeps at once. Otherwise an idle processor takes tens
+of microseconds to wake up, so a poll looks some hundred times before it sleeps.
 
-Harness and program take turns, so they are fastest on one processor: the kernel switches from one
-to the other in a few microseconds, while a processor that idles takes tens of them to wake up. A
-program with a single thread is therefore kept on the processor of the harness (process.py), where
-a poll sleeps at once. Others run where they like, and a poll looks some hundred times before it
-sleeps.
-
-Vocabulary: a *line* is a message without its line end; the *tail* is the end of standard error.
+A *line* is a message without its line end; the *tail* is the end of standard error.
 """
 
 from __future__ import annotations
@@ -42,10 +37,10 @@ from topo_verify.robot.limits import TICK
 from topo_verify.robot.stopwatch import Stopwatch, tasks_of
 
 GRACE = 0.3
-"""Seconds between SIGTERM and SIGKILL; also the time to end after a `stop` message."""
+"""Seconds between SIGTERM and SIGKILL, or between a `stop` message and SIGTERM."""
 
 LAST_WORDS = 2.0
-"""Seconds between the end of a program's output and its exit status, at most."""
+"""Most seconds between the end of a program's output and its exit status."""
 
 CHUNK = 2**16
 
@@ -53,26 +48,26 @@ HEAD = b'{"type":"'
 """The first bytes of every message to a program."""
 
 AHEAD = 4
-"""Unread output may hold `AHEAD` messages of the greatest length."""
+"""Unread output may hold `AHEAD` messages of maximal length."""
 
 PAUSE = 2e-5
-"""Seconds by which each pause is longer than the one before, while a program does not read."""
+"""Seconds by which pauses grow while a program does not read."""
 
 _NO_BYTES = bytes(4)
 
 LOOKS = 200
-"""Polls without waiting before a poll that sleeps, where the program has another processor."""
+"""Polls without waiting before a poll that sleeps, if the program has another processor."""
 
 BUSY = 5e-4
 """Most seconds that a look takes on a processor without other work."""
 
 
 class Ended(Exception):
-    """The program's output has ended, so no line will come."""
+    """The program's output has ended."""
 
 
 class Silent(Exception):
-    """No line came in the time given."""
+    """No line came in time."""
 
 
 class TooLong(Exception):
@@ -80,13 +75,13 @@ class TooLong(Exception):
 
 
 class Child:
-    """A running program. Life cycle: construction starts it; `write`, `line`; `end` once or more.
+    """A running program. Construction starts it; then `write` and `line`; at last `end`.
 
     Args:
         command: the program and its arguments; no shell expands them.
         reaper_process: kills the program if this process is killed.
         longest: the most bytes of a line.
-        echo: what it writes on standard error appears on ours, each line behind this mark.
+        echo: copy its standard error to ours, each line behind this mark.
     Attributes:
         heard: how often its output was read.
     Raises:
@@ -143,7 +138,7 @@ class Child:
 
     @property
     def process(self) -> int:
-        """The number of its process."""
+        """Its process id."""
         return self._process.pid
 
     # ------------------------------------------------------------ lines
@@ -152,12 +147,11 @@ class Child:
         """The next line; waits until it is complete.
 
         Args:
-            seconds: how long to wait; time in which the program waits for a processor is not
-                counted.
+            seconds: how long to wait, not counting the program's waits for a processor.
         Raises:
             Silent: no line came in this time.
-            Ended: the output has ended (in the middle of a line, if `in_half_a_line`).
-            TooLong: the line has more bytes than a message may have.
+            Ended: the output has ended.
+            TooLong: the line is too long.
         """
         clock = None if seconds == inf or self._lines else self._stopwatch(seconds)
         while not self._lines:
@@ -165,13 +159,13 @@ class Child:
                 raise Ended
             if clock is not None and clock.seconds() > seconds:
                 raise Silent
-            # Look at the exit status only after a silent tick: what it wrote last comes first.
+            # Its last output comes first, so ask for the exit status only after a silent tick.
             if not self._listen() and self._status() is not None:
                 self._output_ended = True  # though its child may hold the stream open
         return self._lines.popleft()
 
     def write(self, data: bytes) -> None:
-        """Send data. If the program has closed its input, drop them: its output may say why."""
+        """Send data. Drops them if the program has closed its input: its output may say why."""
         if self._head_sent:
             assert data.startswith(HEAD), "every message begins in the same way"
             data, self._head_sent = data[len(HEAD) :], False
@@ -192,12 +186,12 @@ class Child:
 
     @property
     def flooded_stderr(self) -> bool:
-        """Whether it wrote more bytes on standard error than a message may have."""
+        """Whether it wrote more than a message may have on standard error."""
         return self._stderr.bytes > LIMIT
 
     @property
     def in_half_a_line(self) -> bool:
-        """Whether the last line that came lacks its line end."""
+        """Whether the last line lacks its line end."""
         return bool(self._rest)
 
     @property
@@ -209,33 +203,28 @@ class Child:
 
     @property
     def unread(self) -> bytes:
-        """The first line that came and was not asked for, perhaps incomplete."""
+        """The first line not yet taken, perhaps incomplete."""
         return self._lines[0] if self._lines else bytes(self._rest)
 
     @property
     def has_output(self) -> bool:
-        """Whether anything came that was not asked for; reads without waiting."""
+        """Whether output waits to be taken; reads without waiting."""
         return self.has_line or bool(self._rest)
 
     def _stopwatch(self, seconds: float) -> Stopwatch:
-        """A stopwatch of the seconds that the program uses from now on, while we wait for it.
-
-        Args:
-            seconds: how long we wait.
-        """
         tick = max(TICK, seconds / 4)
         return Stopwatch(lambda: tasks_of(self.process), lambda: self.heard, tick=tick)
 
     def _listen(self, seconds: float = TICK) -> bool:
         """Read what has come, after waiting a tick at most; whether anything came."""
         looks = LOOKS if seconds and not self._processor.shared else 0
-        # On one processor a look without waiting is in vain: the program runs when we sleep.
+        # On one processor the program runs only when we sleep.
         ready = [] if seconds and not looks else self._poll.poll(0)
         while not ready and looks:
             began = monotonic()
             os.sched_yield()  # it may wait for this very processor
-            # Others want the processor, too. A stopwatch excuses what we wait for it, so a program
-            # that sleeps would have all the time in which we look again and again.
+            # If others want the processor, stop looking: a stopwatch excuses such waits, so a
+            # sleeping program would have all that time.
             looks = looks - 1 if monotonic() - began < BUSY else 0
             ready = self._poll.poll(0)
         if seconds and not ready:
@@ -257,8 +246,7 @@ class Child:
             self._poll.unregister(self._out)
             return
         self.heard += 1
-        # `_rest` holds the bytes after the last line end. It is a bytearray because each chunk of a
-        # long line would copy `bytes` whole.
+        # A bytearray, since `bytes` would be copied for each chunk of a long line.
         first, *more = chunk.split(b"\n")
         if self._rest or not more:
             self._rest += first
@@ -282,7 +270,7 @@ class Child:
         self._stderr.take(chunk)
 
     def _wait_for_room(self) -> None:
-        """Wait until the program reads, and read what it writes meanwhile, against a deadlock."""
+        """Wait until the program reads; read its output meanwhile, against a deadlock."""
         self._poll.register(self._in, select.POLLOUT)
         try:
             self._listen()
@@ -299,18 +287,17 @@ class Child:
         self._processor.follow()
 
     def apart(self) -> None:
-        """Let this thread run again where it might before `beside`."""
+        """Undo `beside` for this thread."""
         self._processor.release()
 
     def read_on(self) -> None:
-        """Wait until the program reads our next message, of which it gets the first bytes now.
+        """Wait until the program reads our next message, whose first bytes are sent now.
 
-        A program that reads has written all that it had to write, and pipes keep the order: so
-        what it wrote before has come when this returns. It returns, too, when its output has ended
-        or no process can read our messages.
+        A program that reads has written all that it had to write, and pipes keep the order, so its
+        output has come. Returns also when its output has ended or no process reads our messages.
 
         Raises:
-            TooLong: it writes and writes, and does not read.
+            TooLong: it writes on and on, and does not read.
         """
         self.write(HEAD)
         self._head_sent = True
@@ -327,7 +314,6 @@ class Child:
             self._require_room()
 
     def _is_read(self) -> bool:
-        """Whether the program has read all that was written to it."""
         try:
             return fcntl.ioctl(self._in, termios.FIONREAD, _NO_BYTES) == _NO_BYTES
         except OSError:  # a system that does not tell
@@ -341,8 +327,7 @@ class Child:
 
     def exit_status(self) -> str | None:
         """The exit status in words; None if the program still runs after `LAST_WORDS` seconds."""
-        # Not by the wall clock: on a busy machine a program that dies waits for a processor, too.
-        # It answers no more: each wait is excused.
+        # Not by the wall clock: on a busy machine a dying program waits for a processor, too.
         clock = Stopwatch(lambda: tasks_of(self.process), tick=LAST_WORDS / 4)
         while (status := self._status()) is None:
             if clock.seconds() > LAST_WORDS:
@@ -352,12 +337,12 @@ class Child:
         return str(status)
 
     def signal(self) -> str | None:
-        """The name of the signal that ended the program, as SIGSEGV; None: none did."""
+        """The name of the signal that ended the program, or None."""
         status = self._status()
         return None if status is None else status.signal
 
     def ended_by_itself(self) -> bool | None:
-        """Whether it ended in another way than with exit code 0; None: it can still play."""
+        """Whether it failed: ended with another exit code than 0; None: it can still play."""
         if not (self.input_closed or self._output_ended):
             return None
         return self.exit_status() not in (None, "ended with exit code 0")
@@ -373,10 +358,10 @@ class Child:
         return exit_status(self._process.pid)
 
     def end(self, *, politely: float = 0.0) -> None:
-        """End the program and all of its descendants: first SIGTERM, then SIGKILL.
+        """End the program and all of its descendants: SIGTERM, then SIGKILL.
 
         Args:
-            politely: seconds to wait for its own end before SIGTERM.
+            politely: seconds to wait before SIGTERM.
         """
         if self._ended:
             return
@@ -385,8 +370,7 @@ class Child:
             with suppress(ProcessLookupError, PermissionError):
                 os.killpg(self._process.pid, signal.SIGTERM)
             self._await_end(GRACE)
-        # The group still exists: its leader is not reaped before `wait` below, so no other process
-        # can have its number.
+        # The leader is reaped only by `wait` below, so the group still has its number.
         reaper.end_all(self._process.pid, self.mark)
         self._process.wait()
         self.stderr()  # the last of what it printed
@@ -407,7 +391,7 @@ class Child:
 
 
 class ReaperProcess:
-    """The process of reaper.py; one serves any number of programs. Lives until `close`."""
+    """The process of reaper.py, for any number of programs. Lives until `close`."""
 
     def __init__(self) -> None:
         self._process = subprocess.Popen(  # noqa: S603  our own file
@@ -420,7 +404,7 @@ class ReaperProcess:
         )
 
     def started(self, group: int, mark: str) -> None:
-        """Put a program on the list of those to kill."""
+        """Add a program to the list of those to kill."""
         self._write(f"+ {group} {mark}\n")
 
     def ended(self, group: int, mark: str) -> None:
@@ -433,7 +417,7 @@ class ReaperProcess:
             self._process.stdin.write(line.encode())
 
     def close(self) -> None:
-        """End the reaper, which first kills every program that is still on its list."""
+        """End the reaper, which first kills every program on its list."""
         assert self._process.stdin is not None
         with suppress(OSError):
             self._process.stdin.close()

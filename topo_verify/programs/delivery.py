@@ -1,7 +1,6 @@
-"""Calls a mapper and reads what comes of it: the same in this process and in a child.
+"""Calls a mapper and reads its result, in this process or in a child.
 
-A mapper delivers a map, or it does not: it raises, or returns something else. Reading its result is
-part of the call, because attributes of a foreign object may run code.
+Reading the result is part of the call, because attributes of a foreign object may run code.
 """
 
 from __future__ import annotations
@@ -26,11 +25,11 @@ R = TypeVar("R")
 _PACKAGE = Path(errors.__file__).resolve().parent
 
 TEST_TOOLS = ("hypothesis", "_pytest", "pytest")
-"""Their exceptions pass through a mapper in the same process: they end a test, not a mapper."""
+"""Exceptions of these packages end a test, not the mapper in the same process."""
 
 
 class Undelivered(NamedTuple):
-    """Why a mapper delivered no map: it raised (`error`), or what it returned is none."""
+    """Why a mapper delivered no map: it raised (`error`), or it returned something else."""
 
     why: str
     error: BaseException | None = None
@@ -39,13 +38,13 @@ class Undelivered(NamedTuple):
 def deliver(
     mapper: Callable[[R], object], robot: R, *, alone: bool = False
 ) -> Finish | Undelivered:
-    """The map that a mapper delivers, as the `finish` event; or why it delivers none.
+    """The mapper's map as the `finish` event, or why it delivers none.
 
     Args:
-        alone: nothing but the mapper lives in this process; so whatever is raised, it raised.
+        alone: the mapper is alone in this process, so every exception is its own.
     Raises:
         MapperStopped: the robot or a limit stopped the mapper.
-        KeyboardInterrupt: Ctrl-C (unless `alone`); test tools raise what they need to.
+        KeyboardInterrupt: Ctrl-C, unless `alone`; also exceptions of test tools.
     """
     try:
         result = mapper(robot)
@@ -77,7 +76,7 @@ def _passes(error: BaseException) -> bool:
 
 
 def exception_text(error: BaseException) -> str:
-    """Type and text of an exception, file and line; the type alone if its text raises another."""
+    """Type, text, file and line of an exception; no text if that raises another."""
     place = _place(error)
     at = f" ({place})" if place else ""
     name = type(error).__name__
@@ -88,10 +87,7 @@ def exception_text(error: BaseException) -> str:
 
 
 def _place(error: BaseException) -> str:
-    """Where an exception was raised: the innermost line of the user's own files, if there is one.
-
-    Otherwise the innermost line outside of topo_verify; else empty.
-    """
+    """The innermost line of the user's files in a traceback, else one outside topo_verify."""
     frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.lineno]
     others = [f for f in frames if not Path(f.filename).is_relative_to(_PACKAGE)]
     chosen = [f for f in others if Path(f.filename).is_file() and is_users(f.filename)] or others
@@ -104,7 +100,7 @@ def _place(error: BaseException) -> str:
 
 
 def finish_of(result: object) -> Finish:
-    """The `finish` event of what a mapper returned.
+    """The `finish` event for a mapper's result.
 
     Raises:
         InputError: the result is no map, or its cost is no integer.

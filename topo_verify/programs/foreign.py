@@ -1,18 +1,14 @@
-"""A user's mapper in Python, in its own process: a `Program` that we serve.
+"""A user's Python mapper in its own process: a `Program` that we serve.
 
     with Foreign("my_mapper.py:explore") as mapper:
         report = examine(mapper.target, world)
 
-World, robot and trace stay here; the mapper's process (serve.py) has a pipe. What a mapper in the
-same process would show is not lost: the purpose of its moves, the text of its exceptions with file
-and line, what it prints (on our standard error, each line marked), what it has loaded.
+World, robot and trace stay here; the mapper's process (serve.py) has a pipe. When a limit stops the
+robot, the mapper's next move raises, so its process can play the next world, unless the mapper does
+not end in time.
 
-A robot that does not go on (the budget is used up) stops the mapper as it would in this process: by
-an exception from its next move. So the process plays the next world, too, and is not started anew
-for each world in which a mapper fails. One that does not come back in time is ended.
-
-What this does not show: that what the child says about itself is true. Its exceptions, its prints
-and `loaded` are its own words; moves, cost and trace are ours.
+What this does not show: that exceptions, prints and `loaded`, the child's own words, are true.
+Moves, cost and trace are ours.
 """
 
 from __future__ import annotations
@@ -35,13 +31,13 @@ from topo_verify.robot.simulator import EXPECTED
 T = TypeVar("T")
 
 LOADING = 120.0
-"""Seconds that a mapper has to be imported."""
+"""Seconds for the import of a mapper."""
 
 UNWINDING = Limits(move_timeout=1.0, world_timeout=1.0)
-"""How long a mapper has to end a world in which its robot was stopped, or its process is ended."""
+"""How long a mapper has to end a world in which its robot was stopped."""
 
 LONGEST = 2**26
-"""The most bytes of a message: a mapper in Python need not know of the protocol's limit."""
+"""The most bytes of a message: a Python mapper need not know the protocol's limit."""
 
 _from_child: msgspec.json.Decoder[ms.FromChild] = msgspec.json.Decoder(ms.FromChild)
 _from_loading: msgspec.json.Decoder[ms.FromLoading] = msgspec.json.Decoder(ms.FromLoading)
@@ -53,10 +49,10 @@ _WORLD_ENDS = ms.DoneMessage | ms.UndeliveredMessage
 
 
 def _decoded(line: bytes) -> ms.FromChild:
-    """The message of our child, whose robot leaves it to us to judge declarations.
+    """The message of our child, which leaves it to us to judge declarations.
 
     Raises:
-        Misbehaved: the mapper declared what is no decision; in the words of a robot in Python.
+        Misbehaved: the declaration is no decision; in the words of a robot in Python.
     """
     try:
         return _from_child.decode(line)
@@ -72,14 +68,14 @@ class Unlisted(InputError):
 
 
 class Foreign(Program):
-    """A Python mapper in its own process; the module's docstring says how.
+    """A Python mapper in its own process.
 
     Args:
         text: the TARGET, `package.module:attribute` or `path/file.py:attribute`.
-        fresh: it plays each world in a process that has played none.
+        fresh: play each world in a process that has played none.
     Raises (by `start` and by a call):
-        InputError: there is no such module, file or attribute; or it cannot be called. Once the
-            mapper was loaded, that it cannot be loaded again is a misbehaviour of its world.
+        InputError: no such module, file or attribute, or not callable. If it fails to load again
+            later, that is a misbehaviour in its world.
     """
 
     longest: ClassVar[int] = LONGEST
@@ -152,12 +148,10 @@ class Foreign(Program):
         raise why
 
     def _answer(self, child: Child, decoder: msgspec.json.Decoder[T], due: str) -> T:
-        """The child's next message outside of a world.
+        """The child's next message outside of a world; `due` as in "was loaded".
 
-        Args:
-            due: what the child had yet to do, as in "was loaded".
         Raises:
-            Misbehaved: no such message came; the sentence says what came.
+            Misbehaved: no such message came.
         """
         try:
             message: T = decoded(child.line(seconds=LOADING), decoder.decode, validate=False)

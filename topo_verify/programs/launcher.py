@@ -1,28 +1,22 @@
-"""Starts processes of our own that no other program can look into, not even in their first moment.
+"""Starts processes of our own that no other program can ever look into.
 
-    prepare()    call it before a program that is not ours is started
-    launch()     a process of ours that calls `module:function`
+**Why a launcher.** Every process of the user can read a new Python (by /proc/PID/mem, /proc/PID/fd,
+ptrace or pidfd_getfd) until it becomes undumpable. Files opened by then stay open, and a process
+traced by then obeys its tracer, so no key closes this gap. An exec makes a process dumpable, but a
+*fork inherits* undumpability. So the launcher is started and shielded before any foreign program,
+and workers are its forks. It has one thread and has loaded next to nothing, so it can always fork.
 
-**Why a launcher.** Every process of the user can read a new Python until that says it is not
-dumpable: by /proc/PID/mem, /proc/PID/fd, ptrace or pidfd_getfd. What was opened by then stays open,
-and a process that was traced by then may do what its tracer wants. So no key and no order of
-messages closes this gap. An exec makes a process dumpable, but a *fork inherits* that its parent is
-not. So one process, the launcher, is started and shielded before this process starts any program,
-and workers are its forks. Then it does not matter when a worker is started, or which process has
-left its group by then. The launcher has one thread and has loaded next to nothing, so it can be
-forked at any time.
-
-**Why not a library?** `multiprocessing.forkserver` listens on a socket with a name, to which any
-process of the user can connect, and it shields nothing.
+**Why not a library?** `multiprocessing.forkserver` listens on a named socket, to which any process
+of the user can connect, and it shields nothing.
 
     control    to the launcher: start a fork with these files; wait for the end of a fork
     channel    to each fork: a pair of sockets; the first line says what the fork does
 
-The launcher ends with the process that started it, and its forks end with the launcher. If it is
-killed after a program was started, it is not replaced, for a new one would have a first moment.
+The launcher ends with its parent, and its forks with the launcher. If it is killed after a foreign
+program was started, it is not replaced: a new one would have an unshielded first moment.
 
-What this does not show: a process that an *earlier* command left over runs beside the first moment
-of the launcher. On other systems than Linux nothing is hidden.
+What this does not show: a process left over by an *earlier* command runs beside the first moment of
+the launcher. On other systems than Linux nothing is hidden.
 """
 
 from __future__ import annotations
@@ -44,10 +38,10 @@ from topo_verify.errors import InputError, InternalError
 from topo_verify.programs import isolation
 
 _ORDER = struct.Struct("=qcq")
-"""An order to the launcher: its number, `_START` or `_WAIT`, the process to wait for."""
+"""Order to the launcher: its number, `_START` or `_WAIT`, the process to wait for."""
 
 _ANSWER = struct.Struct("=qq")
-"""An answer: the number of the order; the process that was started, or how a process ended."""
+"""Answer: the order's number; the process id, or how the process ended."""
 
 _START, _WAIT, _READY = b"+", b"-", b"."
 
@@ -55,10 +49,10 @@ _MOST_FILES = 8
 
 
 class Launched:
-    """A process that the launcher started. Life cycle: `launch` makes it, `wait` reaps it.
+    """A process started by the launcher; `wait` reaps it.
 
     Attributes:
-        pid: its number, which no other process has before `wait`.
+        pid: its number, not reused before `wait`.
         channel: the socket to it.
     """
 
@@ -66,7 +60,7 @@ class Launched:
         self._launcher, self.pid, self.channel = launcher, pid, channel
 
     def wait(self) -> int:
-        """Wait for its end; its exit code, or a signal as a negative number."""
+        """Wait for its end. Returns the exit code, or a signal as a negative number."""
         try:
             return self._launcher.ask(_WAIT, self.pid)
         except _Lost:
@@ -80,13 +74,12 @@ def prepare() -> None:
 
 
 def launch(place: str, *files: int, folder: str | None = None) -> Launched:
-    """A process that calls `module:function` with pipes from us and to us, and with the files.
+    """Start a process that calls `module:function`, with a channel and these files.
 
-    It imports from where this process imports, and has our environment and our standard error.
+    It has our import path, environment and standard error.
 
     Args:
-        files: file descriptors.
-        folder: where it runs; None: in the current folder.
+        folder: where it runs; default: the current folder.
     Raises:
         InputError: the launcher was killed after a program was started.
         OSError: the system starts no process.
@@ -106,8 +99,7 @@ def launch(place: str, *files: int, folder: str | None = None) -> Launched:
 
 
 def _started(files: Sequence[int]) -> tuple[_Launcher, int]:
-    """A fork that has these files, and its launcher."""
-    while True:  # as long as there is no foreign program, a launcher that was killed is replaced
+    while True:  # a launcher killed before any foreign program is replaced
         launcher = _launcher()
         with suppress(_Lost):
             return launcher, launcher.ask(_START, files=files)
@@ -138,7 +130,7 @@ class _Launcher:
 
     Attributes:
         owner: the process that started it; a fork of that starts its own launcher.
-        foreign: a program that is not ours was started since.
+        foreign: a foreign program was started since.
     """
 
     def __init__(self) -> None:
@@ -198,7 +190,6 @@ _forked: list[bool] = []
 
 
 def _launcher() -> _Launcher:
-    """The launcher of this process; started if needed."""
     with _starting:
         if _launchers and _launchers[-1].owner == os.getpid():
             last = _launchers[-1]
@@ -254,7 +245,7 @@ def main() -> None:
 
 
 def _play(channel: int, error: int, *files: int) -> None:
-    """Do in this fork what the channel says."""
+    """Run the task that the channel names, in this fork."""
     _forked.append(True)
     for file in (channel, *files):
         os.set_inheritable(file, False)  # noqa: FBT003  its only argument

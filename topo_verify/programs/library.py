@@ -2,11 +2,10 @@
 
     NativeMapper(library_function("--library ./mapper.so:map_world"))   # a mapper like any other
 
-The robot of the header is a row of callbacks; here they hand on to a robot in Python. After a
-refusal they do nothing, until the function returns: then what stopped the robot is raised.
+The header's robot is a row of callbacks to a robot in Python. After a refusal they do nothing;
+when the function returns, the exception that stopped the robot is raised.
 
-What this does not show: that the function keeps to its own memory. It runs in its own process
-(foreign.py), which holds no world.
+What this does not show: that the function keeps to its own memory.
 """
 
 from __future__ import annotations
@@ -27,16 +26,16 @@ LIBRARY = "--library "
 """The beginning of a TARGET that is a native mapper."""
 
 SYMBOL = "map_world"
-"""The name of the function if none is given."""
+"""The default name of the function."""
 
 VERSION = 1
 """The version of the interface: `TV_VERSION`."""
 
 MEMORY = 4 << 30
-"""The most bytes of address space that a process with a native mapper may take beyond its own."""
+"""Address space in bytes that a native mapper may take beyond its process's own."""
 
 MOST_DARTS = 1 << 20
-"""The most vertices, and darts, that are read of a delivered map."""
+"""Most vertices, and darts, of a delivered map."""
 
 REFUSED = -1
 
@@ -48,7 +47,7 @@ CONTRADICTIONS = (
     "two vertices of S would be one",
     "it lies on another face than e",
 )
-"""What `TV_UNLIKE` and so on mean; docs/semantics.md, section 13."""
+"""Meanings of `TV_UNLIKE` and so on; docs/semantics.md, section 13."""
 
 _RULES = get_args(RuleName)
 _KINDS = (None, "new", "loop")
@@ -72,7 +71,7 @@ _CALLBACKS: dict[str, Any] = {
 
 
 class _NativeRobot(ctypes.Structure):
-    """`tv_robot`. It has no world: this process knows none."""
+    """`tv_robot`, without a world."""
 
     _fields_ = [("version", _int), ("world", _world), *_CALLBACKS.items()]
 
@@ -87,14 +86,14 @@ def header_text() -> str:
 
 
 def library_file(text: str) -> tuple[str, str]:
-    """The file and the symbol that a TARGET `--library PATH[:SYMBOL]` names."""
+    """File and symbol of a TARGET `--library PATH[:SYMBOL]`."""
     place = text.removeprefix(LIBRARY)
     path, _, symbol = place.rpartition(":")
     return (path, symbol) if path and not os.path.isfile(place) else (place, SYMBOL)  # noqa: PTH113
 
 
 def library_function(text: str) -> Any:
-    """The function of a shared library, as ctypes has it. To open a library runs its code.
+    """The function of a shared library. Opening a library runs its code.
 
     Raises:
         InputError: there is no such library or symbol.
@@ -122,9 +121,9 @@ def library_function(text: str) -> Any:
 
 
 def confine() -> None:
-    """Let this process take a limited amount of memory, leave no core file, and never be doubled.
+    """Limit the memory of this process, and forbid core files and `fork`.
 
-    A process that a native mapper doubled by `fork` would speak twice; it is ended instead.
+    A native mapper's fork would speak on the same pipe; the process is aborted instead.
     """
     used = int(_first_word("/proc/self/statm")) * resource.getpagesize()
     _, most = resource.getrlimit(resource.RLIMIT_AS)
@@ -139,7 +138,7 @@ def confine() -> None:
 
 
 _before_fork: list[Any] = []
-"""The callback, which has to live as long as the process."""
+"""The callback, kept alive as long as the process."""
 
 
 def _end_before_fork() -> None:
@@ -155,11 +154,7 @@ def _first_word(path: str) -> str:
 
 
 class NativeMapper:
-    """A native mapper. Called once at a time, as its function is.
-
-    Args:
-        function: as ctypes has it.
-    """
+    """A native mapper; one call at a time."""
 
     def __init__(self, function: Any) -> None:
         self._function = function
@@ -170,7 +165,7 @@ class NativeMapper:
         }
 
     def __call__(self, robot: Robot) -> object:
-        """The map that it delivers."""
+        """Run the function. Returns the map that it delivered."""
         self._robot = robot
         self._stopped: BaseException | None = None
         self._map: dict[str, object] | None = None
@@ -182,7 +177,6 @@ class NativeMapper:
         return self._map
 
     def _guarded(self, work: Callable[..., int]) -> Callable[..., int]:
-        """The callback, which raises nothing and does nothing once the run is over."""
 
         def called(_world: int | None, *given: Any) -> int:
             if self._stopped is not None or self._map is not None:
@@ -268,22 +262,18 @@ class NativeMapper:
 
 
 def _word(percept: Percept) -> int:
-    """A percept as one word: `tv_word`."""
     return percept.degree * 65536 + (0 if percept.marker is None else percept.marker + 1)
 
 
 def _seen(word: int) -> dict[str, int | None] | None:
-    """The percept of a word; None for the word -1."""
     if word == REFUSED:
         return None
     return {"degree": word >> 16, "marker": (word & 65535) - 1 if word & 65535 else None}
 
 
 def _words(row: Any, count: int) -> list[int] | None:
-    """The first `count` words of a row; None if `count` is out of range."""
     return None if not 0 <= count <= MOST_DARTS else row[:count] if count else []
 
 
 def _named(names: tuple[str | None, ...], number: int) -> str | None:
-    """The name with this number, or a text that is no name."""
     return names[number] if 0 <= number < len(names) else f"number {number}"

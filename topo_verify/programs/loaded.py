@@ -1,17 +1,11 @@
-"""What a mapper's process has loaded: files and distributions, so that results can name them.
+"""What a mapper's process has loaded, so that results can name it.
 
-    watch()       from now on note every file that is opened for reading
-    loaded()      -> Loaded: each file and its hash, each installed distribution and its version
-    values_hash() of what a mapper was made with, which the text of its files does not say: the
-                  arguments of partials, the contents of closures, defaults, and the attributes of
-                  callable objects; read before the mapper runs, for some may change then
+A file counts if a module was loaded from it, or if Python opened it for reading after `watch`;
+except the standard library, installed distributions (their versions count) and topo_verify. Values
+are what files do not say: arguments of partials, contents of closures, defaults, attributes.
 
-A file counts if a module was loaded from it, or if Python opened it for reading after `watch`. Left
-out are the standard library, installed distributions (they count by their versions) and topo_verify
-itself. Files are hashed when `loaded` is called.
-
-What this does not show: files that C code or another process opens; what comes from the
-environment, a network or a clock; what C code holds; values beyond the first `MOST_VALUES`.
+What this does not show: files that C code or another process opens; the environment, a network or a
+clock; what C code holds; values beyond the first `MOST_VALUES`.
 """
 
 from __future__ import annotations
@@ -36,19 +30,19 @@ from topo_verify.errors import InputError, is_utf8
 _PACKAGE = str(Path(errors.__file__).resolve().parent)
 
 _NO_FILES = ("/proc/", "/sys/", "/dev/")
-"""What is not on a disk."""
+"""Folders that are not on a disk."""
 
 
 class Loaded(msgspec.Struct, frozen=True):
     """What a mapper's process has loaded.
 
     Attributes:
-        files: the SHA-256 of each file, by its absolute path.
-        distributions: the version of each installed distribution that it imported, by its name.
-        values: a hash of what the mapper was made with (`values_hash`); empty: not known.
-        modules: the file of each module among them, by the module's name.
+        files: absolute path -> SHA-256.
+        distributions: name of each imported distribution -> version.
+        values: a hash of what the mapper was made with; empty: not known.
+        modules: module name -> its file, among `files`.
     Raises:
-        InputError: the name of a file is not UTF-8, so no store can keep it.
+        InputError: a file name is not UTF-8, so no store can keep it.
     """
 
     files: dict[str, str] = {}
@@ -101,9 +95,9 @@ def loaded(values: str = "") -> Loaded:
     """What this process has loaded and, since `watch`, opened for reading.
 
     Args:
-        values: the hash of the mapper's values, as it was when the mapper was loaded.
+        values: the hash of the mapper's values when it was loaded.
     Raises:
-        InputError: the name of a file is not UTF-8, so no store can keep it.
+        InputError: a file name is not UTF-8.
     """
     files: dict[str, str] = {}
     modules: dict[str, str] = {}
@@ -122,41 +116,40 @@ def loaded(values: str = "") -> Loaded:
 
 
 def hashes(paths: Iterable[str]) -> dict[str, str]:
-    """The hash of each of these files; what is no file has none."""
+    """The hash of each of these files; paths that are not files are left out."""
     files: dict[str, str] = {}
     for path in paths:
-        if (found := file_hash(path)) is not None:
-            files[os.path.abspath(path)] = found  # noqa: PTH100
+        if (digest := file_hash(path)) is not None:
+            files[os.path.abspath(path)] = digest  # noqa: PTH100
     return files
 
 
 def file_hash(path: str) -> str | None:
     """The hash of a file's present contents; None if it cannot be read."""
     try:
-        found = os.stat(path)  # noqa: PTH116  far cheaper
-        if not stat.S_ISREG(found.st_mode):
+        now = os.stat(path)  # noqa: PTH116  far cheaper
+        if not stat.S_ISREG(now.st_mode):
             return None
-        state = (found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns, found.st_ctime_ns)
-        known, made = _hashes.get(path, ((), ""))
+        state = (now.st_dev, now.st_ino, now.st_size, now.st_mtime_ns, now.st_ctime_ns)
+        known, digest = _hashes.get(path, ((), ""))
         if known != state:
-            made = sha256(Path(path).read_bytes()).hexdigest()
-            _hashes[path] = (state, made)
+            digest = sha256(Path(path).read_bytes()).hexdigest()
+            _hashes[path] = (state, digest)
     except (OSError, ValueError):
         return None
-    return made
+    return digest
 
 
 def _enter(files: dict[str, str], path: str) -> None:
-    # Bytecode is made from a source, which is among the files of the modules.
     if path in files or "__pycache__" in path or not is_users(path):
         return
-    if (made := file_hash(path)) is not None:
-        files[path] = made
+    if (digest := file_hash(path)) is not None:
+        files[path] = digest
 
 
 @cache
 def is_users(path: str) -> bool:
-    """Whether a file belongs to neither Python, nor an installed distribution, nor topo_verify."""
+    """Whether a file belongs to neither Python, an installed distribution, nor topo_verify."""
     if path.startswith(_NO_FILES) or _is_installed(path):
         return False
     real = os.path.realpath(path)
@@ -175,7 +168,6 @@ def _standard() -> frozenset[str]:
 
 @cache
 def _versions(tops: frozenset[str]) -> dict[str, str]:
-    """The version of each distribution that installs one of these top-level packages."""
     return dict(sorted(pair for top in tops for pair in _installing(top)))
 
 
@@ -196,43 +188,42 @@ def _distributions() -> Mapping[str, list[str]]:
 
 
 MOST_VALUES = 10_000
-"""The most values that are read."""
+"""Most values that are read."""
 
 
 def values_hash(mapper: object) -> str:
-    """A hash of what a mapper was made with; call this before it runs."""
+    """A hash of what a mapper was made with; call it before the mapper runs and changes values."""
     text = repr(list(_described(mapper, {})))
     return sha256(text.encode(errors="backslashreplace")).hexdigest()
 
 
-def _described(value: object, seen: dict[int, object]) -> Iterator[str]:
+def _described(value: object, visited: dict[int, object]) -> Iterator[str]:
     """A value as words that are the same in every process."""
     if isinstance(value, bool | int | float | complex | str | bytes | None):
         yield f"{type(value).__name__} {value!r}"
         return
     yield f"{type(value).__module__}.{type(value).__qualname__}"
-    if id(value) in seen or len(seen) >= MOST_VALUES:
+    if id(value) in visited or len(visited) >= MOST_VALUES:
         return
-    seen[id(value)] = value  # kept, so that no other value gets its id
+    visited[id(value)] = value  # kept, so that no other value gets its id
     if isinstance(value, set | frozenset):
-        whole = cast("frozenset[object]", value)
-        yield from sorted(" ".join(_described(one, dict(seen))) for one in whole)
+        members = cast("frozenset[object]", value)
+        yield from sorted(" ".join(_described(member, dict(visited))) for member in members)
         return
     for part in _parts(value):
-        yield from _described(part, seen)
+        yield from _described(part, visited)
     yield "."  # where the parts end
 
 
 def _parts(value: object) -> Iterator[object]:
-    """What a value is made of."""
     if isinstance(value, list | tuple):
         yield from cast("list[object]", value)
     elif isinstance(value, Mapping):
         for pair in cast("Mapping[object, object]", value).items():
             yield from pair
     elif isinstance(value, partial):
-        made = cast("partial[object]", value)
-        yield from (made.func, made.args, made.keywords)
+        call = cast("partial[object]", value)
+        yield from (call.func, call.args, call.keywords)
     elif isinstance(value, MethodType):
         yield from (value.__func__, value.__self__)
     elif isinstance(value, FunctionType):

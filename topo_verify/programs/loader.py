@@ -1,4 +1,4 @@
-"""Loading of a mapper by its text: `package.module:attribute`, `path/file.py:attribute`, a library.
+"""Loads a mapper by its text: `package.module:attribute`, `path/file.py:attribute`, a library.
 
 Source: docs/semantics.md, section 16.
 """
@@ -37,7 +37,7 @@ Mapper = Callable[[Robot], object]
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """A mapper, and the text by which the command line finds it again."""
+    """A mapper and its text on the command line."""
 
     text: str
     mapper: Mapper
@@ -53,27 +53,27 @@ def load(text: str) -> Mapper:
     """
     if text.startswith(LIBRARY):
         return NativeMapper(native_function(text))
-    found = _found(text)
-    if is_jitted(found):
+    mapper = _found(text)
+    if is_jitted(mapper):
         raise InputError(f"target {text!r} is compiled by numba: give it as --library {text}")
-    if not callable(found):
+    if not callable(mapper):
         raise InputError(
-            f"target {text!r}: expected a callable that takes a robot, got {type(found).__name__}"
+            f"target {text!r}: expected a callable that takes a robot, got {type(mapper).__name__}"
         )
-    return found
+    return mapper
 
 
 def native_function(text: str) -> Any:
-    """The function of a native mapper, as ctypes has it; it is there as long as this process.
+    """The function of a native mapper as a ctypes object, valid as long as this process.
 
     Raises:
-        InputError: no such function; or numba does not compile it, or cannot.
+        InputError: there is no such function, or numba cannot compile it.
     """
     if not is_python(text):
         return library_function(text)
-    found = compiled_once(text)
+    function = compiled_once(text)
     confine()
-    return found
+    return function
 
 
 def is_python(text: str) -> bool:
@@ -83,7 +83,7 @@ def is_python(text: str) -> bool:
 
 @cache
 def compiled_once(text: str) -> Any:
-    """The function of a native mapper in a Python file, which is run and compiled at first.
+    """The function of a native mapper in a Python file, compiled once.
 
     Raises:
         InputError: as `native_function`.
@@ -93,22 +93,20 @@ def compiled_once(text: str) -> Any:
 
 
 def _found(text: str) -> object:
-    """What `package.module:attribute` or `path/file.py:attribute` names."""
     place, _, attribute = text.rpartition(":")
-    found = _load_file(Path(place), text) if place.endswith(".py") else _load_module(place, text)
+    value = _load_file(Path(place), text) if place.endswith(".py") else _load_module(place, text)
     for name in attribute.split("."):
         try:
-            found = _attribute(found, name)
+            value = _attribute(value, name)
         except AttributeError:
             raise InputError(
                 f"target {text!r}: {place} has no attribute {attribute!r}"
-                f"{close_attribute(found, name)}"
+                f"{close_attribute(value, name)}"
             ) from None
-    return found
+    return value
 
 
 def _attribute(whole: object, name: str) -> object:
-    """An entry of a mapping, else an attribute of an object."""
     if not isinstance(whole, Mapping):
         return getattr(whole, name)
     entries = cast("Mapping[str, object]", whole)
@@ -128,10 +126,10 @@ def _load_module(name: str, text: str) -> object:
 
 
 class _UncachedLoader(SourceFileLoader):
-    """Compiles the source each time, and writes no bytecode beside it.
+    """Compiles the source each time, and writes no bytecode.
 
-    Python takes bytecode for current if the source has the same second and size: a mapper that is
-    edited and run twice in a second would be the old one.
+    Bytecode counts as current if the source has the same second and size, so a mapper edited and
+    run twice in a second would be the old one.
     """
 
     def get_code(self, fullname: str) -> CodeType:  # noqa: ARG002  given by the base class
@@ -161,7 +159,6 @@ def _load_file(path: Path, text: str) -> object:
 
 
 def _one_line(error: BaseException) -> str:
-    """The type and the text of an exception on one line; its type alone if the text raises."""
     try:
         return f"{type(error).__name__}: {error}".replace("\n", " ")
     except Exception:  # noqa: BLE001  a foreign __str__ may raise anything
@@ -172,59 +169,57 @@ def _one_line(error: BaseException) -> str:
 
 
 _lasting: list[object] = []
-"""The compiled functions: their machine code lives as long as they do."""
+"""The compiled functions, which own their machine code."""
 
 
-def is_jitted(found: object) -> bool:
+def is_jitted(function: object) -> bool:
     """Whether numba compiles this function."""
     module = sys.modules.get("numba.core.dispatcher")
-    return module is not None and isinstance(found, module.Dispatcher)
+    return module is not None and isinstance(function, module.Dispatcher)
 
 
-def jitted_function(found: Any, where: str) -> Any:
-    """A function that numba compiles, as ctypes has it.
+def jitted_function(function: Any, where: str) -> Any:
+    """A function compiled by numba, as a ctypes object.
 
     Args:
-        where: the beginning of the sentence.
+        where: the beginning of the error message.
     Raises:
         InputError: it is no such function, or numba cannot compile it for a robot.
     """
-    if not is_jitted(found):
+    if not is_jitted(function):
         raise InputError(
-            f"{where}: expected a function compiled by numba, got {type(found).__name__}: put"
+            f"{where}: expected a function compiled by numba, got {type(function).__name__}: put"
             " @numba.njit above it, or give it as a TARGET without --library"
         )
-    # Compiled in the process that calls it. Numba freezes the globals that it reads, so a call
-    # leaves nothing to the next one but what it hides behind an address.
+    # Numba freezes globals, so a call leaves to the next one only what hides behind an address.
     from numba import cfunc, types
     from numba.core.errors import NumbaError
 
     def call(robot: int) -> None:
-        found(robot)
+        function(robot)
 
     try:
-        made: Any = cfunc(types.void(types.int64))(call)
+        machine_code: Any = cfunc(types.void(types.int64))(call)
     except NumbaError as error:
         raise InputError(f"{where}: numba cannot compile it: {_reason(str(error))}") from error
-    _lasting.append(made)
-    return ctypes.CFUNCTYPE(None, ctypes.c_void_p)(made.address)
+    _lasting.append(machine_code)
+    return ctypes.CFUNCTYPE(None, ctypes.c_void_p)(machine_code.address)
 
 
 def _reason(text: str) -> str:
-    """What an error of numba's comes down to, and the last place in a source that it names."""
     lines = [line.strip() for line in text.splitlines()]
-    told = [line for line in lines if line and not line.startswith("Failed in ")]
-    first = next((line for line in told if re.match(r"\w+Error: ", line)), told[0])
+    reasons = [line for line in lines if line and not line.startswith("Failed in ")]
+    first = next((line for line in reasons if re.match(r"\w+Error: ", line)), reasons[0])
     places = [line.rstrip(":") for line in lines if re.match(r'File ".*", line \d+', line)]
     theirs = [place for place in places if "topo_verify/" not in place]
     return shown("; ".join((first.rstrip("."), *theirs[-1:])), limit=400)
 
 
-# ---------------------------------------------------------------- hints where a TARGET is missp
+# ---------------------------------------------------------------- hints for a misspelled TARGET
 
 
 SHOWN = 5
-"""The most names that are listed if none is close."""
+"""Most names that are listed if none is close."""
 
 
 def close_name(name: str, known: Iterable[str]) -> str:
@@ -241,13 +236,11 @@ def close_attribute(whole: object, name: str) -> str:
 
 
 def _callables(whole: object) -> list[str]:
-    """The names of the callables in a mapping, or of those that a module defines itself."""
     if isinstance(whole, Mapping):
         return [
             key for key, value in cast("Mapping[str, object]", whole).items() if callable(value)
         ]
     entries: dict[str, object] = getattr(whole, "__dict__", {})
-    # What a module has imported from elsewhere is not a mapper of this module.
     home = getattr(whole, "__name__", None)
     return [
         key
@@ -257,7 +250,7 @@ def _callables(whole: object) -> list[str]:
 
 
 def missing_attribute(name: str) -> str | None:
-    """How to name a mapper in a file, if the name is that of a file or of a module beside us."""
+    """How to name a mapper in a file, if `name` is a file or a module in the current folder."""
     place = Path(name) if name.endswith(".py") else Path(f"{name.replace('.', '/')}.py")
     if not place.is_file():
         return f"there is no file {name!r}" if name.endswith(".py") else None
@@ -266,7 +259,7 @@ def missing_attribute(name: str) -> str | None:
     except (SyntaxError, ValueError, OSError):
         body = []
     makers = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
-    found = [node.name for node in body if isinstance(node, makers) and node.name[0] != "_"]
-    first = found[0] if found else "explore"
-    listed = f" (it has {', '.join(found[:SHOWN])})" if found else ""
+    names = [node.name for node in body if isinstance(node, makers) and node.name[0] != "_"]
+    first = names[0] if names else "explore"
+    listed = f" (it has {', '.join(names[:SHOWN])})" if names else ""
     return f"{place} is a file; name a mapper in it, as {name}:{first}{listed}"

@@ -1,7 +1,6 @@
 """What a program does instead of delivering a map, and the sentence that says so.
 
-`Misbehaved` ends a world. `decoded` reads a line or says what is wrong with it; `crash_report` and
-`silence_report` say why no line came. docs/reference/programs.md lists the causes and cures.
+docs/reference/programs.md lists causes and cures.
 """
 
 from __future__ import annotations
@@ -42,15 +41,14 @@ Misbehaviour = Literal[
     "skip",
     "error",
 ]
-"""What a program may do instead of delivering a map; docs/reference/programs.md lists cures."""
 
 MISBEHAVIOURS: tuple[Misbehaviour, ...] = get_args(Misbehaviour)
 
 SHOWN = 120
-"""How many characters of a bad line a message shows."""
+"""Characters of a bad line that a message shows."""
 
 LAST_LINES = 10
-"""How many lines of standard error a message shows: the last ones."""
+"""Last lines of standard error that a message shows."""
 
 
 class Misbehaved(MapperStopped):
@@ -58,8 +56,8 @@ class Misbehaved(MapperStopped):
 
     Attributes:
         kind: what it did instead.
-        detail: words to append to the sentence that says why it was stopped.
-        signal: the name of the signal that ended it, as SIGSEGV; None: none did.
+        detail: words to append to the message.
+        signal: the name of the signal that ended it, as SIGSEGV, or None.
     """
 
     def __init__(
@@ -79,7 +77,7 @@ def decoded(line: bytes, decode: Callable[[bytes], Any], *, validate: bool) -> A
     """The message in a line from a program.
 
     Raises:
-        Misbehaved: the line holds no message; the sentence shows the line.
+        Misbehaved: the line holds no message.
     """
     kind: Misbehaviour
     try:
@@ -101,14 +99,12 @@ def decoded(line: bytes, decode: Callable[[bytes], Any], *, validate: bool) -> A
 
 
 def _kind(error: str) -> Misbehaviour:
-    """The misbehaviour that a validation error stands for; msgspec says only at which path."""
     if error.endswith("`$.type`"):
         return "unknown-type"
     return "bad-declaration" if "`$.event" in error or "`$.declare" in error else "malformed"
 
 
 def _require_schema(line: bytes, message: object) -> None:
-    """Refuse a line with a field that the schema does not list, or with the same field twice."""
 
     def single(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         data = dict(pairs)
@@ -129,11 +125,7 @@ def shown_line(line: bytes) -> str:
 
 
 def crash_report(child: Child, due: str) -> Misbehaved:
-    """Why a program's output ended too early.
-
-    Args:
-        due: what the program had yet to do, as in "delivered a map".
-    """
+    """Why a program's output ended too early; `due` as in "delivered a map"."""
     status = child.exit_status()
     complaint = last_words(child.stderr())
     if child.in_half_a_line:
@@ -147,11 +139,7 @@ def crash_report(child: Child, due: str) -> Misbehaved:
 
 
 def silence_report(child: Child, message: str, *, over: bool = False) -> Misbehaved | None:
-    """The reason why a program that ran out of time was silent; None if none is known.
-
-    Args:
-        over: it has ended the world.
-    """
+    """Why a program that ran out of time was silent, or None; `over`: it has ended the world."""
     if over:
         detail = " after it had ended the world, and does not read on"
         return Misbehaved("not-reading", message, detail=detail)
@@ -166,7 +154,7 @@ def silence_report(child: Child, message: str, *, over: bool = False) -> Misbeha
 
 
 def last_words(stderr: str) -> str:
-    """The last lines on standard error, as words to append to a sentence."""
+    """The last lines on standard error, to append to a sentence."""
     lines = [shown(line.strip()) for line in stderr.splitlines() if line.strip()][-LAST_LINES:]
     if not lines:
         return ""
@@ -175,5 +163,5 @@ def last_words(stderr: str) -> str:
 
 
 def seen(child: Child) -> str:
-    """The first unexpected line, as words to append to a sentence."""
+    """The first unexpected line, to append to a sentence."""
     return f": {shown_line(child.unread)}" if child.unread else ""

@@ -1,21 +1,13 @@
-"""What a child process does beside the pipe: its processor, its exit status, its standard error.
+"""A child process beside the pipe: its processor, its exit status, its standard error.
 
-**Processor.** A program is kept on the processor of the thread that talks to it.
-The two take turns: one waits while the other works. On one processor the kernel switches between
-them in a few microseconds. On two, each message wakes up a processor that idles, which takes tens
-of them, more on a virtual machine: that decides how many moves a second go through the pipe.
+**Processor.** Program and harness thread take turns. On one processor the kernel switches between
+them in a few microseconds; on two, each message wakes an idle processor, which takes tens of them.
+So a program with a single thread is kept on the processor of the thread that talks to it, and that
+thread stays there for a world. A program with several threads or children, or with processors of
+its choice, is released.
 
-The thread is kept there, too, as long as a world lasts: were it moved to another processor, each
-message would wake one up again (9,400 moves a second in the place of 43,000, on two cores).
-
-A program with several threads or children is released as soon as they are seen.
-So is one that has chosen its processors itself. Systems without `sched_setaffinity` do nothing.
-
-**Exit status.** It is looked up without reaping the process. A process that is not reaped keeps its
-number, so that no other process can be taken for it before `Child.end` has ended the rest of its
-group.
-
-**Standard error.** Its end is kept for the report, or all of it appears on ours, line by line.
+**Exit status.** It is read without reaping, so the process keeps its number until `Child.end` has
+ended its group.
 """
 
 from __future__ import annotations
@@ -31,18 +23,16 @@ from topo_verify.errors import shown
 from topo_verify.robot.stopwatch import tasks_of
 
 LOOK_AGAIN = 16
-"""Number of worlds between two looks at whether the program has more than one thread."""
+"""Worlds between two counts of the program's threads."""
 
 
 class SharedProcessor:
-    """Where a program runs, and the thread that talks to it.
+    """Keeps a program and the thread that talks to it on one processor.
 
-    Life cycle: `follow` before each world, `release` after it, both in that thread.
+    That thread calls `follow` before each world, `release` after it.
 
-    Args:
-        process: the program's process.
     Attributes:
-        shared: the program is kept on one processor with us.
+        shared: the program is kept on our processor.
     """
 
     def __init__(self, process: int) -> None:
@@ -52,7 +42,7 @@ class SharedProcessor:
         self.shared = False
 
     def follow(self) -> None:
-        """Move a program with a single thread to the processor of this thread; let others go."""
+        """Move a program with a single thread to the processor of this thread; release others."""
         here = _processor()
         self._worlds += 1
         if here is None:
@@ -64,7 +54,7 @@ class SharedProcessor:
             os.sched_setaffinity(0, {here})
 
     def release(self) -> None:
-        """Let this thread run again where it might before `follow`."""
+        """Undo `follow` for this thread."""
         if self._ours:
             os.sched_setaffinity(0, self._ours)
             self._ours = set()
@@ -83,7 +73,6 @@ class SharedProcessor:
 
 
 def _processor() -> int | None:
-    """The number of the processor that runs this thread; None if the system does not tell."""
     number: int = _getcpu() if _getcpu is not None and hasattr(os, "sched_setaffinity") else -1
     return None if number < 0 else number
 
@@ -101,14 +90,14 @@ class ExitStatus(NamedTuple):
     number: int
 
     def __str__(self) -> str:
-        """The exit status in words, as in "the program ended with exit code 1"."""
+        """In words, as in "the program ended with exit code 1"."""
         if self.code == os.CLD_EXITED:
             return f"ended with exit code {self.number}"
         return f"was ended by {self.signal}"
 
     @property
     def signal(self) -> str | None:
-        """The name of the signal that ended the process, as SIGSEGV; None: none did."""
+        """The name of the signal that ended the process, as SIGSEGV, or None."""
         if self.code == os.CLD_EXITED:
             return None
         with suppress(ValueError):
@@ -118,22 +107,22 @@ class ExitStatus(NamedTuple):
 
 def exit_status(process: int) -> ExitStatus | None:
     """The exit status of a child process; None while it runs."""
-    found = os.waitid(os.P_PID, process, os.WEXITED | os.WNOWAIT | os.WNOHANG)
-    return None if found is None else ExitStatus(found.si_code, found.si_status)
+    end = os.waitid(os.P_PID, process, os.WEXITED | os.WNOWAIT | os.WNOHANG)
+    return None if end is None else ExitStatus(end.si_code, end.si_status)
 
 
 # ---------------------------------------------------------------- its standard error
 
 
 TAIL = 4096
-"""How many bytes of standard error are kept: the last ones."""
+"""Last bytes of standard error that are kept."""
 
 
 class StandardError:
-    """The standard error of a program: its end, and how much there was. Grows as it is read.
+    """The standard error of a program: its end, and its length.
 
     Args:
-        mark: what stands before each line on our own standard error; None: it does not appear.
+        mark: copy it to ours, each line behind this mark; None: do not.
     """
 
     def __init__(self, mark: str | None) -> None:
@@ -146,7 +135,7 @@ class StandardError:
         return self._tail.decode(errors="backslashreplace")
 
     def take(self, chunk: bytes) -> None:
-        """Note what was read; nothing means the end."""
+        """Add a chunk; an empty one means the end."""
         self.bytes += len(chunk)
         self._tail += chunk
         del self._tail[:-TAIL]

@@ -4,15 +4,9 @@
         report = examine(program.target, world)
 
 The program receives percepts and answers with doors, never the world. The simulated robot makes,
-checks and counts every move, so the program can hide none. One process plays many worlds. If
-the program misbehaves in a world, or a limit stops it, its process and all descendants are ended,
-and the next world starts a fresh one. (Our own child has a message that ends a world: foreign.py.)
-
-The limits of moves and time are those of `explore`. They strike here as they do in Python, because
-nothing below blocks for longer than a tick.
-
-Life cycle: construction (starts nothing); any number of calls; after a call, `settle` ends a
-process that misbehaved; at last `close`.
+checks and counts every move. One process plays many worlds. If the program misbehaves, or a limit
+stops it, its process and all descendants are ended, and the next world starts a fresh one. (Our own
+child has a message that ends a world: foreign.py.)
 
 Source: docs/semantics.md, section 15.
 """
@@ -44,27 +38,24 @@ from topo_verify.robot.limits import BudgetExceeded, TimeLimitExceeded, helped_b
 from topo_verify.robot.simulator import Misuse, SimulatedRobot
 
 IN_A_ROW = 100_000
-"""The most decisions that a program may declare without a move between them."""
+"""Most decisions that a program may declare without a move between them."""
 
 DECLARED, DECLARED_EACH = 2**24, 2**8
-"""The most bytes that a program may declare in a world, and more bytes for each pair of darts.
-
-Every pair of darts of the world may be a hypothesis that is rejected.
-"""
+"""Most bytes that a program may declare in a world; more for each pair of darts, a hypothesis."""
 
 PREFIX = "--cmd "
 """The beginning of a TARGET that is a program."""
 
 OPTIONS = (PREFIX, LIBRARY)
-"""The beginnings of TARGETs that a command line names by an option of their own."""
+"""The beginnings of TARGETs that are options on the command line."""
 
 
 TranscriptLine = tuple[Literal[">", "<"], bytes]
-"""A line of a transcript: `>` to the program, `<` from the program."""
+"""A line to (`>`) or from (`<`) the program."""
 
 
 class Program:
-    """A program as a mapper; the module's docstring says how.
+    """A program as a mapper. Construction starts nothing; at last `close`.
 
     Args:
         command: the program and its arguments, split as a shell would; no shell runs.
@@ -72,7 +63,6 @@ class Program:
         record: keep the transcript of the last world in `lines`.
     Attributes:
         misbehaved: why the last world ended without a map, if the program is to blame.
-        lines: the transcript of the last world.
     Raises:
         InputError: the command is empty or has an open quote; by a call: it cannot be started.
     """
@@ -100,7 +90,7 @@ class Program:
         return Target(PREFIX + shlex.join(self.command), self)
 
     def __call__(self, robot: Robot) -> Finish:
-        """Play one world with the program; its map, as the event that ends the trace.
+        """Play one world. Returns the program's map, as the event that ends the trace.
 
         Raises:
             MapperStopped: the program misbehaved, or a limit struck.
@@ -114,14 +104,14 @@ class Program:
             raise
         self._idle = self._halted = False
         child.beside()
-        found: Finish | Misbehaved | None = None
+        result: Finish | Misbehaved | None = None
         try:
             with helped_by(child.process, lambda: child.heard):
-                found = self._play(child, robot)
+                result = self._play(child, robot)
                 self._await_next(child)
         except Misbehaved as why:
-            # Keep a copy: the traceback of `why` refers to this frame and thus to the program, and
-            # a program in a circle of references is not ended when its last user drops it.
+            # A copy: the traceback of `why` refers to this frame, and a program in a circle of
+            # references is not ended when its last user drops it.
             self.misbehaved = why.copy()
             self._halted = why.kind == "bad-declaration"
             raise
@@ -133,21 +123,20 @@ class Program:
             raise
         except TimeLimitExceeded as why:
             # A failure reported in time counts even if the program does not read on.
-            if not isinstance(found, Misbehaved) or found.kind in ("skip", "error"):
-                self.misbehaved = silence_report(child, str(why), over=found is not None)
+            if not isinstance(result, Misbehaved) or result.kind in ("skip", "error"):
+                self.misbehaved = silence_report(child, str(why), over=result is not None)
                 raise
-        if isinstance(found, Misbehaved):
-            self.misbehaved = found
-            raise found.copy()
-        return found
+        if isinstance(result, Misbehaved):
+            self.misbehaved = result
+            raise result.copy()
+        return result
 
     # ------------------------------------------------------------ a world
 
     def _play(self, child: Child, robot: Robot) -> Finish | Misbehaved:
-        """The map; or in what other way the program ended the world as the protocol says."""
+        """The map, or the message by which the program ended the world without one."""
         self._send(child, ms.StartMessage(percept=robot.percept))
-        # Decisions are counted because they cost no move of the budget, and a flood of them would
-        # fill the memory before a time limit strikes.
+        # Decisions cost no move of the budget; a flood would fill the memory before a time limit.
         declared, written, most = 0, 0, _most_declared(robot)
         decode = self._decode
         declare = robot.record if isinstance(robot, SimulatedRobot) else robot.declare
@@ -174,7 +163,7 @@ class Program:
                 return _declined(message)
 
     def _await_next(self, child: Child) -> None:
-        """Wait until the program reads on or ends: what it wrote by then belongs to this world."""
+        """Wait until the program reads on or ends: its output until then belongs to this world."""
         try:
             child.read_on()
         except TooLong:
@@ -227,24 +216,21 @@ class Program:
 
     @property
     def process(self) -> int | None:
-        """The id of its process, if there is one."""
+        """Its process id, if there is a process."""
         return None if self._child is None else self._child.process
 
     def _ready(self) -> Child:
-        """The process that waits for a world; started if needed."""
         if self._child is None:
             self._reaper = self._reaper or ReaperProcess()
             try:
                 self._child = self._started(self._reaper)
             except Exception:
-                # A time limit is no Exception: the next start takes the same reaper.
                 reaper, self._reaper = self._reaper, None
                 reaper.close()
                 raise
         return self._child
 
     def _started(self, reaper: ReaperProcess) -> Child:
-        """A new process that is ready to play."""
         return Child(self.command, reaper)
 
     def settle(self) -> None:
@@ -257,7 +243,6 @@ class Program:
         self._idle = True
 
     def _unwound(self) -> bool:
-        """Have the process end a world in its midst; whether it now waits for the next one."""
         return False  # protocol 1 has no message for that
 
     def close(self) -> None:
@@ -311,7 +296,6 @@ _from_program: msgspec.json.Decoder[ms.FromProgram] = msgspec.json.Decoder(ms.Fr
 
 
 def _declined(message: ms.SkipMessage | ms.ErrorMessage | ms.UndeliveredMessage) -> Misbehaved:
-    """What a program says in place of a map."""
     if isinstance(message, ms.UndeliveredMessage):
         return Misbehaved(message.kind, message.why)
     skips = isinstance(message, ms.SkipMessage)
@@ -321,13 +305,11 @@ def _declined(message: ms.SkipMessage | ms.ErrorMessage | ms.UndeliveredMessage)
 
 
 def _most_declared(robot: Robot) -> int:
-    """How many bytes of decisions a program may write in this world."""
     darts = robot.darts if isinstance(robot, SimulatedRobot) else 0
     return DECLARED + DECLARED_EACH * darts**2
 
 
 def _too_many(declared: int, most: int) -> Misbehaved:
-    """The misbehaviour of a program that declares without end."""
     words = f"{declared} decisions without a move between them"
     if declared <= IN_A_ROW:
         words = f"decisions of more than {most} bytes in this world"

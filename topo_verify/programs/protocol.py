@@ -3,9 +3,8 @@
     to the program      start, percept, stop               {"id", "world"}           (batch)
     from the program    move, declare, done, skip, error   {"id", "doors", "map"}    (batch)
 
-Each line is one JSON object. The decoder ignores unknown fields, so that either side may be the
-newer one, and refuses an unknown `type`. The files in `schemas/` are generated from these types; a
-test keeps them equal.
+Each line is one JSON object. The decoder ignores unknown fields, so that either side may be newer,
+and refuses an unknown `type`. The files in `schemas/` are generated:
 
     $ python -m topo_verify.programs.protocol     # the four schemas, as one JSON object
 
@@ -31,7 +30,7 @@ PROTOCOL: Literal[1] = 1
 """The version of the protocol."""
 
 LIMIT = 2**20
-"""The most bytes of a message, its line end not counted."""
+"""The most bytes of a message, without its line end."""
 
 
 def _tag(class_name: str) -> str:
@@ -53,7 +52,7 @@ class StartMessage(_Message, frozen=True, kw_only=True):
     percept: Percept
 
 
-# gc=False: there are two messages a move, and neither can be part of a circle of references.
+# gc=False for speed: these messages cannot be part of a circle of references.
 class PerceptMessage(_Message, frozen=True, gc=False):
     """What the robot senses after the last move."""
 
@@ -112,33 +111,29 @@ FromProgram = MoveMessage | DeclareMessage | DoneMessage | SkipMessage | ErrorMe
 
 # ---------------------------------------------------------------- our own child
 
-# A mapper in Python runs in a process of ours (serve.py), which says more than protocol 1 can.
-# Other programs never receive these messages, and may not send them. What the child may say depends
-# on what it was asked: a message that does not belong there is a finding, as an unknown one is.
+# Other programs never receive these messages, and may not send them. The allowed answers depend on
+# the question.
 
 
 class ReadyMessage(_Message, frozen=True):
-    """From our child: the mapper is loaded, and waits for a world."""
+    """From our child: the mapper is loaded."""
 
 
 class RefusedMessage(_Message, frozen=True):
-    """From our child: the TARGET names no mapper; or what it has loaded cannot be listed."""
+    """From our child: the TARGET names no mapper, or what it has loaded cannot be listed."""
 
     why: str
 
 
 class UndeliveredMessage(_Message, frozen=True):
-    """From our child: the mapper raised, returned no map, or misused the robot. Ends the world.
-
-    Or it skips the world, as a native mapper may.
-    """
+    """From our child: the mapper raised, returned no map, misused the robot or skips the world."""
 
     kind: Literal["no-map", "bad-door", "bad-declaration", "skip"]
     why: str
 
 
 class OverMessage(_Message, frozen=True):
-    """To our child, in place of a percept: the robot does not go on. The child ends the world."""
+    """To our child, in place of a percept: end the world, for the robot was stopped."""
 
 
 class StockMessage(_Message, frozen=True):
@@ -157,7 +152,7 @@ FromLoading = ReadyMessage | RefusedMessage
 FromStock = LoadedMessage | RefusedMessage
 """From our child in answer to `stock`."""
 FromChild = MoveMessage | DeclareMessage | DoneMessage | UndeliveredMessage
-"""From our child in a world. A mapper in Python has no way to give one up."""
+"""From our child in a world."""
 
 
 # ---------------------------------------------------------------- batch
@@ -200,7 +195,7 @@ SCHEMAS: dict[str, Any] = {
     "batch-world": BatchTask,
     "batch-run": BatchRun,
 }
-"""The types of one line each; the package holds `schemas/<name>.schema.json` for every one."""
+"""The types of lines; the package holds `schemas/<name>.schema.json` for each."""
 
 
 def schema(name: str) -> dict[str, Any]:
@@ -208,18 +203,14 @@ def schema(name: str) -> dict[str, Any]:
     return dialect(msgspec.json.schema(SCHEMAS[name]))
 
 
-def dialect(made: dict[str, Any]) -> dict[str, Any]:
-    """The schema with its dialect named, the same under every Python.
-
-    Python 3.13 and later strip the indentation of docstrings, which become descriptions; so it is
-    stripped here for all.
-    """
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **_unindented(made)}
+def dialect(schema: dict[str, Any]) -> dict[str, Any]:
+    """The schema with its dialect named and unindented descriptions, as in Python 3.13."""
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **_unindented(schema)}
 
 
 def _unindented(part: Any) -> Any:
     if isinstance(part, list):
-        return [_unindented(one) for one in cast("list[object]", part)]
+        return [_unindented(item) for item in cast("list[object]", part)]
     if isinstance(part, dict):
         items = cast("dict[str, object]", part).items()
         return {
@@ -239,7 +230,6 @@ def unknown_fields(data: Any, message: object, place: str = "$") -> Iterator[str
         message: the decoded message.
     """
     if isinstance(message, msgspec.Struct):
-        # By names on the wire: a field of Python may be encoded under another name.
         fields = dict(zip(message.__struct_encode_fields__, message.__struct_fields__, strict=True))
         for name in data:
             if name in fields:
@@ -250,8 +240,8 @@ def unknown_fields(data: Any, message: object, place: str = "$") -> Iterator[str
                 yield f"{place}.{name}"
     elif isinstance(message, tuple):
         rows = cast("tuple[object, ...]", message)
-        for number, (one, other) in enumerate(zip(data, rows, strict=True)):
-            yield from unknown_fields(one, other, f"{place}[{number}]")
+        for number, (item, field) in enumerate(zip(data, rows, strict=True)):
+            yield from unknown_fields(item, field, f"{place}[{number}]")
 
 
 if __name__ == "__main__":

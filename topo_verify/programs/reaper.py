@@ -1,13 +1,12 @@
 """Kills the programs that a harness leaves behind when the harness itself is killed.
 
-The reaper is a process in its own session, which a signal to the harness does not reach. It
-reads `+ group mark` when the harness has started a program and `- group mark` when the harness has
-ended one. When its input ends, the harness has ended: the reaper kills every program that is still
-on its list. `ReaperProcess` (child.py) starts this file as a script, `python -I -S reaper.py`, so
-it imports nothing but the standard library.
+The reaper runs in its own session, which a signal to the harness does not reach. It reads
+`+ group mark` when a program was started and `- group mark` when it was ended. At the end of its
+input it kills the programs still on its list. It runs by `python -I -S`, with the standard library
+alone.
 
-A **mark** is the value of an environment variable that a program's descendants inherit. It finds
-the descendants that moved to another process group (on Linux only: it needs /proc).
+A **mark** is the value of an environment variable that descendants inherit. It finds those that
+moved to another process group (only on Linux: it needs /proc).
 
 What this does not show: a descendant that leaves its group AND clears its environment escapes.
 """
@@ -38,20 +37,19 @@ def end_all(group: int, mark: str) -> None:
 
 
 def marked(mark: str) -> list[int]:
-    """The process ids of the living processes that carry the mark."""
+    """The ids of the living processes that carry the mark."""
     wanted = f"{MARK}={mark}".encode()
-    found: list[int] = []
+    carriers: list[int] = []
     with suppress(OSError):
         for process in Path("/proc").iterdir():
             with suppress(OSError, ValueError):  # not a process, another user's, or ended by now
                 if wanted in (process / "environ").read_bytes().split(b"\0"):
-                    found.append(int(process.name))
-    return found
+                    carriers.append(int(process.name))
+    return carriers
 
 
 def main() -> None:
     """Keep the list of programs until the input ends, then kill those that are left."""
-    # Whatever ends the harness, the reaper ends after it: when its input does.
     for name in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(name, signal.SIG_IGN)
     living: dict[str, int] = {}

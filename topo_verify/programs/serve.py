@@ -1,12 +1,9 @@
 """A Python mapper behind protocol 1, in its own process.
 
-The command line starts one for each mapper that is not of the catalogue (foreign.py); it says more
-than the protocol can: that the mapper is loaded, what it raised and where, which files it opened.
-As a program like any other it speaks protocol 1 alone, to try the protocol with:
+The command line starts one for mappers outside the catalogue (foreign.py); it says more than the
+protocol can. As a program it speaks protocol 1 alone; an exception ends it:
 
     topo-verify conform --cmd 'python -m topo_verify.programs.serve my_mapper.py:explore'
-
-The mapper's prints go to standard error. Behind `--cmd` an exception ends the program.
 
 Source: docs/semantics.md, section 15.
 """
@@ -37,21 +34,21 @@ from topo_verify.robot.percept import Door, Percept, Purpose
 from topo_verify.robot.simulator import EXPECTED, Misuse, door_number, require_purpose
 
 CATALOGUE = "topo_verify.algorithms:NAMED.{}"
-"""The place of a name without a colon. Loaded by text, since programs/ imports no algorithms."""
+"""The place of a name without a colon, as text, since programs/ imports no algorithms."""
 
 _to_child: msgspec.json.Decoder[ms.ToChild] = msgspec.json.Decoder(ms.ToChild)
 _encode = msgspec.json.Encoder(enc_hook=index).encode
 
 
 WORDS = 100_000
-"""The most characters of an explanation that are sent."""
+"""Most characters of an explanation that are sent."""
 
 
 class RemoteRobot:
-    """The robot at the other end of the pipe. Lives as long as one world.
+    """The robot at the other end of the pipe, for one world.
 
     Attributes:
-        misuse: how the mapper misused the robot, which then never moves again; None: it did not.
+        misuse: how the mapper misused the robot, which then never moves again, or None.
     """
 
     __slots__ = ("_is_under_way", "_over", "_percept", "_reader", "_writer", "misuse")
@@ -68,7 +65,7 @@ class RemoteRobot:
         return self._percept
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
-        """Leave by a door; the percept behind it."""
+        """Leave by a door. Returns the percept behind it."""
         self._require_usable()
         try:
             number = door_number(door, self._percept.degree)
@@ -76,8 +73,8 @@ class RemoteRobot:
         except Misuse as why:
             self.misuse = ("bad-door", why)
             raise
-        # An exception may strike anywhere below: the recursion limit, a signal handler. Then this
-        # robot does not know whether it moved. `serve` passes over the percept that may come yet.
+        # An exception (recursion limit, signal handler) may strike anywhere below. Then this robot
+        # does not know whether it moved, and `serve` skips the percept that may come yet.
         self._is_under_way = True
         _send(self._writer, ms.MoveMessage(number, purpose))
         line = self._reader.readline()
@@ -115,20 +112,16 @@ class RemoteRobot:
 
 
 LATE = ms.OverMessage | ms.PerceptMessage
-"""The messages of a world that may come after the mapper was done with it, and would not read."""
+"""Messages of a world that may come after the mapper has ended it."""
 
 Player = Callable[[Mapper, RemoteRobot], object]
-"""Plays one world: has the mapper steer the robot, and returns the message that ends the world."""
+"""Plays one world. Returns the message that ends it."""
 
 
 def serve(
     mapper: Mapper, reader: BinaryIO, writer: BinaryIO, play: Player, values: str = ""
 ) -> None:
-    """Play worlds until a `stop` message or the end of the input.
-
-    Args:
-        values: the hash of what the mapper was made with.
-    """
+    """Play worlds until a `stop` message or the end of the input."""
     for line in reader:
         message = _to_child.decode(line)
         if isinstance(message, ms.StartMessage):
@@ -139,7 +132,6 @@ def serve(
             continue
         else:
             return
-        # First what the mapper printed: it belongs to the world that ends now.
         with suppress(OSError, ValueError):
             sys.stdout.flush()
         _send(writer, answer)
@@ -158,32 +150,31 @@ def _listed(values: str) -> ms.FromStock:
 
 
 def _as_program(mapper: Mapper, robot: RemoteRobot) -> object:
-    """Play as any program does: an exception ends it."""
-    found = mapper(robot)
+    result = mapper(robot)
     if robot.misuse is not None:
         raise robot.misuse[1]
-    finish = finish_of(found)
+    finish = finish_of(result)
     return ms.DoneMessage(finish.map, finish.cost)
 
 
 def _as_child(mapper: Mapper, robot: RemoteRobot) -> object:
-    """Play for `Foreign`; the answer says what kept the mapper from delivering a map."""
+    """Play for `Foreign`; the answer says why the mapper delivers no map."""
     try:
-        found = deliver(mapper, robot, alone=True)
+        result = deliver(mapper, robot, alone=True)
     except Skipped as stop:
         return ms.UndeliveredMessage("skip", _words(str(stop)))
     except MapperStopped as stop:
-        found = Undelivered(str(stop))
+        result = Undelivered(str(stop))
     if robot.misuse is not None:
         kind, misuse = robot.misuse
         return ms.UndeliveredMessage(kind, _words(str(misuse)))
-    if isinstance(found, Undelivered):
-        return ms.UndeliveredMessage("no-map", _words(found.why))
-    return ms.DoneMessage(found.map, found.cost)
+    if isinstance(result, Undelivered):
+        return ms.UndeliveredMessage("no-map", _words(result.why))
+    return ms.DoneMessage(result.map, result.cost)
 
 
 def _words(text: str) -> str:
-    """The text as it can be sent: cut, and without half characters."""
+    """The text as it can be sent: cut, and without surrogates."""
     return text[:WORDS].encode(errors="backslashreplace").decode()
 
 
@@ -194,7 +185,7 @@ def main(text: str) -> None:
 
 
 def child(text: str) -> None:
-    """Serve the mapper of a TARGET for `Foreign`; this is what its process runs."""
+    """Serve the mapper of a TARGET for `Foreign`."""
     loaded.watch()
     reader, writer = isolation.private_pipes()
     cast("TextIOWrapper", sys.stdout).reconfigure(line_buffering=True)
@@ -204,9 +195,9 @@ def child(text: str) -> None:
     except InputError as error:
         _send(writer, ms.RefusedMessage(_words(str(error))))
         return
-    made = loaded.values_hash(mapper)  # before it runs: a default may change then
+    values = loaded.values_hash(mapper)  # before it runs and changes a default
     _send(writer, ms.ReadyMessage())
-    serve(mapper, reader, writer, _as_child, made)
+    serve(mapper, reader, writer, _as_child, values)
 
 
 # ---------------------------------------------------------------- a process for each world
@@ -215,13 +206,11 @@ def child(text: str) -> None:
 def fresh(text: str) -> None:
     """Serve the mapper of a TARGET for `Foreign`, each world in a fork of this process.
 
-    This process loads all that a mapper needs but the mapper: a fork takes some milliseconds, to
-    start Python anew a few hundred. A fork changes no other process; if a signal ends
-    it, this process ends itself by the same. What numba has to compile, which takes seconds,
-    is compiled here; no world has been played then.
+    A fork takes some milliseconds, a new Python a few hundred. If a signal ends a fork, this
+    process ends itself by the same. Numba compiles here, before any world.
 
-    What this does not show: that nothing is left of an earlier world on the disk or in the
-    environment. All forks have the same hash seed.
+    What this does not show: that an earlier world left nothing on the disk or in the environment.
+    All forks have the same hash seed.
     """
     reader, writer = isolation.private_pipes()
     if is_python(text):
@@ -234,15 +223,14 @@ def fresh(text: str) -> None:
             continue
         if not isinstance(message, ms.StartMessage):
             return
-        played = os.fork()
-        if played == 0:
+        fork = os.fork()
+        if fork == 0:
             _play_and_end(text, message, reader, writer)
-        _, status = os.waitpid(played, 0)
+        _, status = os.waitpid(fork, 0)
         _end_likewise(os.waitstatus_to_exitcode(status))
 
 
 def _play_and_end(text: str, start: ms.StartMessage, reader: BinaryIO, writer: BinaryIO) -> None:
-    """Play one world and end this process."""
     code = 1
     try:
         try:
@@ -258,7 +246,7 @@ def _play_and_end(text: str, start: ms.StartMessage, reader: BinaryIO, writer: B
 
 
 def _end_likewise(code: int) -> None:
-    """End this process as the one that played ended, unless that was done with its world."""
+    """End this process as the fork ended, unless that was done with its world."""
     if code < 0:
         signal.signal(-code, signal.SIG_DFL) if -code != signal.SIGKILL else None
         os.kill(os.getpid(), -code)
