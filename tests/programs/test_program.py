@@ -230,6 +230,26 @@ def test_it_is_forgotten_at_once_though_its_program_misbehaved(tells: str) -> No
     assert known() is None
 
 
+@pytest.mark.parametrize("by", ["Popen", "the caller"])
+def test_a_process_that_was_reaped_elsewhere_is_closed_in_silence(tells: str, by: str) -> None:
+    """In a circle of references `Popen.__del__` may run first, and reaps a process that crashed."""
+    player = program(tells)
+    player.start()
+    child = player._child
+    assert child is not None
+    os.kill(child.process, signal.SIGSEGV)
+    os.waitid(os.P_PID, child.process, os.WEXITED | os.WNOWAIT)
+    if by == "Popen":
+        with pytest.warns(ResourceWarning):
+            child._process.__del__()
+    else:
+        os.waitpid(child.process, 0)
+    assert child.exit_status() is not None
+    assert (child.signal() == "SIGSEGV") == (by == "Popen")
+    player.close()
+    assert player.process is None
+
+
 def test_a_text_names_a_program_in_python_too(tells: str) -> None:
     run = explore(EDGE, tells)
     assert run.algorithm == tells

@@ -135,6 +135,7 @@ class Child:
         self._output_ended = False
         self.input_closed = False  # by the program or by us
         self._ended = False
+        self._reaped = False  # before `end` did it
 
     @property
     def process(self) -> int:
@@ -355,7 +356,14 @@ class Child:
         return self._stderr.tail
 
     def _status(self) -> ExitStatus | None:
-        return exit_status(self._process.pid)
+        try:
+            return exit_status(self._process.pid)
+        except ChildProcessError:
+            # It was reaped: by `Popen.__del__`, which the garbage collector may call before that of
+            # our user, or by a caller that waits for all of its children.
+            self._reaped = True
+            code = self._process.returncode or 0  # 0 if not known
+            return ExitStatus(os.CLD_KILLED if code < 0 else os.CLD_EXITED, abs(code))
 
     def end(self, *, politely: float = 0.0) -> None:
         """End the program and all of its descendants: SIGTERM, then SIGKILL.
@@ -370,8 +378,10 @@ class Child:
             with suppress(ProcessLookupError, PermissionError):
                 os.killpg(self._process.pid, signal.SIGTERM)
             self._await_end(GRACE)
-        # The leader is reaped only by `wait` below, so the group still has its number.
-        reaper.end_all(self._process.pid, self.mark)
+        # The leader is reaped only by `wait` below, so the group still has its number. If it was
+        # reaped elsewhere, the number may be that of another group.
+        self._status()
+        reaper.end_all(None if self._reaped else self._process.pid, self.mark)
         self._process.wait()
         self.stderr()  # the last of what it printed
         for stream in (self._process.stdin, self._process.stdout, self._process.stderr):

@@ -23,10 +23,11 @@ MARK = "TOPO_VERIFY_PROGRAM"
 """The environment variable that holds the mark."""
 
 
-def end_all(group: int, mark: str) -> None:
-    """Kill a process group and every process that carries the mark."""
-    with suppress(ProcessLookupError, PermissionError):
-        os.killpg(group, signal.SIGKILL)
+def end_all(group: int | None, mark: str) -> None:
+    """Kill a process group, if one is given, and every process that carries the mark."""
+    if group is not None:
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(group, signal.SIGKILL)
     for _ in range(3):  # a process may have forked while /proc was read
         carriers = marked(mark)
         for process in carriers:
