@@ -34,6 +34,10 @@ PartName = Literal[
 """Also the file in which the mistake stands."""
 
 
+Walks = Sequence[Executed]
+"""What was executed behind one edge."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fault:
     """A mapper: a reference algorithm with one mistake.
@@ -177,6 +181,6 @@ def crossed(chart: Chart) -> MapDart:
     return next(d for d, o in enumerate(chart.alpha) if o is None and d not in chart.unexplored)
 
 
-def one_late(sequences: Sequence[Executed]) -> list[Executed]:
+def one_late(sequences: Walks) -> list[Executed]:
     """The sequences with each percept one door late."""
     return [Executed(s.doors, (s.percepts[0], *s.percepts[:-1])) for s in sequences]

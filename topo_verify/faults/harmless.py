@@ -16,7 +16,7 @@ from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.folding import FoldingRule
 from topo_verify.algorithms.motion import Executed, Hypothesis, Pilot
 from topo_verify.algorithms.policies import Order, last, newest
-from topo_verify.faults.fault import Fault, ForwardingRobot, mapper, planted
+from topo_verify.faults.fault import Fault, ForwardingRobot, Walks, mapper, planted
 from topo_verify.robot.events import Decision, MapDart, Robot
 from topo_verify.robot.percept import Percept
 
@@ -74,9 +74,7 @@ def overlooks_a_passing_marker(pilot: Pilot, h: Hypothesis, shared: int) -> int 
 class compares_a_shorter_prefix(PrefixRule):
     """what was seen behind the last door is not compared, so more is walked"""
 
-    def refute(
-        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Refutation | None:
+    def refute(self, chart: Chart, hypothesis: Hypothesis, sequences: Walks) -> Refutation | None:
         shorter = [Executed(s.doors[:-1], s.percepts) for s in sequences]
         return super().refute(chart, hypothesis, shorter)
 
@@ -85,9 +83,7 @@ class compares_a_shorter_prefix(PrefixRule):
 class traces_every_sequence_again(HistoryRule):
     """all sequences of the edge are traced after each mismatch, not only the last"""
 
-    def refute(
-        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Refutation | None:
+    def refute(self, chart: Chart, hypothesis: Hypothesis, sequences: Walks) -> Refutation | None:
         for number in range(len(sequences)):
             refutation = super().refute(chart, hypothesis, sequences[: number + 1])
             if refutation is not None:
@@ -99,9 +95,7 @@ class traces_every_sequence_again(HistoryRule):
 class never_drops_a_record(RecordsRule):
     """T[d] stays when d is explored; nothing looks it up again"""
 
-    def learn(
-        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
-    ) -> None:
+    def learn(self, chart: Chart, e: MapDart, entry: MapDart, sequences: Walks) -> None:
         kept = dict(self.records)
         super().learn(chart, e, entry, sequences)
         self.records = kept | self.records

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
 
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
-from topo_verify.faults.fault import one_late, planted
+from topo_verify.faults.fault import Walks, one_late, planted
 from topo_verify.robot.events import Evidence, MapDart
 
 fault = partial(planted, "history")
@@ -19,9 +18,7 @@ fault = partial(planted, "history")
 class traces_through_the_unexplored(HistoryRule):
     """where a door is unexplored, tracing goes on as if it led back to the same vertex"""
 
-    def refute(
-        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Refutation | None:
+    def refute(self, chart: Chart, hypothesis: Hypothesis, sequences: Walks) -> Refutation | None:
         at, number = hypothesis.dart, len(sequences) - 1
         for last in sequences[-1:]:
             for step, door in enumerate(last.doors, 1):
@@ -38,9 +35,7 @@ class traces_through_the_unexplored(HistoryRule):
 class traces_from_the_first_dart(HistoryRule):
     """a sequence is traced from the first dart of h's vertex, not from h"""
 
-    def refute(
-        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Refutation | None:
+    def refute(self, chart: Chart, hypothesis: Hypothesis, sequences: Walks) -> Refutation | None:
         first = chart.first[chart.vertex[hypothesis.dart]]
         return super().refute(chart, Hypothesis(first, chart, chart.tree(0)), sequences)
 
@@ -63,14 +58,10 @@ class keeps_sequences_of_last_edge(HistoryRule):
     def __init__(self) -> None:
         self.before: list[Executed] = []
 
-    def refute(
-        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Refutation | None:
+    def refute(self, chart: Chart, hypothesis: Hypothesis, sequences: Walks) -> Refutation | None:
         return super().refute(chart, hypothesis, [*self.before, *sequences])
 
-    def learn(
-        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
-    ) -> None:
+    def learn(self, chart: Chart, e: MapDart, entry: MapDart, sequences: Walks) -> None:
         self.before = list(sequences)  # these started at another vu
 
 
@@ -78,7 +69,5 @@ class keeps_sequences_of_last_edge(HistoryRule):
 class compares_a_step_earlier(HistoryRule):
     """what was seen before a door is compared with what S shows behind it"""
 
-    def refute(
-        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Refutation | None:
+    def refute(self, chart: Chart, hypothesis: Hypothesis, sequences: Walks) -> Refutation | None:
         return super().refute(chart, hypothesis, one_late(sequences))

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
 
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_i import PrefixRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis, common_prefix
-from topo_verify.faults.fault import one_late, planted
+from topo_verify.faults.fault import Walks, one_late, planted
 
 fault = partial(planted, "prefix")
 
@@ -18,9 +17,7 @@ fault = partial(planted, "prefix")
 class compares_beyond_the_prefix(PrefixRule):
     """the percept behind the first door that differs is compared as well"""
 
-    def refute(
-        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Refutation | None:
+    def refute(self, chart: Chart, hypothesis: Hypothesis, sequences: Walks) -> Refutation | None:
         if not sequences:
             return None
         *before, last = sequences
@@ -33,9 +30,7 @@ class compares_beyond_the_prefix(PrefixRule):
 class compares_before_the_door(PrefixRule):
     """what was seen before a door of the prefix is compared with what is expected behind it"""
 
-    def refute(
-        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Refutation | None:
+    def refute(self, chart: Chart, hypothesis: Hypothesis, sequences: Walks) -> Refutation | None:
         return super().refute(chart, hypothesis, one_late(sequences))
 
 
@@ -43,9 +38,7 @@ class compares_before_the_door(PrefixRule):
 class counts_equal_doors_anywhere(PrefixRule):
     """the length of the common prefix is the number of equal doors anywhere"""
 
-    def refute(
-        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Refutation | None:
+    def refute(self, chart: Chart, hypothesis: Hypothesis, sequences: Walks) -> Refutation | None:
         if not sequences:
             return None
         *before, last = sequences

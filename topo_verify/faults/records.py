@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
 
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
-from topo_verify.faults.fault import one_late, planted
+from topo_verify.faults.fault import Walks, one_late, planted
 from topo_verify.robot.events import MapDart
 
 fault = partial(planted, "records")
@@ -19,9 +18,7 @@ fault = partial(planted, "records")
 class records_a_loop_from_dart_0(RecordsRule):
     """after a confirmation sequences are traced from dart 0 of h's vertex, not from h"""
 
-    def learn(
-        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
-    ) -> None:
+    def learn(self, chart: Chart, e: MapDart, entry: MapDart, sequences: Walks) -> None:
         super().learn(chart, e, entry, ())  # drops T[e] and T[h], as the reference does
         super().learn(chart, e, chart.first[chart.vertex[entry]], sequences)
 
@@ -30,9 +27,7 @@ class records_a_loop_from_dart_0(RecordsRule):
 class records_from_the_near_end(RecordsRule):
     """sequences are traced from e, by which the robot left, not from where it came in"""
 
-    def learn(
-        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
-    ) -> None:
+    def learn(self, chart: Chart, e: MapDart, entry: MapDart, sequences: Walks) -> None:
         super().learn(chart, entry, e, sequences)
 
 
@@ -40,9 +35,7 @@ class records_from_the_near_end(RecordsRule):
 class files_records_by_the_door(RecordsRule):
     """records are filed by the number of the door at its vertex, so vertices share them"""
 
-    def refute(
-        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Refutation | None:
+    def refute(self, chart: Chart, hypothesis: Hypothesis, sequences: Walks) -> Refutation | None:
         self.chart = chart
         return super().refute(chart, hypothesis, sequences)
 
@@ -51,9 +44,7 @@ class files_records_by_the_door(RecordsRule):
     ) -> Refutation | None:
         return super().beyond(self._door(exit_dart), sequence, step, number)
 
-    def learn(
-        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
-    ) -> None:
+    def learn(self, chart: Chart, e: MapDart, entry: MapDart, sequences: Walks) -> None:
         self.chart = chart
         super().learn(chart, e, entry, sequences)
 
@@ -68,9 +59,7 @@ class files_records_by_the_door(RecordsRule):
 class keeps_records_of_the_rejected(RecordsRule):
     """a sequence is recorded as traced from each hypothesis, even from rejected ones"""
 
-    def refute(
-        self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
-    ) -> Refutation | None:
+    def refute(self, chart: Chart, hypothesis: Hypothesis, sequences: Walks) -> Refutation | None:
         refutation = super().refute(chart, hypothesis, sequences)
         if refutation is None:  # not yet confirmed
             self.learn(chart, hypothesis.dart, hypothesis.dart, sequences[-1:])

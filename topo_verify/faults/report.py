@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
 
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart, Survey
-from topo_verify.algorithms.motion import Executed, Pilot
-from topo_verify.faults.fault import ForwardingRobot, planted
+from topo_verify.algorithms.motion import Pilot
+from topo_verify.faults.fault import ForwardingRobot, Walks, planted
 from topo_verify.robot.events import MapDart, Robot
 
 fault = partial(planted, "report")
@@ -104,9 +103,7 @@ def raises_past_exception(robot: Robot) -> Survey:
 class joins_the_last_two_unseen(NoRule):
     """when two darts are left, they are joined to one edge unseen, and the robot stops"""
 
-    def learn(
-        self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
-    ) -> None:
+    def learn(self, chart: Chart, e: MapDart, entry: MapDart, sequences: Walks) -> None:
         # They may also lead to two vertices not yet seen.
         if len(chart.unexplored) == 2:
             chart.join(*chart.unexplored)
