@@ -28,7 +28,7 @@ def league() -> League:
     league = League((Target(HOSTILE, print), Target("b,c", print)), (SUITE,), 0)
     for mapper, least in ((HOSTILE, 15), ("b,c", 30)):
         for place, world in enumerate(SUITE.worlds(0)):
-            league.made[mapper, world] = Row(
+            league.rows[mapper, world] = Row(
                 mapper=mapper,
                 world=world,
                 place=place,

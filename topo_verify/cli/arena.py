@@ -143,7 +143,7 @@ def arena(
         entries,
         show,
         account=account,
-        extent=lambda: acc.counted(len(league.made), league.planned, "runs"),
+        extent=lambda: acc.counted(len(league.rows), league.planned, "runs"),
         suite=words,
         seed=seed,
         in_process=in_process,
@@ -197,7 +197,7 @@ def _play(output: Output, league: League, folder: Path | None, workers: int) -> 
     with options.open_store(output, folder) as store:
         campaigns = matches(league, store)
         for row in options.stored_rows(output, campaigns, workers, store):
-            league.made[row.mapper, row.world] = row
+            league.rows[row.mapper, row.world] = row
         measure(league, store, output.progress)
 
 

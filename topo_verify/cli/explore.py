@@ -272,7 +272,7 @@ def _explored(
     if asked.trace is not None:
         files.write(asked.trace, write_trace(run.kept_trace).decode())
     if asked.choices is not None:
-        run = asked.choices.made(run)
+        run = asked.choices.checked(run)
     report, incomplete = runs.judged(run, at, asked.limits, strict=asked.strict)
     if asked.choices is not None:
         report = asked.choices.named(report, asked.limits)

@@ -420,11 +420,11 @@ def fails(fault: Fault, world: World) -> bool | None:
 class _Counting(ForwardingRobot):
     def __init__(self, robot: Robot, edges: int) -> None:
         super().__init__(robot)
-        self.left = edges
+        self.edges_left = edges
 
     def declare(self, event: Decision) -> None:
-        self.left -= isinstance(event, Augment)
-        if self.left < 0:
+        self.edges_left -= isinstance(event, Augment)
+        if self.edges_left < 0:
             raise _TooManyEdges
         super().declare(event)
 

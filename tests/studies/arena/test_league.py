@@ -23,7 +23,7 @@ HELD = tuple(Judged("ok", 3, 3) for _ in CLAIMS)
 def enter(table: League, mapper: str, world: str, cost: int, *, wrong: bool = False) -> None:
     """Enter a run that was not made."""
     finding = Finding("map-isomorphic", None, None, None, "wrong", replay="topo-verify replay x")
-    table.made[mapper, world] = Row(
+    table.rows[mapper, world] = Row(
         mapper=mapper,
         world=world,
         place=0,
@@ -108,8 +108,8 @@ def test_a_world_that_is_not_decided_costs_the_place() -> None:
     for world in GRIDS.worlds(0):
         enter(table, "basic", world, 20)
     first = GRIDS.worlds(0)[0]
-    row = table.made["basic", first]
-    table.made["basic", first] = replace(row, undecided="too late")
+    row = table.rows["basic", first]
+    table.rows["basic", first] = replace(row, undecided="too late")
     (entry,) = table.entries()
     assert (entry.place, entry.ratio, entry.worlds, entry.undecided) == (None, None, 2, 1)
     assert entry.why == (f"{first}: too late",)

@@ -23,7 +23,7 @@ def play(table: League, store: Store | None = None) -> None:
     """Make all runs, here."""
     for campaign in matches(table, store):
         for row in campaign.rows(0):
-            table.made[row.mapper, row.world] = row
+            table.rows[row.mapper, row.world] = row
 
 
 def test_of_a_wrong_mapper_no_run_is_made_behind_its_counterexample() -> None:
@@ -31,8 +31,8 @@ def test_of_a_wrong_mapper_no_run_is_made_behind_its_counterexample() -> None:
     play(table)
     (entry,) = table.entries()
     assert entry.counterexample is not None
-    assert list(table.made)[-1][1] == entry.counterexample.world
-    assert len(table.made) == entry.worlds < SMALL.size
+    assert list(table.rows)[-1][1] == entry.counterexample.world
+    assert len(table.rows) == entry.worlds < SMALL.size
 
 
 def test_what_is_stored_is_not_made_again_and_mappers_and_suites_join_later(
@@ -69,8 +69,8 @@ def test_the_store_does_not_tell_the_drawn_worlds(tmp_path: Path, mapper: str) -
     with Store(tmp_path / "runs.db") as store:
         again = League(targets(mapper), (grids,), 271)
         play(again, store)
-    assert [(key, row.findings) for key, row in again.made.items()] == [
-        (key, row.findings) for key, row in table.made.items()
+    assert [(key, row.findings) for key, row in again.rows.items()] == [
+        (key, row.findings) for key, row in table.rows.items()
     ]
 
 

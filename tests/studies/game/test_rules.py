@@ -120,7 +120,7 @@ def test_no_bound_is_above_the_value(edges: int) -> None:
             value = solver.value(state._replace(open=(number,)))
             assert found[number].proof_bound(state.code, state.at) <= value
         if len(todo) < 30 ** (edges - 1):
-            todo += [left for choice in rules.choices(state) for left in choice.left]
+            todo += [after for choice in rules.choices(state) for after in choice.states]
 
 
 @pytest.mark.parametrize("edges", [2, 3])

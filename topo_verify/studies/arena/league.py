@@ -157,7 +157,7 @@ class League:
     suites: tuple[Suite, ...]
     seed: int
     limits: Limits = field(default_factory=Limits)
-    made: dict[tuple[str, str], Row] = field(default_factory=dict[tuple[str, str], Row], repr=False)
+    rows: dict[tuple[str, str], Row] = field(default_factory=dict[tuple[str, str], Row], repr=False)
     peaks: dict[tuple[str, str], int | None] = field(
         default_factory=dict[tuple[str, str], int | None], repr=False
     )
@@ -181,7 +181,7 @@ class League:
         """A mapper's runs up to the first failing one."""
         rows: dict[str, Row] = {}
         for world in self.worlds_of(mapper):
-            if (row := self.made.get((mapper.text, world))) is not None:
+            if (row := self.rows.get((mapper.text, world))) is not None:
                 rows[world] = row
                 if row.failed:  # what follows depends on the workers
                     break
@@ -201,7 +201,7 @@ class League:
 
     def runs(self, mapper: str, suite: Suite) -> list[Row]:
         """A mapper's finished runs in a suite, in the order of its worlds."""
-        runs = (self.made.get((mapper, world)) for world in suite.worlds(self.seed))
+        runs = (self.rows.get((mapper, world)) for world in suite.worlds(self.seed))
         return [run for run in runs if run is not None]
 
     # ------------------------------------------------------------ a suite

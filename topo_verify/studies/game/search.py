@@ -43,7 +43,7 @@ class GameChoice(NamedTuple, Generic[S]):
     """A number of moves, and the states that their answers leave open."""
 
     moves: int
-    left: tuple[S, ...]
+    states: tuple[S, ...]
 
 
 class Rules(Protocol[S]):
@@ -134,7 +134,7 @@ class Solver(Generic[S]):
         weight = self._rules.worlds(state) if self._mean else 1
         least = math.inf
         for choice in self._choices[state]:
-            least = min(least, self._answers(choice.left, choice.moves * weight, limit))
+            least = min(least, self._answers(choice.states, choice.moves * weight, limit))
             if least <= limit:
                 break
         return least

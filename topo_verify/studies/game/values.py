@@ -201,7 +201,7 @@ def _least(games: Sequence[Rules[Any]], *, mean: bool, most_states: float) -> tu
             forced = tuple(rules.choices(start))
             paid = forced[0].moves if len(forced) == 1 else 0
             costs: list[int] = []
-            for state in forced[0].left if paid else (start,):
+            for state in forced[0].states if paid else (start,):
                 solver = Solver(rules, mean=mean, most_states=most)
                 least = solver.least(state)
                 costs.append(least.cost)

@@ -205,7 +205,7 @@ def with_choices(report: Report, text: str, choices: tuple[int, ...], limits: Li
 
 
 class ListedChoices:
-    """The choices of one run. Life cycle: run `target`, then `made`, then `named`.
+    """The choices of one run. Life cycle: run `target`, then `checked`, then `named`.
 
     Args:
         text: the choices, as `0,2,1`.
@@ -223,7 +223,7 @@ class ListedChoices:
         self._listed = sc.Listed(self._choices)
         self.target = Target(target.text, sc.scripted(target.mapper, self._listed))
 
-    def made(self, run: Exploration) -> Exploration:
+    def checked(self, run: Exploration) -> Exploration:
         """The run, if it made each of the choices; it cannot be repeated in a witness world.
 
         Raises:
