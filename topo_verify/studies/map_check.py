@@ -9,10 +9,9 @@ tree path from v0; a chord, if its loop is closed in the fold. The fold has no o
 edges are proved.
 
 **What is minimised.** A plan goes home, perhaps over an unproved edge; then it walks the loops not
-yet proved, the shortest first, and hanging trees when it passes them; it does not walk back at the
-end. If every loop is proved, it walks the shortest-path tree from where the robot stands. The
-cheapest plan counts. It is optimal from the start alone and in a tree; in general the optimum is as
-hard as the travelling salesman problem, so `cost` is an upper bound.
+yet proved, the shortest first, and hanging trees on its way. If every loop is proved, it walks the
+shortest-path tree from where the robot stands. The cheapest plan counts: optimal from the start
+alone and in a tree, elsewhere an upper bound (in general, a travelling salesman problem).
 
 Source: docs/semantics.md, section 11.
 """

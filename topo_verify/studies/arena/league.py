@@ -1,19 +1,17 @@
 """From runs to the league table: places, paired intervals, coverage of claims, counterexamples.
 
 A mapper has a place in a suite if it was judged in all its worlds and no claim failed in any run of
-the call. Nothing depends on the order in which runs finish.
+the call.
 
 **Intervals.** With F families of equal weight, of which family f has n worlds, mean x and sample
 variance s², the standard error of the mean is the root of Σ s²/n over F. An **exact** family, every
 world of a finite class, has none. The interval is Student's, at 95 %; its degrees of freedom are
 those of B. L. Welch (Biometrika 34, 1947): (Σ a)² / Σ (a² / (n-1)) with a = s²/n. Two mappers are
-compared by their **paired** differences in the same worlds.
+compared by their **paired** differences.
 
 **Ties.** A mapper shares the place of the one above it unless the interval of its paired difference
-from the first mapper with that place lies above 0.
-
-What this does not show: with few worlds far from normal, 95 % is an approximation. A family of one
-drawn world has no interval, so all mappers tie.
+from the first mapper with that place lies above 0. A family of one drawn world has no interval, so
+all mappers tie.
 """
 
 from __future__ import annotations

@@ -3,14 +3,12 @@
     in     {"id": "m5/17", "world": {…world JSON…}}                                a line a world
     out    {"id": "m5/17", "doors": [0, 2, …], "declare": […], "map": {…}, "cost": 12}
 
-The simulated robot walks the run's doors and makes its declarations; the trace is judged as any
-other. Runs may come in any order.
+The simulated robot walks the run's doors and makes its declarations. Runs may come in any order.
 
 If a process fails, its unanswered worlds are bisected, down to the one that fails alone. If it is
 silent for the time limit of one world, the finding goes to the first unanswered world.
 
-What this does not show: that doors were chosen from percepts alone. Claims 9 and 10 say whether the
-history proves the map.
+What this does not show: that doors were chosen from percepts alone.
 """
 
 from __future__ import annotations

@@ -7,10 +7,7 @@
 
 A run without a map has one finding, on level `result`. A world is undecided if the implementation
 skips it, gives it up, or exceeds its time while it still moves; or if something else may have ended
-its process.
-
-`look` compares each run with the reference's, in the process that makes it, and writes transcripts
-of failing worlds.
+its process. `look` works in the process that makes the run.
 """
 
 from __future__ import annotations
@@ -188,7 +185,7 @@ class Asked(NamedTuple):
     Attributes:
         like: the algorithm whose decisions it should make, or empty.
         pick, order: policies of the reference.
-        transcript: the folder for transcripts, or empty.
+        transcript: a folder, or empty.
     """
 
     like: str = ""

@@ -30,9 +30,9 @@ class Rest(NamedTuple):
     Attributes:
         uncrossed: the end vertices of edges never crossed, two for each edge.
         trips: the lengths of the shortest missing closed trips, ascending.
-        ended, back: the moves on pendant edges never crossed, if the walk begins and may end there;
-            if it begins at v0 and ends where it ends best.
-        far: of each dart of the fold, the distance of its vertex from v0 in the fold.
+        ended, back: the moves on pendant edges never crossed, for a walk that begins and ends
+            anywhere; that begins at v0.
+        far: of each dart of the fold, its distance from v0 there.
     """
 
     uncrossed: tuple[int, ...]

@@ -1,14 +1,14 @@
 """Folds as values: what a history has shown, in a numbering that makes equal folds equal.
 
 A **fold code** is the fold of a history (docs/semantics.md, section 11) in the numbering of the
-canonical code (section 12): the degrees of its vertices, and the other end of each dart, `OPEN`
-where it was never crossed. The marker points at dart 0, and only vertex 0 saw it.
+canonical code (section 12): the degrees of its vertices, and the other end of each dart, or `OPEN`.
+The marker points at dart 0, and only vertex 0 saw it.
 
 **What proves the map.** In a world below the fold, the visited part is a quotient of the fold, and
 beyond the open darts there may be anything that the class allows. So the quotients decide whether
 one world is left.
 
-Written apart from `checkers.Fold`, with which a test compares it.
+Written apart from `checkers.Fold`.
 """
 
 from __future__ import annotations

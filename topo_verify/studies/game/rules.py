@@ -1,13 +1,13 @@
 """The rules of two games: the history proves the map among all worlds, or among those of a class.
 
-`ProofRules`: the map is proved among worlds of any size.
+`ProofRules`, among worlds of any size:
 
     state       the fold of the history, where the robot stands in it, the open worlds
     choice      an open dart: go there along crossed edges, the shortest way, and cross it
     answer      the percept behind it
     the end     `GameEnding`: one world fits
 
-`ClassRules`: the robot knows a finite class of worlds, such as all with m edges.
+`ClassRules`, among a finite class of worlds:
 
     state       the worlds of the class in which the history happens, the robot's dart in each
     choice      a door
@@ -15,7 +15,7 @@
     the end     one world of the class is left
 
 **Bound.** By partition refinement: darts that look alike for k moves, door by door, need k moves to
-be told apart. A world must be told from the one hardest to tell from it.
+be told apart. A world must be told from the one most like it.
 """
 
 from __future__ import annotations

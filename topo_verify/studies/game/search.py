@@ -8,13 +8,11 @@ ends the game. The value of a state is
 
 where `worlds` is how many worlds the state leaves open.
 
-**Search.** To decide whether a value is at most a limit, only choices whose lower bound is within
-the limit matter. The limit is the state's own lower bound; if the answer is no, the least value
-still possible is the next one. So bounds rise until one is the value. The number of states is
-limited, not the time, so that two calls end alike.
+**Search.** The limit is a state's lower bound. Only choices with a lower bound within the limit are
+tried; if none attains it, the least value still possible is the next limit. So bounds rise until
+one is the value. The number of states is limited, not the time, so that two calls end alike.
 
-**Parts.** Playing against a part of the worlds costs no more than against all, and the sum is at
-least the sum over the parts. So the values of parts are a lower bound.
+**Parts.** The values of parts of the worlds, or their sum, are a lower bound.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Worlds run again, alone and in another order: does the mapper remember the worlds before?
 
-So the counterexample, up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed, are
-run again, each in a fresh process. If none fails, `ROW` worlds, or all, are run by one process in a
-shuffled order: no worker of a search meets as many.
+The counterexample, up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed, are run
+again, each in a fresh process. If none fails, `ROW` worlds, or all, are run by one process in a
+shuffled order.
 
     a failing world passes alone    `not-deterministic`: only after other worlds
     another world fails alone       `not-deterministic`, too; and so in the row

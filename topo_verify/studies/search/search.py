@@ -232,12 +232,11 @@ def search(  # noqa: PLR0913  an argument an option
     """Examine a mapper in every world of a class with 1 to `edges` edges, smallest first.
 
     Args:
-        target: a callable or a TARGET. A text that names several runs them in each world together.
+        target: a callable or a TARGET, which may name several mappers.
         keep_going: do not stop at the first counterexample.
         policies: which choices an algorithm of the catalogue is tried with; `choices.py`.
-        workers: number of worker processes; 0: this one. Workers are handed the TARGET's text.
+        workers: number of worker processes; 0: this one.
         dask: the address of a Dask scheduler, or `local`.
-        engine: what runs algorithms of the catalogue and native mappers.
     Raises:
         InputError: no such mapper; nothing knows how many worlds the class has; and the like.
         InternalError: mappers ran in another number of worlds than there are.

@@ -1,10 +1,8 @@
 """The parts that run mappers in worlds and have every claim judged.
 
-A part goes on after a counterexample, to count the failing worlds. It stops early after a few
-time-outs, and, if asked to, after a few failing worlds.
-
-With the compiled engine, `small-worlds` goes one size further for algorithms of the catalogue. The
-engine must count in the smaller sizes what the checkers counted.
+A part goes on after a counterexample, to count the failing worlds. With the compiled engine,
+`small-worlds` goes one size further for algorithms of the catalogue; in the smaller sizes the
+engine must count what the checkers counted.
 
 Algorithms of the catalogue run in worker processes: the small worlds in one campaign, the worlds of
 all later parts in another (`Together`), so that no processor idles at the end of a part.

@@ -1,7 +1,5 @@
 """The main job: six parts, each with its own verdict, in about a minute.
 
-`counts` and `proofs` do not depend on the mapper, so they are left out for a user's.
-
 | part | content | quick |
 | --- | --- | --- |
 | `counts` | the numbers of worlds of 1 to 6 edges equal those of formulas | 1 to 5 |
@@ -11,8 +9,8 @@
 | `generated-worlds` | 160 worlds as property tests draw them, 20 of each strategy | 40 |
 | `street-network` | a real street network, and the cost of each mapper there | the same |
 
-Uniformly drawn worlds have few vertices and many handles. Lattices, trees and worlds with many
-similar places are rare among them; the strategies draw these on purpose.
+Uniformly drawn worlds have few vertices and many handles; the strategies draw lattices, trees and
+worlds with many similar places.
 """
 
 from __future__ import annotations
@@ -117,9 +115,7 @@ def _jobs(
     sampled = trials("sampled-worlds", " drawn with 6 to 30 edges", number, drawn)
     street = CostTrial("street-network", "nyc", resolve_world("nyc"), targets, limits)
     if beside is None:
-        yield sampled
-    # Drawing takes seconds.
-    if beside is None:
+        yield sampled  # before the drawing, which takes seconds
         worlds = generated_worlds(5 if quick else EACH, seed)
     else:
         worlds = tuple(map(World.from_code, beside.result("drawing").codes))

@@ -1,16 +1,14 @@
 """What a search with every choice does with one world: its runs, and the range of its costs.
 
-    worlds of up to 4 edges   decided by the mapper: its states are found by running it, and each
-                              choice lies on a run that is judged by every claim; `graph.py`
+    worlds of up to 4 edges   decided by the mapper: each choice lies on a run of it that is judged
+                              by every claim; `graph.py`
     5 and 6 edges             decided by a model (`kernel.py`), which judges claims 3 and 4 in each
-                              state; the cheapest and the most expensive run are the mapper's,
-                              judged by every claim
+                              state; the cheapest and the most expensive run are the mapper's
 
 Named policies run, too: the script replaces their code.
 
-The model is not the mapper, so a search that it decides is SAMPLED. If the mapper's two runs cost
-something else, that is a bug of ours. If the model finds something wrong, running the mapper must
-find it, too.
+A search that the model decides is SAMPLED. If the mapper's two runs cost something else, that is a
+bug of ours. If the model finds something wrong, running the mapper must find it, too.
 """
 
 from __future__ import annotations

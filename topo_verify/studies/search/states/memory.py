@@ -2,12 +2,11 @@
 
 Two moments are one state only if these are equal:
 
-    what the mapper keeps       of each of its running functions: the place in its code, and each
-                                local variable that it may still read
+    what the mapper keeps       of each running function: the place in its code, and each local
+                                variable that it may still read
     what the judgement keeps    all of the past on which the judgement of later events depends
 
-A deterministic mapper goes on alike from equal variables at the same place of the world with the
-same choices. The events are judged alike, too:
+A deterministic mapper then goes on alike, and its events are judged alike:
 
     1, 5, 6, 7  by the robot's place in the world, its moves so far, and S as it was declared
     2, 3, 4     by S, the pose, and the hypotheses that were neither rejected nor confirmed
@@ -15,8 +14,8 @@ same choices. The events are judged alike, too:
     9, 10       by the fold of the whole history, and S on it
 
 What this does not see: module variables, the iterator of a `for` loop that a choice interrupts (the
-mapper has none), what a C object hides from `pickle`. And claim 10 judges a decision of
-`folding+planar` with the prior of the run that was made.
+mapper has none), what a C object hides from `pickle`; the prior of `folding+planar`, which is that
+of the run made.
 """
 
 from __future__ import annotations

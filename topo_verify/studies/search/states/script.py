@@ -1,13 +1,11 @@
 """One run of an algorithm that is told its choices one by one.
 
 Two things are open: between two edges, which e comes next; behind e, which hypothesis is tried next
-among those that the motion allows (`overlap`: those with the longest common prefix). Any sequence
-of tries is an order of H. So a run is a list of numbers, `--choices 0,2,1`: at each moment with
-more than one way, which way is taken, counted from 0 in the order of the darts of S. Behind the end
-of the list the first way is taken.
+among those that the motion allows (`overlap`: those with the longest common prefix). So a run is a
+list of numbers, `--choices 0,2,1`: at each moment with more than one way, which way is taken,
+counted from 0 in the order of the darts of S. Behind the end of the list the first way is taken.
 
-What this does not show: other ways to walk. Which shortest path is taken stays that of
-docs/semantics.md, section 5.
+What this does not show: other ways to walk (docs/semantics.md, section 5).
 """
 
 from __future__ import annotations
