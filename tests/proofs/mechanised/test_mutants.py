@@ -127,6 +127,18 @@ MUTANTS = (
         "then x :: y :: l else", "then x :: l else", "ReferencePolicies"),
     Mutant("bound-of-a-lower-order", "Algorithms",
         "<= 4 * (m * m * n)", "<= 4 * (m * n)", "Algorithms"),
+    Mutant("walks-as-far-as-the-robot-is", "RejectionCost",
+        "matched = false -> Nat.min (f (phi x)) (f c) <= length qs).",
+        "matched = false -> f c <= length qs).", "RejectionCost"),
+    Mutant("row-cut-in-two", "Row",
+        "| 1 => if S x =? 4 * n - 2 then x + 2 else x + 3",
+        "| 1 => if S x =? 4 * n - 2 then x + 2 else x - 1", "Row"),
+    Mutant("half-as-many-moves-again", "BoundReached",
+        "isomorphic M (double_row n) /\\ 2 * (n * (n - 1) * (n - 2)) <= 3 * length ms.",
+        "isomorphic M (double_row n) /\\ 3 * (n * (n - 1) * (n - 2)) <= 3 * length ms.",
+        "BoundReached"),
+    Mutant("reached-with-a-greater-constant", "BoundReached",
+        "m * m * n <= 12 * length ms <=", "m * m * n <= 5 * length ms <=", "BoundReached"),
     Mutant("doors-of-the-log-ignored", "Strategies",
         "if j =? k then answer_after (g q) ms else Lost",
         "if j =? j then Lost else answer_after (g q) ms",
@@ -409,6 +421,7 @@ QUICK = {
     "decided-without-looking", "numbered-one-late", "shared-doors-not-compared",
     "records-one-door-late", "ways-rooted-elsewhere", "fuel-for-fewer-rounds",
     "arcs-not-taken-again", "concluded-if-allowed", "dead-end-listed", "lucky-map",
+    "half-as-many-moves-again",
 }  # fmt: skip
 """Those of the everyday suite: one for each way to be wrong."""
 
