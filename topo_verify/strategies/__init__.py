@@ -1,5 +1,7 @@
 """Hypothesis strategies: worlds of many kinds, mappers, door words.
 
+File by file::
+
     general.py     worlds, planar_, nonplanar_,     shapes.py        bounds, what is possible
                    tree_, dense_, uniform_worlds    growth.py        makes a world of bytes
     grids.py       lattices                         draws.py         draws the bytes
