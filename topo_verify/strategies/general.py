@@ -77,17 +77,9 @@ def nonplanar_worlds(
         raise InputError(
             "nonplanar_worlds: expected genus 1 or more, got 0: planar_worlds draws that"
         )
-    return worlds_of(
-        "nonplanar_worlds",
-        min_edges=min_edges,
-        max_edges=max_edges,
-        marker=marker,
-        min_genus=1 if genus is None else genus,
-        max_genus=genus,
-        simple=simple,
-        loopless=loopless,
-        max_degree=max_degree,
-    )
+    bounds = {name: value for name, value in locals().items() if name != "genus"}
+    least = 1 if genus is None else genus
+    return worlds_of("nonplanar_worlds", min_genus=least, max_genus=genus, **bounds)
 
 
 @shown_as_called

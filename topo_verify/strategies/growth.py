@@ -34,7 +34,7 @@ from copy import copy
 from dataclasses import dataclass
 from itertools import cycle
 from random import Random
-from typing import Any, Literal
+from typing import Literal
 
 from topo_verify.strategies.shapes import MANY, Shape
 from topo_verify.world.rooted_map import Dart
@@ -148,12 +148,14 @@ class _Sapling:
         # taken back if no cross can follow, which a missing handle needs
         careful = self._genus_first and kind == "split" and self._genus < self._shape.min_genus
         for near, far in self._moves(kind, place):
-            before = self._state() if careful else None
+            # shallow copies: the values of lists and dicts do not change
+            state = vars(self).items() if careful else ()
+            before = {name: copy(value) for name, value in state if name != "_shape"}
             if kind == "leaf":
                 self._leaf(near)
             else:
                 self._join(near, far, across=kind == "cross")
-            if before is None or any(True for _ in self._moves("cross", 0)):
+            if not before or any(True for _ in self._moves("cross", 0)):
                 return True
             vars(self).update(before)
         return False
@@ -270,10 +272,6 @@ class _Sapling:
         if self._counts_joins:
             ends = (min(u, v), max(u, v))
             self._joins[ends] = self._joins.get(ends, 0) + 1
-
-    def _state(self) -> dict[str, Any]:
-        # shallow: their values do not change
-        return {name: copy(value) for name, value in vars(self).items() if name != "_shape"}
 
 
 def _from_place(corners: list[Dart], place: int) -> list[Dart]:

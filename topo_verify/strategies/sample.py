@@ -23,33 +23,17 @@ from hypothesis.internal.conjecture import providers
 from hypothesis.internal.constants_ast import Constants
 from hypothesis.strategies import SearchStrategy
 
-from topo_verify.strategies.general import (
-    dense_worlds,
-    nonplanar_worlds,
-    planar_worlds,
-    tree_worlds,
-    uniform_worlds,
-    worlds,
-)
-from topo_verify.strategies.grids import lattices
-from topo_verify.strategies.symmetric import symmetric_worlds
+from topo_verify import strategies
 from topo_verify.world import resolve
 from topo_verify.world.rooted_map import World
 
+_NAMES = (
+    *("worlds", "planar_worlds", "nonplanar_worlds", "tree_worlds", "lattices", "dense_worlds"),
+    *("symmetric_worlds", "uniform_worlds"),
+)
+
 WORLDS: MappingProxyType[str, Callable[..., SearchStrategy[World]]] = MappingProxyType(
-    {
-        make.__name__: make
-        for make in (
-            worlds,
-            planar_worlds,
-            nonplanar_worlds,
-            tree_worlds,
-            lattices,
-            dense_worlds,
-            symmetric_worlds,
-            uniform_worlds,
-        )
-    }
+    {name: getattr(strategies, name) for name in _NAMES}
 )
 """Every strategy that draws worlds, by its name."""
 

@@ -164,7 +164,9 @@ def _flat(world: World) -> _Torus:
         sides = sides * np.array([1, -1])  # clockwise turns are negative with y upwards
     lattice = _reduced(sides)
     change = sides @ np.linalg.inv(lattice)
-    return _Torus(places @ change, steps @ change, _level(lattice), tails)
+    x, y = lattice[0] / np.hypot(*lattice[0])  # turned: the first side lies level
+    level = lattice @ np.array([[x, -y], [y, x]])
+    return _Torus(places @ change, steps @ change, level, tails)
 
 
 def _reduced(sides: Floats) -> Floats:
@@ -181,12 +183,6 @@ def _reduced(sides: Floats) -> Floats:
     if b[0] * a[1] - b[1] * a[0] < 0:
         a = -a
     return np.array([b, a])
-
-
-def _level(sides: Floats) -> Floats:
-    x, y = sides[0] / np.hypot(*sides[0])
-    turned: Floats = sides @ np.array([[x, -y], [y, x]])
-    return turned
 
 
 def _shifted(torus: _Torus) -> _Torus:

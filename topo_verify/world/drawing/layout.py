@@ -205,20 +205,15 @@ def clear_radius(centres: Floats, chains: Sequence[Floats], rounding: float) -> 
         limits += [share * float(np.hypot(*leg)) for leg in ends]
         if np.abs(chain[0] - chain[-1]).max() == 0:
             limits.append(0.13 * curves.length(chain))
-        flat = _flat(chain, rounding)
-        apart = distances(centres, flat)
+        # enlarged, because path data has two decimals
+        scale = 1e4 / max(float(np.abs(chain).max()), 1e-12)
+        data = curves.smooth([(x, y) for x, y in (chain * scale).tolist()], rounding)
+        apart = distances(centres, curves.flatten(data) / scale)
         own = (np.abs(centres - chain[0]).max(1) == 0) | (np.abs(centres - chain[-1]).max(1) == 0)
         if not own.all():
             limits.append(0.62 * float(apart[~own].min()))
     # if vertices coincide, the picture will be found untrue
     return max(min(limits), 2e-4 * float(_box(centres, chains)[1].max()), 1e-9)
-
-
-def _flat(chain: Floats, rounding: float) -> Floats:
-    """The curve's points, without the rounding of path data."""
-    scale = 1e4 / max(float(np.abs(chain).max()), 1e-12)
-    data = curves.smooth([(x, y) for x, y in (chain * scale).tolist()], rounding)
-    return curves.flatten(data) / scale
 
 
 def distances(points: Floats, line: Floats) -> Floats:

@@ -212,11 +212,12 @@ def _touches(picture: Picture, world: World) -> Iterator[str]:
     lines += [((dart, dart), stub) for dart, stub in picture.stubs.items()]
     for edge, line in lines:
         own = {world.vertex_of[dart] for dart in edge}
+        points = np.concatenate([line, (line[1:] + line[:-1]) / 2])
         into = inside(rows, line)
         for k in np.flatnonzero(into).tolist():
             if vertices[k] not in own:
                 yield f"edge {edge} runs through vertex {vertices[k]}"
-            elif _depth(rows[k], line) > 2 * TOLERANCE:
+            elif np.hypot(*(points - rows[k][:2]).T).min() < rows[k][2] - 2 * TOLERANCE:
                 yield f"edge {edge} comes back into its own vertex {vertices[k]}"
 
 
@@ -229,8 +230,3 @@ def inside(circles: Floats, line: Floats) -> Floats:
     gap = offset - t[:, :, None] * step[None]
     into: Floats = (gap**2).sum(2).min(1) < circles[:, 2] ** 2
     return into
-
-
-def _depth(circle: Floats, line: Floats) -> float:
-    points = np.concatenate([line, (line[1:] + line[:-1]) / 2])
-    return float(circle[2] - np.hypot(*(points - circle[:2]).T).min())
