@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from pathlib import Path
 from random import Random
 
@@ -46,6 +47,7 @@ def test_a_path_reads_as_it_was_written() -> None:
     assert PATH.vertex_of == (0, 1, 1, 2)
     assert PATH.place_of == (0, 0, 1, 0)
     assert PATH.faces == ((0, 2, 3, 1),)
+    assert (PATH.cost_bound, LOOP.cost_bound) == (2 * (3 + 3 * 2 * 2), 1)
 
 
 def test_the_world_without_a_dart_is_a_world() -> None:
@@ -280,5 +282,7 @@ def test_a_world_shows_itself_and_writes_its_picture(tmp_path: Path) -> None:
     picture = world.draw(tmp_path / "world.svg")
     assert (tmp_path / "world.svg").read_text() == picture
     assert world._repr_svg_() == picture  # pyright: ignore[reportPrivateUsage]
+    html = str(vars(World)["_repr_html_"](world))
+    assert b64encode(picture.encode()).decode() in html
     with pytest.raises(InputError, match=r"world\.gif"):
         world.draw(tmp_path / "world.gif")

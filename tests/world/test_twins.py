@@ -102,6 +102,17 @@ def test_a_twin_that_looks_different_is_not_handed_out(monkeypatch: pytest.Monke
         World.from_id("m2/7").twin()
 
 
+@pytest.mark.parametrize("model", twins.MODELS)
+def test_a_world_that_falls_apart_is_no_twin(
+    model: twins.MarkerModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def joined(*_: object) -> None:
+        return None
+
+    monkeypatch.setattr(twins, "_joined", joined)
+    assert find_twin(World.from_id("m2/7"), model) == (None, "no exchange of two edges makes one")
+
+
 def test_an_unknown_model_is_refused() -> None:
     with pytest.raises(InputError, match="expected one of undirected, none"):
         World.from_id("m2/7").twin("seen")  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]  that is refused

@@ -32,6 +32,8 @@ def test_planar_worlds_are_listed() -> None:
     assert counts == [1, 2, 4, 14, 57]
 
 
-@pytest.mark.parametrize(("edges", "kind"), [(6, "planar"), (201, "any"), (60, "genus:1")])
+@pytest.mark.parametrize(
+    ("edges", "kind"), [(6, "planar"), (201, "any"), (60, "genus:1"), (17, "simple")]
+)
 def test_what_would_take_too_long_is_not_counted(edges: int, kind: str) -> None:
     assert unrooted_count(edges, WorldClass.parse(kind)) is None

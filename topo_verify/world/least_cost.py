@@ -145,7 +145,10 @@ def covering_walk(
     trips are walked there and back, the last branch only there.
     """
     core = {0, *(tree.vertex[dart] for trip in trips for dart in trip)}
-    branches = _branches(tree, core, needed)
+    reached = {*core}
+    for goal in needed:
+        reached.update([*tree.climb(goal, reached)])
+    branches = sorted(reached - core)  # on the tree paths to the needed vertices
     last, _ = _last(tree, core, branches)
     onward = {*tree.climb(last, core)}  # walked at the end
     children: dict[int, list[int]] = {}
@@ -158,13 +161,6 @@ def covering_walk(
         walk.append(dart)
         walk += _there_and_back(tree, children, tree.vertex[tree.table[1][dart]])
     return walk
-
-
-def _branches(tree: BreadthFirstTree, core: set[int], needed: Iterable[int]) -> list[int]:
-    reached = {*core}
-    for goal in needed:
-        reached.update([*tree.climb(goal, reached)])
-    return sorted(reached - core)
 
 
 def _last(tree: BreadthFirstTree, core: set[int], branches: Iterable[int]) -> tuple[int, int]:

@@ -248,9 +248,9 @@ class World:
 
     @property
     def cost_bound(self) -> int:
-        """The most edge traversals of a run: m·(n + (2m-1)·2(n-1)); m if n = 1."""
+        """The most edge traversals of a run: m·(n + (2m-1)·2(n-1))."""
         m, n = len(self.edges), len(self.vertices)
-        return m if n == 1 else m * (n + (2 * m - 1) * 2 * (n - 1))
+        return m * (n + (2 * m - 1) * 2 * (n - 1))
 
     def least_cost(self) -> int:
         """The fewest edge traversals that prove this map: `least_cost.py`."""

@@ -92,10 +92,12 @@ def as_world(
         rotations = [_clockwise(place, row, ways) for place, row in zip(places, exits, strict=True)]
         _require_connected(places, [ways[number] for number in kept])
         dart = {end: n for n, end in enumerate(end for row in rotations for end in row)}
+        if marker and marker.way in same:  # the other end of the way kept, which runs back
+            marker = DrawnEnd(same[marker.way], 1 - marker.side)
         return cls.from_rotations(
             [[dart[end] for end in row] for row in rotations],
             [(dart[DrawnEnd(way, 0)], dart[DrawnEnd(way, 1)]) for way in kept],
-            dart[_survivor(marker, same)] if marker else 0 if dart else None,
+            dart[marker] if marker else 0 if dart else None,
             name=name,
             vertex_names=tuple(place.name for place in places),
             positions=tuple(place.at for place in places),
@@ -140,11 +142,6 @@ def _merged(
         if way.directed:
             waiting.setdefault((way.start, way.end, course), []).append(number)
     return kept, same
-
-
-def _survivor(end: DrawnEnd, same: dict[int, int]) -> DrawnEnd:
-    # it runs the other way
-    return DrawnEnd(same[end.way], 1 - end.side) if end.way in same else end
 
 
 class _LeavingEnd(NamedTuple):

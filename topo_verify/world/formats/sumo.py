@@ -18,7 +18,7 @@ from typing import TypeVar
 
 from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import embedding, markup
-from topo_verify.world.formats.embedding import DrawnEdge, DrawnVertex, Point
+from topo_verify.world.formats.embedding import DrawnEdge, DrawnVertex
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
@@ -50,7 +50,11 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
                 edges[key] = attributes
                 points += attributes.get("shape", "").count(",")
             else:
-                places[key] = DrawnVertex(key, _at(attributes, subject))
+                x, y = (
+                    embedding.number(attributes.get(axis, ""), f"{subject}, {axis}")
+                    for axis in "xy"
+                )
+                places[key] = DrawnVertex(key, (x, y))
             embedding.require_size(name, vertices=len(places), edges=len(edges), points=points)
 
     def end(_path: tuple[str, ...], _text: str) -> None:
@@ -59,11 +63,6 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
     markup.read(data, name=name, start=start, end=end)
     ways = _ways(places, edges, name)
     return embedding.as_world(cls, list(places.values()), ways, source=name, name=stem)
-
-
-def _at(attributes: dict[str, str], subject: str) -> Point:
-    x, y = (embedding.number(attributes.get(axis, ""), f"{subject}, {axis}") for axis in "xy")
-    return x, y
 
 
 def _ways(
