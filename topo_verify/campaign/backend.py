@@ -1,17 +1,13 @@
 """Where shards are examined: in this process, in worker processes, on a Dask cluster.
 
-    here()              this process
-    pooled(workers)     worker processes of this machine; 0: this process
-    clustered(cluster)  the workers of a Dask cluster
+What a lost worker means, for every study:
 
-What a lost worker means is decided here, for every study:
-
-- A run that loses its worker twice is a finding, for no map was delivered. So is a run in which a
-  worker gives no sign of life for longer than any limit allows: its mapper cannot be interrupted.
-- A run that loses its worker once and is done at the second try is a finding, too: a right mapper
+- A run that loses its worker twice is a finding, for no map was delivered. So is a run whose worker
+  gives no sign of life for longer than any limit allows.
+- A run that loses its worker once and passes at the second try is a finding, too: a right mapper
   does not crash.
-- Unless something else may have ended the worker (SIGKILL, as by the out-of-memory killer; or, if
-  it was done at the second try, no sign of life): then the world is undecided, and named.
+- But if something else may have ended the worker (SIGKILL, as by the out-of-memory killer; or, if
+  it passed later, no sign of life), the world is undecided.
 """
 
 from __future__ import annotations
@@ -49,28 +45,28 @@ GRACE = 10.0
 """Seconds without a heartbeat, beyond all limits of a run, until a worker is given up."""
 
 COMPILING = 1200.0
-"""Seconds that a worker of the compiled engine has to get ready: it compiles, or waits for one."""
+"""Seconds that a worker of the compiled engine has to get ready."""
 
 PARTS = 16
-"""Number of parts into which a shard is cut when whole machines were lost with it."""
+"""Parts into which a shard is cut when whole machines were lost with it."""
 
 _LAST = sys.maxsize
-"""The number of a run, in the place of that of the last run of a shard."""
+"""Stands for the number of the last run of a shard."""
 
 MACHINES = "the Dask worker was lost, each time"
-"""Why a world is undecided with which whole machines were lost."""
+"""Why a world is undecided that lost whole machines."""
 
 SHORT_OF_MEMORY = "the mapper raised MemoryError there, and here it did not"
-"""Why a world is undecided in which a worker lacked memory that a process of the client's has."""
+"""Why a world is undecided in which a worker, but not the client, lacked memory."""
 
 _MEMORY_ERROR = re.compile(r"the mapper raised \w*MemoryError\b")  # numpy has another one
 
 Depends = Sequence[str] | None
-"""Further files that mappers depend on; None: what they load is not asked for."""
+"""Further files that mappers depend on; None: do not ask what they load."""
 
 
 class CampaignJob(msgspec.Struct, frozen=True):
-    """What a worker is handed before its first shard.
+    """What a worker gets before its first shard.
 
     Attributes:
         sources: the hash of the mappers' files.
@@ -89,7 +85,7 @@ def here(
 
     Args:
         mappers: those of the campaign, if they are loaded already; they are not closed here.
-        look: notes more about each run, in the place of the campaign's `look`.
+        look: replaces the campaign's `look`.
     """
 
     def run(
@@ -108,9 +104,9 @@ def here(
 
 
 def pooled(workers: int, depends: Depends = None) -> c.Backend:
-    """Processes of this machine, `workers` of them; 0: this process alone.
+    """Worker processes of this machine; 0: this process.
 
-    The compiled engine calls native mappers in a worker process in any case.
+    The compiled engine calls native mappers in a worker in any case.
     """
 
     def run(
@@ -136,7 +132,7 @@ def clustered(cluster: Cluster, depends: Depends = None) -> c.Backend:
         campaign: c.Campaign, shards: Iterator[c.Shard], in_flight: c.InFlight
     ) -> c.ShardResults:
         del in_flight  # a cluster says no more than which shards are finished
-        # What mappers load is asked for in any case: other machines may have other files.
+        # In any case ask what mappers load: other machines may have other files.
         depends_on = tuple(depends or ())
         mappers = campaign.load()
         try:
@@ -178,8 +174,8 @@ def _examined(
         if row is None or result.tally.failing:
             return result
         (wrong,) = row.findings
-        told = (msgspec.structs.replace(wrong, message=cause),)
-        return _with_loss(result, msgspec.structs.replace(row, findings=told))
+        findings = (msgspec.structs.replace(wrong, message=cause),)
+        return _with_loss(result, msgspec.structs.replace(row, findings=findings))
 
 
 def calls_native(campaign: c.Campaign) -> bool:
@@ -189,7 +185,7 @@ def calls_native(campaign: c.Campaign) -> bool:
 
 
 def _prepare(campaign: c.Campaign) -> None:
-    """Have compiled what the campaign needs."""
+    """Compile what the campaign needs."""
     if campaign.engine == "compiled" and isinstance(campaign.worlds, c.Ranks):
         from topo_verify.campaign.compiled import warm
 
@@ -197,7 +193,7 @@ def _prepare(campaign: c.Campaign) -> None:
 
 
 def _job(campaign: c.Campaign, depends: Depends) -> CampaignJob:
-    mappers = campaign.load()  # before any worker is started: the message is then the first
+    mappers = campaign.load()  # before any worker is started
     try:
         sources = source_hash(mappers)
     finally:
@@ -206,15 +202,15 @@ def _job(campaign: c.Campaign, depends: Depends) -> CampaignJob:
 
 
 def remade(job: bytes) -> Work[c.Shard, c.ShardResult]:
-    """The same work on another machine, made of its job as JSON."""
+    """The same work on another machine, from its job as JSON."""
     return _work(msgspec.json.decode(job, type=CampaignJob))
 
 
 def _work(job: CampaignJob, ours: Loaded | None = None) -> Work[c.Shard, c.ShardResult]:
-    """What workers are to do.
+    """The work of a campaign's workers.
 
     Args:
-        ours: what the mappers have loaded here; what they load on other machines must be the same.
+        ours: what the mappers have loaded here, to compare with other machines.
     """
     campaign = job.campaign
 
@@ -251,10 +247,10 @@ def _work(job: CampaignJob, ours: Loaded | None = None) -> Work[c.Shard, c.Shard
 def _with_our_memory(
     work: Work[c.Shard, c.ShardResult], shard: c.Shard, result: c.ShardResult
 ) -> c.ShardResult:
-    """The result of a worker; if a mapper lacked memory there, what a process of ours finds.
+    """The result of a worker; if a mapper lacked memory there, the result of a process of ours.
 
-    A worker may have less memory than this process, by a limit or because others take it. So a
-    MemoryError refutes only if the mapper fails here, too; otherwise the world is undecided.
+    A worker may have less memory than this process. So a MemoryError refutes only if the mapper
+    fails here, too; otherwise the world is undecided.
     """
     short = [row for row in result.rows if _lacks_memory(row)]
     if not short:
@@ -283,26 +279,26 @@ def serve(job: bytes) -> Generator[Handler]:
     """Load the mappers of a `CampaignJob`, then examine shards.
 
     Raises:
-        InputError: a mapper cannot be loaded, or its source is another than when this began.
+        InputError: a mapper cannot be loaded, or its source has changed.
     """
     signal.signal(signal.SIGTERM, lambda _signal, _frame: sys.exit(1))  # through this context
-    asked = msgspec.json.decode(job, type=CampaignJob)
-    if asked.depends is not None:
+    given = msgspec.json.decode(job, type=CampaignJob)
+    if given.depends is not None:
         watch()  # before a mapper is loaded
-    mappers = asked.campaign.load()
+    mappers = given.campaign.load()
     try:
-        if source_hash(mappers) != asked.sources:
+        if source_hash(mappers) != given.sources:
             raise InputError(
-                f"target {asked.campaign.mappers[0]!r}: its source, or topo-verify's, has changed"
+                f"target {given.campaign.mappers[0]!r}: its source, or topo-verify's, has changed"
                 " since this began, or is another one on this machine: start it again, with the"
                 " same sources everywhere"
             )
-        _prepare(asked.campaign)
-        identity = None if asked.depends is None else Identity(mappers, asked.depends)
+        _prepare(given.campaign)
+        identity = None if given.depends is None else Identity(mappers, given.depends)
 
         def handle(task: bytes, beat: Beat) -> c.ShardResult:
             shard = msgspec.json.decode(task, type=c.Shard)
-            return _examined(asked.campaign, mappers, identity, shard, beat)
+            return _examined(given.campaign, mappers, identity, shard, beat)
 
         yield handle
     finally:
@@ -313,7 +309,6 @@ def serve(job: bytes) -> Generator[Handler]:
 
 
 def _joined(campaign: c.Campaign, parts: list[c.ShardResult]) -> c.ShardResult:
-    """The result of all parts of a shard, in their order."""
     known = [part.loaded for part in parts if part.loaded is not None]
     rows = [row for part in parts for row in part.rows]
     return c.ShardResult(
@@ -325,7 +320,6 @@ def _joined(campaign: c.Campaign, parts: list[c.ShardResult]) -> c.ShardResult:
 
 
 def _kept(campaign: c.Campaign, rows: Sequence[Row]) -> tuple[Row, ...]:
-    """Those of the rows that the campaign keeps."""
     return tuple(rows) if campaign.keep == "all" else notable(rows, campaign.seed)
 
 
@@ -376,7 +370,7 @@ def _split(shard: c.Shard, cuts: Sequence[int]) -> list[c.Shard]:
 
 
 def _lost(campaign: c.Campaign, shard: c.Shard, loss: Loss) -> c.ShardResult:
-    """The result of a shard of one world, or of none, that was lost with its last worker."""
+    """The result of a shard of at most one world that was lost with its last worker."""
     if loss.loading:
         raise InputError(
             f"target {campaign.mappers[0]!r}: a process that loads it ends ({loss.cause})"
@@ -408,7 +402,7 @@ def _lost_in_native_code(campaign: c.Campaign, shard: c.Shard, loss: Loss) -> c.
 
 
 def _open(campaign: c.Campaign, shard: c.Shard) -> c.ShardResult:
-    """The result of a shard with which whole machines were lost: its worlds are undecided."""
+    """The result of a shard that lost whole machines: its worlds are undecided."""
     worlds = campaign.worlds.worlds(shard)
     mapper, limits = campaign.mappers[0], campaign.limits
     return counted(
@@ -418,11 +412,11 @@ def _open(campaign: c.Campaign, shard: c.Shard) -> c.ShardResult:
 
 
 def counted(worlds: Iterable[Sequence[Row]]) -> c.ShardResult:
-    """The result of a shard, given the rows of each of its worlds; all of them are kept."""
+    """The result of a shard that keeps all of these rows, grouped by world."""
     counts, rows = Counts(), list[Row]()
-    for met in worlds:
-        counts.enter(met)
-        rows += met
+    for world in worlds:
+        counts.enter(world)
+        rows += world
     return c.ShardResult(counts.tally(), tuple(rows))
 
 
@@ -445,7 +439,7 @@ def _survived(
     losses: Sequence[tuple[c.Shard, Loss]],
     given_up: Sequence[c.Shard],
 ) -> c.ShardResult:
-    """The result of a shard, with the losses in runs that were done when tried again."""
+    """The result of a shard, with the losses in runs that passed later."""
     for shard, loss in losses:
         cause = loss.cause if loss.maybe_external else f"{loss}{SECOND_TRY}"
         external, at, items = loss.maybe_external, shard, loss.items
@@ -485,7 +479,7 @@ def _with_loss(result: c.ShardResult, row: Row) -> c.ShardResult:
 
 
 def _passed_later(known: Row, lost: Row) -> Row:
-    """The row of a run that passed at the second try, and had lost a worker before."""
+    """The row of a run that passed at the second try."""
     if lost.undecided is None:
         return msgspec.structs.replace(
             known, ended=lost.ended, stopped=lost.stopped, findings=lost.findings
@@ -502,10 +496,10 @@ class MapperCampaign:
     """The runs of one mapper in a list of worlds.
 
     Mappers may join later, and each stops at its own first failing world. The store finds a world
-    by its name and its code: other calls may list it in another order, or beside other worlds.
+    by its name and code, so another call may list it in another order.
 
     Attributes:
-        store: where they are kept; None: nowhere.
+        store: where rows are kept, or None.
         mapper: the mapper, if it is loaded already.
     """
 
@@ -521,7 +515,7 @@ class MapperCampaign:
 
     @property
     def stored(self) -> int:
-        """The number of these worlds that the store knows."""
+        """The number of these worlds in the store."""
         if self.store is None:
             return 0
         return sum(self.store.get(shard) is not None for shard in c.listed_shards(self.worlds))

@@ -4,18 +4,16 @@
         tally += result.tally
         rows += result.rows
 
-Worlds are cut into shards. A backend examines them in any order and in any process. Here they are
-put in order again, and what lies behind the world at which a campaign stops is dropped. So the
-results depend on the campaign alone, not on the number and the speed of workers.
+Worlds are cut into shards. A backend examines them in any order and process; `results` restores the
+order, and drops what lies behind the world at which a campaign stops. So results depend on the
+campaign alone.
 
-`examine` is the only loop over worlds and mappers. A study that needs more than runs and
-judgements names a function, `module:function`, which is imported in the process that makes the run:
-`look` notes more about a run, `ways` makes several runs of a mapper in one world.
+`examine` is the only loop over worlds and mappers. A study extends it by a function's name,
+`module:function`: `look` notes more about a run, `ways` makes several runs of a mapper in a world.
 
-**The order of a list.** A list has a fixed order. A mapper that knew it could tell by counting in
-which world it is, and be right without exploring. So with a seed each `BLOCK` of listed worlds is
-met in an order drawn by it. What this does not show: that a mapper does not know in which block it
-is.
+**The order of a list.** A mapper that knew the order of a list could count and be right without
+exploring. So a seed draws the order of each `BLOCK` of listed worlds. What this does not show: that
+a mapper does not know its block.
 """
 
 from __future__ import annotations
@@ -53,13 +51,13 @@ BLOCK = 10_000
 """Number of listed worlds whose order is drawn at a time."""
 
 ENGINE_SHARD = 500_000
-"""Number of worlds in a shard of the compiled engine: about two seconds of work."""
+"""Number of worlds in a shard of the compiled engine, about two seconds of work."""
 
 AGAIN = 200
-"""The least number of worlds that a resumed campaign examines again, if there are as many."""
+"""Least number of worlds that a resumed campaign examines again, if there are as many."""
 
 NamedCodes = tuple[tuple[str, Code], ...]
-"""Worlds of a list, each with its name."""
+"""Worlds of a list, by name."""
 
 Ways = Callable[[Target, World, Callable[[Target], Attempt]], Iterator[Attempt]]
 """Makes the runs of a mapper in a world, given how one run is made."""
@@ -81,7 +79,7 @@ class Shard(msgspec.Struct, frozen=True):
 
     @property
     def key(self) -> str:
-        """The text by which a store finds it again: its ranks, or a hash of its worlds."""
+        """The name of the shard in a store: its ranks, or a hash of its worlds."""
         if not self.listed:
             return f"m{self.edges}/{self.start}-{self.stop}"
         return f"listed-{sha256(msgspec.json.encode(self.listed)).hexdigest()}"
@@ -91,7 +89,7 @@ class Ranks(msgspec.Struct, frozen=True, tag="ranks"):
     """Every world of a class with 1 to `edges` edges.
 
     Attributes:
-        shard: how many worlds a shard has on average.
+        shard: average number of worlds in a shard.
     """
 
     edges: int
@@ -108,7 +106,7 @@ class Ranks(msgspec.Struct, frozen=True, tag="ranks"):
         return WorldClass.parse(self.kind)
 
     def totals(self) -> dict[int, int]:
-        """How many worlds there are of each size, counted without listing them in this order.
+        """The number of worlds of each size, by formula.
 
         Raises:
             InputError: there is no way to count them.
@@ -136,16 +134,12 @@ def _total(kind: WorldClass, edges: int) -> int:
 
 
 class ListedWorlds(msgspec.Struct, frozen=True, tag="listed"):
-    """Worlds of a list, each a shard. The list stays with the caller.
-
-    Attributes:
-        total: how many worlds there are.
-    """
+    """Worlds of a list, each a shard. The list stays with the caller."""
 
     total: int
 
     def totals(self) -> dict[int, int]:
-        """How many worlds there are, of all sizes together."""
+        """The number of worlds, of all sizes together."""
         return {0: self.total}
 
     def worlds(self, shard: Shard) -> Iterator[tuple[int, str, World]]:
@@ -155,7 +149,7 @@ class ListedWorlds(msgspec.Struct, frozen=True, tag="listed"):
 
 
 NamedWorlds = Iterable[tuple[str, World]]
-"""The worlds of a list, each with its name; iterated twice."""
+"""The worlds of a list, by name; iterated twice."""
 
 
 def listed_shards(worlds: NamedWorlds) -> Iterator[Shard]:
@@ -165,7 +159,7 @@ def listed_shards(worlds: NamedWorlds) -> Iterator[Shard]:
 
 
 class Stop(msgspec.Struct, frozen=True):
-    """Numbers of failing worlds and of time-outs that end a campaign before its last world."""
+    """Numbers of failing worlds and of time-outs that end a campaign."""
 
     failing: int | None = None
     timeouts: int | None = None
@@ -180,21 +174,19 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
     """What is to be run, as data that can be hashed, stored and sent.
 
     Attributes:
-        worlds: a class, or a list.
         mappers: TARGETs; each runs in every world.
         pick, order: policies of algorithms of the catalogue.
         engine: what runs algorithms of the catalogue.
         limits: of one run.
         in_process: a user's mapper shares the process of the harness.
-        strict: claim 10 is asked in worlds of more than 2,000 edges, too.
-        validate: unknown and doubled fields in a program's messages are refused.
-        record: each `Attempt` has the messages of the program.
-        stop: when it ends early.
-        keep: every row, or those that are notable.
-        look, asked: `module:function` of a `Look`, and what it is given; None: nothing is noted.
-        ways: `module:function` of `Ways`; None: each mapper makes one run in each world.
-        seed: of the sample, and of the order in which a list is met.
-        drawn: a list is met in an order drawn by the seed.
+        strict: ask claim 10 in worlds of more than 2,000 edges, too.
+        validate: refuse unknown and doubled fields in a program's messages.
+        record: keep the messages of a program in each `Attempt`.
+        keep: every row, or the notable ones.
+        look, asked: `module:function` of a `Look`, and its arguments.
+        ways: `module:function` of `Ways`; None: one run of each mapper in each world.
+        seed: of the sample, and of the order of a list.
+        drawn: the seed draws the order of a list.
     """
 
     worlds: Ranks | ListedWorlds
@@ -269,10 +261,8 @@ class ShardResult(msgspec.Struct, frozen=True):
     """The result of a shard.
 
     Attributes:
-        tally: of its worlds.
         rows: all of them, or the notable ones.
         loaded: what the mappers had loaded by then; None: not asked for.
-        seconds: what the compiled engine and the checkers took.
     """
 
     tally: Tally = Tally()
@@ -285,11 +275,11 @@ ShardResults = Generator[tuple[Shard, ShardResult]]
 """Shards, each with its result."""
 
 InFlight = Callable[[int], None]
-"""Told now and then how many runs are finished in shards that are not."""
+"""Called now and then with the number of finished runs in unfinished shards."""
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C came in the middle of a shard; `result` is of the worlds that were finished."""
+    """Ctrl-C within a shard; `result` is of the worlds that were finished."""
 
     def __init__(self, shard: Shard, result: ShardResult) -> None:
         super().__init__()
@@ -310,8 +300,8 @@ def examine(
     """Run every mapper in every world of a shard.
 
     Args:
-        known: in the place of the checkers.
-        look: in the place of the one that the campaign names.
+        known: replaces the checkers.
+        look: replaces the campaign's.
     Raises:
         Interrupted: Ctrl-C.
     """
@@ -322,20 +312,20 @@ def examine(
     done = 0
     try:
         for place, name, world in campaign.worlds.worlds(shard):
-            met: list[Row] = []
+            world_rows: list[Row] = []
             several = len(mappers) > 1 or campaign.ways is not None
             checks = CheckedTraces() if several else known
             for target in mappers:
-                told = partial(beat, done)
-                once = partial(_attempt, campaign, world, name, checks, told, ours=target.mapper)
-                for made in ways(target, world, once):
-                    met.append(row_of(made, name, place, len(met), look))
+                tell = partial(beat, done)
+                once = partial(_attempt, campaign, world, name, checks, tell, ours=target.mapper)
+                for run in ways(target, world, once):
+                    world_rows.append(row_of(run, name, place, len(world_rows), look))
                 done += 1
-            counts.enter(met)
+            counts.enter(world_rows)
             if campaign.keep == "all":
-                rows += met
+                rows += world_rows
             else:
-                kept.enter(met)
+                kept.enter(world_rows)
             if campaign.stop.reached(counts):
                 break
     except KeyboardInterrupt:
@@ -382,11 +372,10 @@ def close(mappers: Iterable[Target]) -> None:
 
 
 Backend = Callable[[Campaign, Iterator[Shard], InFlight], ShardResults]
-"""Examines shards and yields each as it is finished: `here`, in worker processes, on a cluster."""
+"""Examines shards and yields each once finished: `here`, in worker processes, on a cluster."""
 
 
 def _idle(_campaign: Campaign, _shards: Iterator[Shard], _in_flight: InFlight) -> ShardResults:
-    """A backend that has nothing to do."""
     yield from ()
 
 
@@ -421,14 +410,14 @@ def results(
 ) -> ShardResults:
     """Each shard and its result, in order, until the last or until the campaign stops.
 
-    After Ctrl-C the worlds that were finished come, too; then KeyboardInterrupt is raised.
+    After Ctrl-C the finished worlds come, too; then KeyboardInterrupt is raised.
 
     Args:
         worlds: those of a list.
-        store: what is finished already, and where results are kept.
+        store: finished shards; new results are added.
         tell: the progress callback.
     Raises:
-        InputError: the store has another result than the same shard, examined again.
+        InputError: a shard of the store, examined again, has another result.
     """
     order = _Order(campaign, backend, worlds, store, tell)
     if store is not None and isinstance(campaign.worlds, Ranks):
@@ -437,7 +426,7 @@ def results(
 
 
 class _Order:
-    """Puts the results of shards in order. Life cycle: `examine_again` or not, `results` once."""
+    """Puts the results of shards in order: `examine_again` or not, `results` once."""
 
     def __init__(
         self,
@@ -459,7 +448,7 @@ class _Order:
         return worlds.shards() if isinstance(worlds, Ranks) else listed_shards(self._worlds)
 
     def _todo(self) -> Iterator[Shard]:
-        """The shards that no store knows, as they are to be begun."""
+        """The shards that no store knows, in the order in which they begin."""
         campaign = self._campaign
         for shard in self._met():
             if isinstance(campaign.worlds, Ranks) and campaign.stop.reached(self._finished):
@@ -478,23 +467,23 @@ class _Order:
             return
         random = Random(self._campaign.seed)
         while block := list(islice(shards, BLOCK)):
-            left = dict(enumerate(block))
-            drawn = list(left)
+            remaining = dict(enumerate(block))
+            drawn = list(remaining)
             random.shuffle(drawn)
-            while left:
-                # After enough time-outs in order, so that it ends at the same world each time.
+            while remaining:
+                # Once the campaign stops, in order: it ends at the same world each time.
                 late = self._campaign.stop.reached(self._finished)
-                place = next(iter(left)) if late else drawn.pop()
-                if place in left:
-                    yield left.pop(place)
+                place = next(iter(remaining)) if late else drawn.pop()
+                if place in remaining:
+                    yield remaining.pop(place)
 
     def results(self) -> ShardResults:
-        """See the function of this name."""
+        """As the function `results`."""
         self._rate.in_flight(0)
-        seen = Tally()
+        tally = Tally()
         todo = self._todo()
         try:
-            # A backend loads mappers and starts workers: only if something is to be done.
+            # A backend loads mappers and starts workers, so only if there is work.
             tasks = [shard for shard in (next(todo, None),) if shard is not None]
             backend = self._backend if tasks else _idle
             with closing(
@@ -505,9 +494,9 @@ class _Order:
                     while place not in self._ahead and (done := next(finished, None)):
                         self._take(*done)
                     result = self._ahead.pop(place)
-                    seen += result.tally
+                    tally += result.tally
                     yield shard, result
-                    if self._campaign.stop.reached(seen):
+                    if self._campaign.stop.reached(tally):
                         return
                 next(finished, None)  # nothing: it ends
         except KeyboardInterrupt as cut:
@@ -523,18 +512,16 @@ class _Order:
     def _take(self, shard: Shard, result: ShardResult) -> None:
         self._ahead[shard.edges, shard.start] = result
         self._finished += result.tally
-        # A shard that may have lost a worker to something else is examined anew next time.
+        # A shard with undecided worlds is examined anew next time.
         if self._store is not None and not (result.tally.lost or result.tally.undecided):
             self._store.put(shard, result)
         self._rate.finished(result.tally.worlds)
 
     def examine_again(self, store: ShardMemory) -> None:
-        """Examine some shards of the store, and compare.
-
-        No list of what a mapper rests on is complete, so the store is tried as well.
+        """Examine some shards of the store again: no list of what a mapper rests on is complete.
 
         Raises:
-            InputError: in a world something else happened than the store says.
+            InputError: a world has another result.
         """
         drawn = self._drawn_again(store)
         with closing(self._backend(self._campaign, drawn, lambda _runs: None)) as examined:
@@ -550,7 +537,7 @@ class _Order:
                     )
 
     def _drawn_again(self, store: ShardMemory) -> Iterator[Shard]:
-        """Shards of every size, drawn by the seed; of `AGAIN` worlds, or all there are."""
+        """Shards of every size, drawn by the seed, of at least `AGAIN` worlds."""
         assert isinstance(self._campaign.worlds, Ranks)
         drawn = [shard for shard in store.known() if shard.edges <= self._campaign.worlds.edges]
         Random(f"{self._campaign.seed} {len(drawn)}").shuffle(drawn)
@@ -560,7 +547,7 @@ class _Order:
             if shard.edges in sizes and worlds >= AGAIN:
                 continue
             known = store.get(shard)
-            # How far a run comes that is out of time depends on the machine.
+            # How far a run comes in its time depends on the machine.
             if known is not None and known.tally.worlds and not known.tally.timeouts:
                 sizes.add(shard.edges)
                 worlds += known.tally.worlds

@@ -1,22 +1,20 @@
 """A Dask cluster: tasks in, results out, whichever of its workers are lost.
 
-    connected("tcp://host:8786")    a cluster that somebody has started
+    connected("tcp://host:8786")    a running cluster
     connected("local")              workers on this machine, one a processor, while the block lasts
 
-A `ClusterPool` is a `TaskBackend`, as the `Pool` of processes on this machine is. What a task does
-to its process is settled on the machine of the worker, by a pool there (cluster_worker.py). So a
+A pool on the worker's machine (cluster_worker.py) settles what a task does to its process. So a
 loss means here that a whole Dask worker went, with its machine, its network or its memory:
 
 - The scheduler gives the tasks of a lost worker to others, as often as its setting
   `allowed-failures` says (3). Most losses end here, and change no result.
-- A task that was lost more often is done again with no other task at work, so that none is blamed
-  for what another one does. If it is lost again, it is cut, down to a task that cannot be cut:
-  `Remote.lost` says what its result is. That convicts no mapper.
+- A task lost more often is done again with no other task at work. If it is lost again, it is cut;
+  `Remote.lost` gives the result of a task that cannot be cut. That convicts no mapper.
 - If the scheduler is lost, or no worker is left for `PATIENCE` seconds, an InputError says so. The
-  client holds the results: what it has written down is kept.
+  client holds the results.
 
-Workers of another topo-verify refuse every task, and so do workers with another mapper. Each result
-is refused if its worker loaded a file that is another one here (`Remote.require_ours`).
+Workers with another topo-verify or another mapper refuse every task. The client refuses results of
+a worker that loaded a file that differs here (`Remote.require_ours`).
 """
 
 from __future__ import annotations
@@ -53,16 +51,17 @@ LOOK = 2.0
 """Seconds between two looks at the number of workers."""
 
 AHEAD = 2
-"""How many tasks are handed out for each thread of the workers: none waits for the client."""
+"""Tasks handed out for each thread of the workers, so that none waits for the client."""
 
 
 _DO = f"__import__({cluster_worker.__name__!r}, fromlist=['do']).do(assignment)"
-"""What a worker evaluates. To send the function itself would end a worker that lacks topo_verify:
-Dask reads it before it knows of a task, so the error could not name what is missing."""
+"""What a worker evaluates. Dask would read a pickled function before it knows the task, so a worker
+that lacks topo_verify would end without a useful error.
+"""
 
 
 class _Future(Protocol):
-    """What is used of a future of Dask's."""
+    """The used part of a Dask future."""
 
     @property
     def status(self) -> str: ...
@@ -72,7 +71,7 @@ class _Future(Protocol):
 
 
 class _Client(Protocol):
-    """What is used of a client of Dask's."""
+    """The used part of a Dask client."""
 
     def submit(self, function: Callable[..., Any], *args: Any, pure: bool) -> _Future: ...
     def nthreads(self) -> Mapping[str, int]: ...
@@ -81,12 +80,7 @@ class _Client(Protocol):
 
 
 class Cluster:
-    """A cluster that has answered and has a worker; `connected` makes it.
-
-    Attributes:
-        address: as it was given.
-        client: the client of Dask's.
-    """
+    """A cluster that has answered and has a worker; `connected` makes it."""
 
     def __init__(self, address: str, client: _Client) -> None:
         self.address, self.client = address, client
@@ -97,7 +91,7 @@ class Cluster:
         return self.address == LOCAL
 
     def threads(self) -> int:
-        """How many tasks its workers can do at the same time.
+        """Number of tasks that its workers can do at the same time.
 
         Raises:
             InputError: the scheduler does not answer.
@@ -108,7 +102,7 @@ class Cluster:
             raise self.lost() from error
 
     def lost(self) -> InputError:
-        """The error that says that the scheduler is lost."""
+        """The error for a lost scheduler."""
         return InputError(
             f"--dask {self.address}: the scheduler was lost in the course of the work: start it and"
             " its workers again, and then the same command, which resumes from its --ledger"
@@ -129,14 +123,14 @@ def connected(address: str) -> Generator[Cluster]:
             f"--dask {address} needs dask.distributed: pip install 'topo-verify[cluster]'"
         )
     dask: Any = import_module("dask")
-    # What its loggers tell of is told here in a sentence, or mended.
+    # Its loggers report what is handled or said here.
     names = ("distributed", "distributed.client", "distributed.worker", "tornado", "bokeh")
     with ExitStack() as stack:
         stack.enter_context(dask.config.set({"logging": dict.fromkeys(names, "critical")}))
         distributed: Any = import_module("distributed")  # its types are not all written
-        made: Any = address
+        scheduler: Any = address
         if address == LOCAL:
-            made = distributed.LocalCluster(
+            scheduler = distributed.LocalCluster(
                 n_workers=processors(),
                 threads_per_worker=1,
                 processes=True,
@@ -144,18 +138,18 @@ def connected(address: str) -> Generator[Cluster]:
                 silence_logs="CRITICAL",
                 preload=[cluster_worker.__name__],  # its `dask_setup`
             )
-            stack.callback(made.close, timeout=ANSWER)
+            stack.callback(scheduler.close, timeout=ANSWER)
         try:
             if address != LOCAL:
                 distributed.comm.resolve_address(address)  # at once, before anybody is asked
-            found = distributed.Client(made, timeout=ANSWER, set_as_default=False)
+            connection = distributed.Client(scheduler, timeout=ANSWER, set_as_default=False)
         except (OSError, ValueError, RuntimeError) as error:
             raise InputError(
                 f"--dask {address}: expected the address of a Dask scheduler, as tcp://host:8786,"
                 f" and none answers there within {ANSWER:.0f} s: start one with `dask scheduler`"
             ) from error
-        stack.callback(_close, found)
-        client = cast("_Client", found)
+        stack.callback(_close, connection)
+        client = cast("_Client", connection)
         try:
             client.wait_for_workers(1, timeout=PATIENCE)
         except OSError as error:  # a TimeoutError is one
@@ -164,7 +158,7 @@ def connected(address: str) -> Generator[Cluster]:
 
 
 def both_given(dask: str, workers: int) -> InputError:
-    """The error that says that work is for a cluster or for workers here, not for both."""
+    """The error for a cluster given together with workers on this machine."""
     return InputError(
         f"--dask {dask} with --workers {workers}: expected one of the two, for the cluster says"
         " how many workers it has; leave --workers out"
@@ -184,7 +178,7 @@ def _no_worker(address: str) -> InputError:
 
 
 class ClusterPool(Generic[TaskT, ResultT]):
-    """The workers of a cluster as a `TaskBackend`. Life cycle: `with` it, `run`; it leaves no task.
+    """The workers of a cluster as a `TaskBackend`: `with` it, `run`; it leaves no task.
 
     Raises (by `run`):
         InputError: a worker refuses its task; the scheduler or all workers are lost.
@@ -216,7 +210,7 @@ class ClusterPool(Generic[TaskT, ResultT]):
     def run(
         self, tasks: Iterable[TaskT], *, room: Callable[[], bool] = lambda: True
     ) -> Generator[tuple[TaskT, ResultT]]:
-        """Each task and its result, in the order in which tasks are finished; see `TaskBackend`."""
+        """As `TaskBackend.run`."""
         todo = iter(tasks)
         self._hand_out(todo, room)
         while self._at:
@@ -227,7 +221,6 @@ class ClusterPool(Generic[TaskT, ResultT]):
             self._hand_out(todo, room)  # again: results that were looked at make room
 
     def _hand_out(self, todo: Iterator[TaskT], room: Callable[[], bool]) -> None:
-        """Submit pieces until every thread has some."""
         if self._suspects or self._alone:
             if not self._at and self._suspects:
                 self._alone = True
@@ -255,7 +248,7 @@ class ClusterPool(Generic[TaskT, ResultT]):
         future.add_done_callback(self._done.put)
 
     def _listen(self) -> None:
-        """Take the result of one task; now and then look whether there are workers."""
+        """Take the result of one task; now and then count the workers."""
         with suppress(Empty):
             self._hear(self._done.get(timeout=LOOK))
         if monotonic() > self._looked + LOOK:
@@ -270,7 +263,6 @@ class ClusterPool(Generic[TaskT, ResultT]):
             raise _no_worker(self._cluster.address)
 
     def _hear(self, future: _Future) -> None:
-        """Take the result of one task."""
         if future.status not in ("finished", "error"):  # cancelled: Dask does so on a lost link
             raise self._cluster.lost()
         piece, alone = self._at.pop(future), self._alone

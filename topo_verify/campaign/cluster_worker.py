@@ -1,20 +1,14 @@
-"""What a Dask worker does for a client of ours: a task, in a process that may die or hang.
+"""What a Dask worker does for our client: a task, in a process that may die or hang.
 
-A mapper under test never runs in the Dask worker itself. Each thread of the worker has a `Pool` of
-one process on its machine, so that a mapper that crashes or hangs there is tried again, bisected
-and convicted by the rules of `pool.py`, as with `--workers`. A Dask worker that is lost is then no
-mapper's fault: the cluster gives its tasks to another one.
+Each thread of the worker has a `Pool` of one process, so a mapper that crashes or hangs is tried
+again, bisected and convicted there as with `--workers`. A lost Dask worker is then no mapper's
+fault. The process is kept for the next task of the same job; it ends after `IDLE` seconds without.
+
+A worker whose topo_verify or mapper files differ from the client's refuses every task. Each result
+names its worker and, in a search, what the mappers have loaded there, which the client compares.
 
 What this does not show: that the results are the workers'. The scheduler believes whatever reaches
-it, and a Dask worker is hidden from other programs only from its first task on. A mapper that
-attacks the cluster is not kept away from it.
-
-Identity: a worker whose topo_verify has other sources than the client's refuses every task, and the
-process that loads the mappers refuses them if the files that name them differ. Each result says
-which worker made it and, in a search, what the mappers have loaded there; the client compares that
-with its own files before the result counts (search/identity.py).
-
-The process is kept for the next task of the same job; after `IDLE` seconds without one it ends.
+it, and a Dask worker is hidden from other programs only from its first task on.
 """
 
 from __future__ import annotations
@@ -36,7 +30,7 @@ from topo_verify.errors import InputError
 from topo_verify.programs.launcher import prepare
 
 IDLE = 30.0
-"""Seconds without a task after which a process on the worker's machine ends."""
+"""Seconds without a task after which a kept process ends."""
 
 VERSION = 2
 """The version of an assignment."""
@@ -50,8 +44,7 @@ class ClusterTask(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         tool, own: the client's version of topo-verify, and the hash of its sources.
         remade: `module:function`, which makes the `Work` from the job; `work.Remote`.
         job, task: as JSON.
-        folder: the client's current folder, where relative paths of mappers begin; a worker that
-            has no such folder starts processes in its own.
+        folder: the client's current folder, where relative paths begin, if the worker has it.
     """
 
     version: int
@@ -76,11 +69,7 @@ class ClusterTaskDone(msgspec.Struct, frozen=True, tag=True):
 
 
 def do(assignment: bytes) -> bytes:
-    """The result of a task, a `ClusterTaskDone` or `WorkerFailed` as JSON; runs on a Dask worker.
-
-    Args:
-        assignment: an `ClusterTask` as JSON.
-    """
+    """Do a `ClusterTask`, given and answered as JSON: a `ClusterTaskDone` or `WorkerFailed`."""
     try:
         result = _mine().do(_require_ours(assignment))
     except InputError as error:
@@ -91,7 +80,7 @@ def do(assignment: bytes) -> bytes:
 
 
 def _require_ours(assignment: bytes) -> ClusterTask:
-    """The assignment, if it comes from the same topo-verify.
+    """The assignment.
 
     Raises:
         InputError: the client has another topo-verify.
@@ -111,7 +100,6 @@ def _require_ours(assignment: bytes) -> ClusterTask:
 
 
 def _place() -> str:
-    """The name of this worker, for a sentence."""
     from distributed import get_worker
 
     try:
@@ -134,7 +122,7 @@ def dask_setup(_worker: object) -> None:
 
 
 class _Kept:
-    """The pool of one thread, with one process. Life cycle: `do` tasks; it ends when it is idle."""
+    """The pool of one thread, with one process, which ends when it is idle."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -183,8 +171,6 @@ class _Kept:
 
 
 class _Mine(threading.local):
-    """A thread's own: a pool does the tasks of one thread."""
-
     def __init__(self) -> None:
         self.kept = _Kept()
 

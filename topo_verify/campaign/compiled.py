@@ -1,29 +1,28 @@
 """Examines one shard by the compiled engine, and has the checkers judge a part of it again.
 
-The engine runs the algorithms in every world of the shard, judges all claims there and adds up the
-numbers. It is not trusted. The checkers judge again, from runs of the reference algorithms:
+The engine runs the algorithms in every world, judges all claims and adds up the numbers. It is not
+trusted. The checkers judge again, from runs of the reference algorithms:
 
 - every world that the counts name: the first failing worlds and the first of each claim, so each
   finding is one of the checkers; the most expensive worlds; those in which the first of two
-  algorithms costs more. Verdicts and costs there must be those of the counts.
-- a sample: the first worlds of each slice and about one world in `SAMPLE` with the one behind it,
-  drawn by the campaign's seed. The counts before such a step plus the reference's of the step must
-  equal the counts behind it: verdicts, shares, costs, the worlds that are named, and the digest,
-  which covers every door. So what is compared is what was added to the total. The first step adds
-  to counts of nothing.
+  algorithms costs more. Verdicts and costs must be those of the counts.
+- a sample: the first worlds of each slice and about one world in `SAMPLE` with the next one, drawn
+  by the campaign's seed. The counts before such a step plus the reference's of the step must equal
+  the counts behind it: verdicts, shares, costs, the named worlds, and the digest, which covers
+      every
+  door. The first step adds to empty counts.
 
-In all these worlds both engines must agree on every event of the run. If they disagree on anything,
-topo-verify has a bug, and the campaign ends.
+In all these worlds both engines must agree on every event. If they disagree, topo-verify has a bug,
+and the campaign ends.
 
-A **native mapper** (`--library`) is called by the engine, in the place of an algorithm; for the
-checkers it runs in its own process, behind a pipe. If the two disagree, the cause need not be
-topo-verify: such a mapper may do something else each time. So the counts of that slice are
-discarded: its worlds are undecided, but for the one in which the two disagree, if a claim fails
-there by the checkers. A worker that ends in native code is a lost worker; backend.py says what that
-means.
+A **native mapper** (`--library`) is called by the engine in the place of an algorithm; for the
+checkers it runs in its own process. If the two disagree, the mapper may do something else each
+time.
+So the counts of that slice are discarded: its worlds are undecided, except the one in which the two
+disagree, if a claim fails there by the checkers. backend.py treats a worker lost in native code.
 
-What this does not show: the other worlds were judged and counted by the engine alone. If it is
-wrong in a share p of all worlds, n steps show it with a probability of at least 1 - (1 - p)^n.
+What this does not show: the other worlds were judged by the engine alone. If it is wrong in a share
+p of all worlds, n steps show it with a probability of at least 1 - (1 - p)^n.
 """
 
 from __future__ import annotations
@@ -66,14 +65,14 @@ SAMPLE = 1000
 """Average number of worlds between two steps that the checkers judge as well."""
 
 STEP = (1, 1, 1, 2)
-"""The numbers of worlds in such a step. A second world is not the first behind a pause."""
+"""Numbers of worlds in such a step. A second world is not the first behind a pause."""
 
 SLICE = 50_000
-"""How many ranks are examined between two heartbeats. The counts of each slice begin empty."""
+"""Ranks examined between two heartbeats. The counts of each slice begin empty."""
 
 
 def warm(campaign: Campaign) -> None:
-    """Have the kernels compiled that a campaign needs, or loaded from the cache."""
+    """Compile the kernels that a campaign needs, or load them from the cache."""
     if campaign.mappers[0].startswith(LIBRARY):
         from topo_verify.compiled.native_run import warm as warm_native
 
@@ -116,14 +115,14 @@ def examine_compiled(
 
 
 class _Judged(NamedTuple):
-    """A run of the reference, as a row, and what it adds to the digest of its algorithm."""
+    """A run of the reference, as a row, and its part of the digest of its algorithm."""
 
     row: Row
     digest: int
 
 
 class _CompiledShard:
-    """The examination of one shard. Life cycle: `examine`, once; `result` at any time."""
+    """The examination of one shard: `examine`, once; `result` at any time."""
 
     def __init__(
         self,
@@ -144,7 +143,7 @@ class _CompiledShard:
 
     @property
     def _done(self) -> int:
-        """How many runs are finished. A native mapper has been through all worlds of the shard."""
+        """Number of finished runs. A native mapper has been through all worlds of the shard."""
         if self._calls is not None:
             return self._calls.worlds
         return self._tally.worlds * len(self._mappers)
@@ -153,17 +152,13 @@ class _CompiledShard:
         self._beat(self._done)
 
     def result(self) -> ShardResult:
-        """The result of the worlds that were examined."""
+        """The result of the worlds examined so far."""
         tally = msgspec.structs.replace(self._tally, by_checkers=len(self._checked))
         rows = notable(self._rows.values(), self._campaign.seed)
         return ShardResult(tally, rows, None, self._seconds)
 
     def examine(self) -> None:
-        """Examine the shard; a campaign that stops at a failing world ends there.
-
-        Raises:
-            InternalError: the engines disagree in a world.
-        """
+        """Examine the shard, or as far as the campaign goes."""
         for start in range(self._shard.start, self._shard.stop, SLICE):
             self._beats()
             ranks = self._ranks(start, min(start + SLICE, self._shard.stop))
@@ -256,9 +251,9 @@ class _CompiledShard:
         numbers, digest, met = Counts(), 0, list[list[Row]]()
         for rank, _, _ in self._worlds.worlds(step):
             judged = [self._judged(which, rank) for which in range(len(self._mappers))]
-            met.append([one.row for one in judged])
+            met.append([run.row for run in judged])
             numbers.enter(met[-1])
-            digest += sum(one.digest for one in judged)
+            digest += sum(run.digest for run in judged)
         added = msgspec.structs.replace(numbers.tally(), digest=_as_digest(digest))
         known = Tally() if before is None else _tally(before.counts)
         ours, theirs = _fields(known + added), _fields(_tally(behind.counts))
@@ -280,7 +275,7 @@ class _CompiledShard:
     def _require_named(
         self, which: int, counts: ShardCounts, others: Sequence[ShardCounts]
     ) -> None:
-        """Keep the rows of the worlds that the counts name, once they are as the counts say."""
+        """Keep the rows of the worlds that the counts name, once they agree with the counts."""
         firsts = {claim: rank for claim, (failing, rank) in counts.claims.items() if failing}
         for rank in sorted({*firsts.values(), *counts.failing_ranks[:KEPT_FAILING]}):
             row = self._agreed(which, rank)
@@ -313,10 +308,10 @@ class _CompiledShard:
         return row
 
     def _judged(self, which: int, rank: int) -> _Judged:
-        """The run of the reference, judged by the checkers; its events are those of the engine.
+        """The run of the reference, judged by the checkers.
 
         Raises:
-            InternalError: they are not.
+            InternalError: its events are not those of the engine.
         """
         if (rank, which) not in self._known:
             from topo_verify.campaign.compiled_shard import run_digest
@@ -337,7 +332,7 @@ class _CompiledShard:
         return self._known[rank, which]
 
     def _engine_run(self, run: Exploration) -> tuple[int, bool, Trace]:
-        """What the engine makes of the same world: the cost, whether there is a map, the events."""
+        """The engine's run in the same world: the cost, whether there is a map, the events."""
         if self._calls is None:
             limits = self._campaign.limits
             made = explore(run.world, run.algorithm, limits=limits, engine="compiled")
@@ -402,9 +397,9 @@ def _drawn(snapshots: Sequence[Snapshot]) -> Iterator[tuple[Snapshot | None, Sna
 
 
 def _run_difference(run: Exploration, cost: int, has_map: bool, trace: Trace) -> str | None:  # noqa: FBT001  of `_engine_run`
-    """What a run of the reference and one of the compiled engine differ in, or None.
+    """The first difference between a run of the reference and one of the engine, or None.
 
-    A delivered map may have its darts named in another way: both were judged by the claims.
+    The darts of a delivered map may have other names: both were judged by the claims.
     """
     if (run.cost, run.map is not None) != (cost, has_map):
         return f"cost {run.cost} by the reference, {cost} by the compiled engine"
@@ -421,7 +416,7 @@ def _without_map(event: Event) -> Event | int | None:
 
 
 def _verdict_difference(row: Row, counts: ShardCounts) -> str | None:
-    """What the checkers and the engine's counts of one run differ in, or None."""
+    """The first difference between the checkers' and the engine's verdict on one run, or None."""
     if bool(row.findings) != bool(counts.failing):
         words = ("no claim fails", "a claim fails")
         ours, theirs = words[bool(row.findings)], words[bool(counts.failing)]
@@ -476,7 +471,7 @@ def _as_digest(digest: int) -> str:
 
 
 def _fields(tally: Tally) -> dict[str, object]:
-    """The fields of a tally; each entry of a table is a field by itself."""
+    """The fields of a tally, with each entry of a table by itself."""
     fields: dict[str, object] = {}
     for name in tally.__struct_fields__:
         value: object = getattr(tally, name)

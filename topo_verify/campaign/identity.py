@@ -1,16 +1,10 @@
 """What a mapper rests on, so that results of different mappers are never added up.
 
-    source_hash         before a search: a hash of topo_verify and of what the TARGETs name
-    runs_here           whether a mapper of the user's shares the process of the checkers
-    loaded_by           in its course: the files and distributions that a mapper has loaded
-    require_equal       for each worker on another machine: these are what they are here
-    require_unchanged   before it goes on: these are what they were
-
 For an algorithm of the catalogue that is topo_verify alone. For a user's mapper it is every file
 that its process loaded or opened for reading, and what it was made with (programs/loaded.py). For
-a program it is each file that its command names, and each that `--depends` does.
+a program it is each file that its command or `--depends` names.
 
-No such list is complete: a ledger also has shards examined again.
+No such list is complete, so some shards of a store are examined again.
 """
 
 from __future__ import annotations
@@ -53,7 +47,7 @@ def source_hash(mappers: Iterable[Target]) -> str:
 
 @cache
 def own_hash() -> str:
-    """The hash of topo_verify's sources, as they were when this process first asked."""
+    """The hash of topo_verify's sources when this process first asked."""
     digest = sha256()
     for path in sorted(_PACKAGE.rglob("*.py")):
         digest.update(f"\0{path.relative_to(_PACKAGE)}\0".encode() + path.read_bytes())
@@ -68,8 +62,8 @@ def named_files(text: str) -> list[str]:
         words = split(text.removeprefix(PREFIX))
         return [shutil.which(words[0]) or words[0], *words[1:]]
     place = text.rpartition(":")[0]
-    found = place if place.endswith(".py") else _module_file(place)
-    return [found] if found else []
+    file = place if place.endswith(".py") else _module_file(place)
+    return [file] if file else []
 
 
 def _module_file(name: str) -> str | None:
@@ -85,9 +79,9 @@ def _module_file(name: str) -> str | None:
 
 
 def runs_here(target: Target) -> bool:
-    """Whether this is a user's mapper that runs in this process, where it could replace checkers.
+    """Whether a user's mapper runs in this process, where it could replace checkers.
 
-    Results of such runs are worth less, so a store does not mix them with others.
+    A store does not mix such results with others.
     """
     return not isinstance(target.mapper, Algorithm | Steered | Program)
 
@@ -96,9 +90,7 @@ def runs_here(target: Target) -> bool:
 
 
 class Identity:
-    """What the mappers of a search rest on, in this process.
-
-    Life cycle: made when they are loaded, before any of them runs; `loaded` at any time.
+    """What the mappers of a campaign rest on, in this process; made before any of them runs.
 
     Args:
         depends: further files that they depend on.
@@ -110,10 +102,10 @@ class Identity:
 
     def loaded(self) -> Loaded:
         """What they have loaded until now."""
-        found = Loaded(loaded.hashes(self.depends))
+        files = Loaded(loaded.hashes(self.depends))
         for target in self._mappers:
-            found = merged(found, self._of(target), f"target {target.text!r}")
-        return found
+            files = merged(files, self._of(target), f"target {target.text!r}")
+        return files
 
     def _of(self, target: Target) -> Loaded:
         mapper = target.mapper
@@ -130,7 +122,7 @@ def merged(one: Loaded, other: Loaded, where: str) -> Loaded:
     """What either has loaded.
 
     Args:
-        where: the beginning of the sentence.
+        where: the beginning of the error message.
     Raises:
         InputError: they differ in a file, a distribution or the values.
     """
@@ -160,13 +152,11 @@ def merged(one: Loaded, other: Loaded, where: str) -> Loaded:
 
 
 def require_equal(here: Loaded, there: Loaded, where: str) -> None:
-    """Raise an InputError unless all that mappers have loaded on another machine is the same here.
-
-    Files that they read in the course of a run count as well: they are looked up by their names.
+    """Raise an InputError unless all that mappers loaded on another machine is the same here.
 
     Args:
         here: what the mappers have loaded here; they may not have run yet.
-        where: the beginning of the sentence, which names the other machine.
+        where: the beginning of the error message, which names the other machine.
     """
     if here.values and there.values and here.values != there.values:
         raise InputError(
@@ -194,11 +184,11 @@ def require_equal(here: Loaded, there: Loaded, where: str) -> None:
 
 
 def require_unchanged(then: Loaded, now: Loaded, where: str) -> None:
-    """Raise an InputError unless files, distributions and values are what they were.
+    """Raise an InputError unless files, distributions and values are unchanged.
 
     Args:
         now: what the mappers have loaded until now.
-        where: the beginning of the sentence.
+        where: the beginning of the error message.
     """
     again = "name another file, or remove this one to search anew"
     if then.values and now.values and then.values != now.values:

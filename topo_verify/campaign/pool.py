@@ -1,33 +1,23 @@
 """The pool of worker processes: tasks in, results out, whatever a task does to its process.
 
-A mapper under test may end its process, crash it, or hold it for ever. So the pool expects to lose
-workers, and finds out over what:
+A mapper under test may end its process, crash it, or hold it for ever. So:
 
-- Each worker writes heartbeats while it works. One that ends, or that writes no heartbeat for
-  longer than any limit allows, is lost; what is left of its process group is killed.
-- A task that loses its worker is tried again, as often as `Work.attempts` says: something else may
-  have killed the worker. Then it is cut around the item where the worker was last seen, and the
-  pieces are tried, down to the one item that kills. A task that cannot be cut is given to
-  `Work.lost`, which returns its result.
-- No loss is forgotten: what comes of a task whose worker was lost in an item that was done when it
-  was tried again is given to `Work.survived`, which says what that means for the result.
-- Workers are forks of a process that has loaded nothing and that no other program can look into
-  (programs/launcher.py). They import from where this process imports, sit in process groups of
-  their own, and end with this process, even if that is killed (`worker.py`).
-
-Results come in the order in which tasks are finished; `in_order` puts them into that of the tasks.
-What the workers do is a `Work` (work.py); it keeps the pieces of the tasks, too.
+- A worker that ends, or writes no heartbeat for longer than any limit allows, is lost; the rest of
+  its process group is killed.
+- A task that loses its worker is tried again, `Work.attempts` times in all: something else may have
+  killed the worker. Then it is cut around the item where the worker was last seen, down to the one
+  item that kills. `Work.lost` gives the result of a task that cannot be cut.
+- No loss is forgotten: `Work.survived` gives the result of a task that lost a worker and passed
+  later.
+- Workers are forks that no other program can look into (programs/launcher.py), in process groups of
+  their own, which end with this process (worker.py).
 
 **Why not a library?** `concurrent.futures` gives the whole pool up (`BrokenProcessPool`) when one
 worker dies, does not say which task was to blame, and cannot end a worker that hangs. `pebble`
-replaces a dead worker and names its task, but its timeout is one for the whole task, however far it
-came: no heartbeat, so no bisection, and a task of many worlds has no useful limit. The workers of
-both keep standard output where a mapper can write to it, ignore how their parent was killed until
-they next read its pipe, and fetch tasks under a lock that they share, with which one of them may
-die.
-
-Life cycle of a `Pool`: `with` it, `run`, once or more. On leaving, idle workers end by themselves,
-busy ones are told to (SIGTERM), and what is still there after that is killed.
+replaces a dead worker and names its task, but its timeout is for the whole task: no heartbeat, so
+    no
+bisection. The workers of both keep standard output where a mapper can write to it, and fetch tasks
+under a shared lock, with which one of them may die.
 """
 
 from __future__ import annotations
@@ -47,12 +37,14 @@ TURN = 0.2
 
 
 class Pool(Generic[TaskT, ResultT]):
-    """Workers on this machine. A `TaskBackend`; see above.
+    """Workers on this machine, a `TaskBackend`.
+
+    On leaving, idle workers end by themselves, busy ones get SIGTERM, then SIGKILL.
 
     Args:
-        size: the most workers. Each is started when there is a task for it.
+        size: the most workers; each is started when there is a task for it.
         in_flight: called now and then with the number of items done in unfinished tasks.
-        folder: where workers are started; None: in the current folder.
+        folder: where workers are started; default: the current folder.
     Raises (by `run`):
         InputError: a worker says that the input is bad, or another process speaks for a worker.
         InternalError: there is a bug of ours in a worker.
@@ -84,10 +76,7 @@ class Pool(Generic[TaskT, ResultT]):
     def run(
         self, tasks: Iterable[TaskT], *, room: Callable[[], bool] = lambda: True
     ) -> Generator[tuple[TaskT, ResultT]]:
-        """Each task and its result, in the order in which tasks are finished; see `TaskBackend`.
-
-        The first tasks are handed out at once, not only when the first result is asked for.
-        """
+        """As `TaskBackend.run`. The first tasks are handed out at once."""
         todo = iter(tasks)
         self._hand_out(todo, room)
         return self._results(todo, room)
@@ -103,7 +92,7 @@ class Pool(Generic[TaskT, ResultT]):
             self._hand_out(todo, room)  # again: results that were looked at make room
 
     def _hand_out(self, todo: Iterator[TaskT], room: Callable[[], bool]) -> None:
-        """Give every idle worker a piece, as long as there are any."""
+        """Give every idle worker a piece."""
         idle = [worker for worker in self._workers if worker not in self._at]
         while len(self._at) < self._size:
             piece = self._pieces.next(todo, room)
@@ -117,7 +106,7 @@ class Pool(Generic[TaskT, ResultT]):
             worker.start(piece.task)
 
     def _listen(self) -> None:
-        """Take what the workers say, and wait for it, but not for long; give up those that hang."""
+        """Take messages of the workers, waiting briefly; give up those that hang."""
         with selectors.DefaultSelector() as selector:
             for worker in self._workers:
                 selector.register(worker.out, selectors.EVENT_READ, worker)
@@ -132,7 +121,6 @@ class Pool(Generic[TaskT, ResultT]):
             self._in_flight(sum(worker.items for worker in self._at))
 
     def _hear(self, worker: WorkerProcess) -> None:
-        """Take what one worker says."""
         messages = worker.hear()
         if messages is None:
             self._lose(worker, None)

@@ -1,4 +1,4 @@
-"""Progress of long work: the callback that is told of it, and the rate at which the work goes."""
+"""The progress callback of long work, and the rate of the work."""
 
 from __future__ import annotations
 
@@ -15,21 +15,19 @@ def no_progress(_what: str, _done: int, _total: int) -> None:
 
 
 INTERVAL = 0.1
-"""Seconds between two calls of a progress callback, at least."""
+"""Least seconds between two calls of a progress callback."""
 
 
 class ProgressRate:
     """Counts finished worlds and reports them, with worlds per second and the time left.
 
-    Lives as long as a search.
-
     Args:
         what: the name of the work, as reported.
-        total: how many worlds there are.
-        report: the progress callback; None: nothing is reported.
+        total: number of worlds.
+        report: the progress callback, or None.
 
     Attributes:
-        done: how many worlds were finished, without those that a ledger knew.
+        done: number of worlds finished now, without those of a store.
     """
 
     def __init__(self, what: str, total: int, report: Progress | None) -> None:
@@ -40,7 +38,7 @@ class ProgressRate:
         self.done = 0
 
     def known(self, worlds: int) -> None:
-        """Count worlds that were finished before this search began."""
+        """Count worlds that were finished before."""
         self._known += worlds
         self.in_flight(0)
 
@@ -50,7 +48,7 @@ class ProgressRate:
         self.in_flight(0)
 
     def in_flight(self, worlds: int) -> None:
-        """Report, unless it is too soon; `worlds` are finished in shards that are not."""
+        """Report, unless it is too soon; `worlds` are finished in unfinished shards."""
         now = monotonic()
         if self._report is None or now < self._reported + INTERVAL:
             return

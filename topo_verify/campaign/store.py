@@ -4,22 +4,16 @@
         memory = store.campaign(identity, loaded)
         for shard, result in results(campaign, backend, store=memory): ...
 
-`meta` says what was run, so that only results of the same campaign are added up: format and version
-of the file, the version of topo-verify, and the campaign's identity (targets, a hash of their
-sources, class of worlds, limits, every option that changes a result), and which files and
-distributions the mappers were seen to load. How far a campaign goes is not in it, so a finished one
-can be extended. A file may hold several campaigns, each under a name. `shards` has a line for each
-finished shard, `rows` the rows that were kept of it.
+`meta` says what was run, so that only results of the same campaign are added up: versions, the
+campaign's identity, and what the mappers loaded. A file may hold several campaigns, each under a
+name. `shards` has a line for each finished shard, `rows` the rows kept of it.
 
-Nothing is lost: a shard is written in one transaction once it is finished, and SQLite rolls back a
-transaction that was cut off when the file is opened next. The file is locked for as long as it is
-open, by a lock of the operating system's that ends with the process. Only the process that runs the
-campaign opens it; workers never do.
+A shard is written in one transaction once it is finished. The file is locked while it is open, by a
+lock of the operating system's that ends with the process. Workers never open it.
 
-**Sums.** Each shard has a checksum of its fields, of its rows and of the checksum before it, and
-`meta` one over all. They are computed again when the file is opened, before anything in it is
-believed, and that of a shard again when it is read. Checksums guard against accidents, not against
-forgery.
+**Checksums.** Each shard has one over its fields, its rows and the checksum before it, and `meta`
+one over all. They are verified when the file is opened, and that of a shard when it is read. They
+guard against accidents, not against forgery.
 """
 
 from __future__ import annotations
@@ -44,7 +38,7 @@ from topo_verify.programs.loaded import Loaded
 
 FORMAT = "topo-verify/store"
 VERSION = 3
-"""Versions 1 and 2 were ledgers of `search`, under the format `topo-verify/ledger`."""
+"""Versions 1 and 2 were ledgers of `search`, with the format `topo-verify/ledger`."""
 
 _SCHEMA = """
 CREATE TABLE meta (
@@ -75,13 +69,13 @@ _LOADED = "loaded"
 
 
 class Store:
-    """An open store. Life cycle: `with` it, which locks the file; `campaign` for each one in it.
+    """An open store, which locks its file; `campaign` for each one in it.
 
     Args:
         path: the file; a new one is made if it does not exist.
     Raises:
         InputError: the file is no store, is of another version, was changed, is in use, or cannot
-            be written; the message says which, and how to fix it.
+            be written.
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -113,7 +107,7 @@ class Store:
 
         Args:
             now: what the mappers have loaded until now.
-            all_rows: every row is kept, or else those that are notable among all.
+            all_rows: keep every row, not only the notable ones.
         Raises:
             InputError: the file has another campaign of this name.
         """
@@ -134,11 +128,11 @@ class Store:
     ) -> None:
         for key, value in identity.items():
             if known.get(key) != value:
-                said = f"its {key} is {known.get(key)}, now it is {value}"
+                change = f"its {key} is {known.get(key)}, now it is {value}"
                 if key == "hash":
-                    said = "the source of the mapper, or of topo-verify, has changed since"
+                    change = "the source of the mapper, or of topo-verify, has changed since"
                 raise InputError(
-                    f"store {self.path} holds another campaign{whose}: {said}; name another file,"
+                    f"store {self.path} holds another campaign{whose}: {change}; name another file,"
                     " or remove this one to start anew"
                 )
 
@@ -160,12 +154,12 @@ class Store:
         """
         with explained(self.path):
             ask = f"SELECT {_FIELDS}, sum FROM shards WHERE number = ?"  # noqa: S608  no input in it
-            found = self._base.execute(ask, (number,)).fetchone()
+            fields = self._base.execute(ask, (number,)).fetchone()
             ask = "SELECT row FROM rows WHERE shard = ? ORDER BY rowid"
             rows = [row for (row,) in self._base.execute(ask, (number,))]
-        if found is None or found[-1] != checksum(self.sums[number - 1], found[:-1], rows):
+        if fields is None or fields[-1] != checksum(self.sums[number - 1], fields[:-1], rows):
             raise changed(self.path, f"the shard {number}")
-        return found[:-1], rows
+        return fields[:-1], rows
 
     def write(
         self,
@@ -177,18 +171,18 @@ class Store:
     ) -> None:
         """Write what is new of a campaign: its identity, what it loaded, a shard with its rows."""
         self.require_file()
-        number, made = len(self.sums), checksum(self.sums[-1], fields, rows)
+        number, digest = len(self.sums), checksum(self.sums[-1], fields, rows)
         meta = self.meta | {(name, key): value for key, value in identity.items()}
         meta[name, _LOADED] = msgspec.json.encode(loaded).decode()
         new = {pair: value for pair, value in meta.items() if self.meta.get(pair) != value}
-        new["", "sum"] = _seal(meta, made if fields else self.sums[-1])
+        new["", "sum"] = _seal(meta, digest if fields else self.sums[-1])
         with explained(self.path):
             self._base.execute("BEGIN")
             try:
                 if fields:
                     self._base.execute(
                         f"INSERT INTO shards VALUES (?,{'?,' * len(fields)}?)",  # noqa: S608
-                        (number, *fields, made),
+                        (number, *fields, digest),
                     )
                     self._base.executemany(
                         "INSERT INTO rows VALUES (?, ?)", [(number, row) for row in rows]
@@ -203,7 +197,7 @@ class Store:
             self._base.execute("COMMIT")
         self.meta = meta
         if fields:
-            self.sums.append(made)
+            self.sums.append(digest)
             self._note(number, fields)
 
     def _note(self, number: int, fields: Sequence[Any]) -> None:
@@ -215,7 +209,7 @@ class Store:
     # ------------------------------------------------------------ opening
 
     def _open(self) -> None:
-        """Lock the file and check every sum; give a new file its tables."""
+        """Lock the file and check every checksum; give a new file its tables."""
         self._base.execute("PRAGMA locking_mode = EXCLUSIVE")
         self._base.execute("BEGIN EXCLUSIVE")  # locks now, and for longer than COMMIT
         if Path(self.path).stat().st_size == 0:  # what was cut off has been rolled back by now
@@ -257,7 +251,7 @@ class Store:
             raise changed(self.path, "its version")
 
     def _require_sums(self) -> None:
-        """Compute every sum again; note sums and numbers of the shards."""
+        """Verify every checksum; note checksums and numbers of the shards."""
         stated = self.meta.pop(("", "sum"), "")
         (count,) = self._base.execute("SELECT count(*) FROM shards").fetchone()
         rows: dict[int, list[str]] = {}
@@ -276,7 +270,7 @@ class Store:
             raise changed(self.path, "its table meta")
 
     def _inode(self) -> tuple[int, int] | None:
-        """Which file has the name now; None if none has."""
+        """The identity of the file of this name now; None if there is none."""
         try:
             status = Path(self.path).stat()
         except OSError:
@@ -343,11 +337,11 @@ class StoredCampaign:
         return result
 
     def put(self, shard: Shard, result: ShardResult) -> None:
-        """Record a finished shard. Once this returns, it is kept whatever happens.
+        """Record a finished shard, durably.
 
         Raises:
-            InputError: the file cannot be written, since the disk may be full, or it was removed; a
-                file that the mappers loaded has changed.
+            InputError: the file cannot be written, or was removed; a file that the mappers loaded
+                has changed.
         """
         rows = result.rows
         if not self._all_rows:  # a row that others in the file put out of the list is not needed
@@ -403,12 +397,12 @@ def _older(path: str, known: Mapping[str, str]) -> InputError:
 
 
 def no_store(path: str) -> InputError:
-    """The database is something else."""
+    """The error for another database."""
     return InputError(f"{path} is a database, but no store of topo-verify: name another file")
 
 
 def changed(path: str, part: str) -> InputError:
-    """A part of the store was changed after it was written."""
+    """The error for a part of the store that was changed after it was written."""
     return InputError(
         f"store {path}: {part} is not what topo-verify wrote: copy the file again, or remove it and"
         " start anew"

@@ -1,7 +1,6 @@
 """A tally: the numbers that rows add up to. And `notable`: the rows that are kept as examples.
 
-A tally holds numbers only, so it stays small however many worlds it is about. What is shown of a
-single world is a row. Both add up in any grouping that keeps the order of the worlds:
+Both add up in any grouping that keeps the order of the worlds:
 
     tally + tally
     notable(notable(rows) + notable(rows)) == notable(rows + rows)
@@ -23,7 +22,7 @@ from topo_verify.campaign.row import PolicyCosts, Row
 from topo_verify.checkers import CLAIMS, Finding, Judgement, Status
 
 KEPT_FAILING, KEPT_WORST, KEPT_PAIRS, SAMPLE = 3, 10, 10, 50
-"""The most rows that are kept of each kind and size of worlds; `SAMPLE`: of all sizes together."""
+"""Most rows kept of each kind and size of worlds; `SAMPLE`: of all sizes together."""
 
 
 class Costs(msgspec.Struct, frozen=True):
@@ -31,7 +30,7 @@ class Costs(msgspec.Struct, frozen=True):
 
     Attributes:
         runs, total, most: their number, their sum, the highest.
-        attained: in how many worlds a run has the highest cost.
+        attained: number of worlds with the highest cost.
     """
 
     runs: int = 0
@@ -49,7 +48,7 @@ class Pairs(msgspec.Struct, frozen=True):
     """The first two mappers in the same worlds, both right.
 
     Attributes:
-        dearer, cheaper: in how many worlds the first costs more, and less.
+        dearer, cheaper: number of worlds where the first costs more, and less.
         most: the largest difference where it costs more.
     """
 
@@ -66,18 +65,18 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
     """The numbers of some worlds.
 
     Attributes:
-        worlds, failing, undecided: worlds; those where a claim fails; those that are left open.
+        worlds, failing, undecided: worlds; those where a claim fails; those left open.
         timeouts: runs that a time limit ended, or that lost their worker each time.
         late: runs that were cut off and say nothing else.
         lost: worlds in which a worker was lost, perhaps not by a mapper's fault.
-        statuses: for each claim, how many runs have which status.
+        statuses: for each claim, the number of runs with each status.
         shares: for each claim, how much was judged in all runs together, of how much.
-        claims: for each claim that fails, in how many worlds.
+        claims: for each claim that fails, the number of worlds.
         costs: of each mapper.
         pairs: the first mapper with the second.
-        digest: a hash of what happened in every world, whatever the order.
+        digest: a hash of what happened in every world, in any order.
         by_checkers: worlds that the checkers judged again after another engine.
-        choices: what any choices of the mappers can cost, where every choice is tried.
+        choices: the possible costs, if every choice of the mappers is tried.
     """
 
     worlds: int = 0
@@ -108,7 +107,7 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
         """The judgement of each claim on all runs: `ok` only if it is `ok` in each.
 
         Args:
-            findings: those that are shown.
+            findings: those to show.
         """
         return tuple(
             Judgement(
@@ -122,39 +121,36 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
         )
 
 
-def added(one: Any, other: Any) -> Any:
-    """The sum of a field of two tallies; a text is a digest, the empty one the digest of none."""
+def added(a: Any, b: Any) -> Any:
+    """The sum of a field of two tallies; a text is a digest, "" that of none."""
     # isinstance would leave pyright without the types of the parts.
-    if issubclass(one.__class__, dict):
-        return {**one, **other, **{key: added(one[key], other[key]) for key in one if key in other}}
-    if issubclass(one.__class__, tuple):
-        return tuple(map(added, one, other))
-    if issubclass(one.__class__, str):
-        total = int(one or "0", 16) + int(other or "0", 16)
-        return f"{total % (1 << 256):064x}" if one or other else ""
-    return one + other
+    if issubclass(a.__class__, dict):
+        return {**a, **b, **{key: added(a[key], b[key]) for key in a if key in b}}
+    if issubclass(a.__class__, tuple):
+        return tuple(map(added, a, b))
+    if issubclass(a.__class__, str):
+        total = int(a or "0", 16) + int(b or "0", 16)
+        return f"{total % (1 << 256):064x}" if a or b else ""
+    return a + b
 
 
 def joint_status(runs: Mapping[str, int]) -> Status:
-    """The status of a claim in many runs, given how many of them have each status."""
-    seen = {status for status, number in runs.items() if number}
+    """The status of a claim in many runs, given the number of runs with each status."""
+    statuses = {status for status, number in runs.items() if number}
     worst: tuple[Status, ...] = ("failed", "undecided")
     alike: tuple[Status, ...] = ("ok", "not-declared", "not-asked")
     for status in worst:
-        if status in seen:
+        if status in statuses:
             return status
     for status in alike:
-        if seen == {status}:
+        if statuses == {status}:
             return status
     return "partial"
 
 
 @dataclass
 class Counts:
-    """Counts rows, world by world. Life cycle: `enter` each world, `tally` at any time.
-
-    (`Tally + Tally` for each world would copy all numbers each time.)
-    """
+    """Counts rows, world by world: `tally` without a sum of tallies for each world."""
 
     worlds: int = 0
     failing: int = 0
@@ -180,7 +176,7 @@ class Counts:
         digests = sha256()
         for row in rows:
             digests.update(row.digest.encode())
-            # A worker that hangs is lost, and may take a whole limit of time each time.
+            # A lost worker may have hung for a whole time limit.
             self.timeouts += row.timed_out or row.ended == "worker-lost"
             self.lost += row.lost is not None
             if row.choices is not None:
@@ -252,15 +248,13 @@ class Counts:
 
 @dataclass
 class Notable:
-    """The rows that matter: failing, lost, most expensive, more expensive than the other mapper's.
+    """The rows to keep: failing, lost, most expensive, more expensive than the other mapper's.
 
-    And the first and the last of each size.
-
-    Life cycle: `enter` worlds in their order; `rows` at any time. Whether a row is kept depends on
-    the worlds of its size alone, never on the process that examined which shard.
+    And the first and the last of each size. `enter` worlds in their order. Whether a row is kept
+    depends only on the worlds of its size.
 
     Attributes:
-        seed: draws the sample: the rows with the least keys, failing ones and others apart.
+        seed: draws the sample, of failing rows and of others.
     """
 
     seed: int = 0
@@ -276,7 +270,7 @@ class Notable:
     )
 
     def enter(self, rows: Sequence[Row]) -> None:
-        """Look at one world."""
+        """Consider one world."""
         for row in rows:
             self._keep("first", row, 1)
             self._kept["last", row.edges] = [row]

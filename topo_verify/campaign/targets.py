@@ -1,16 +1,15 @@
 """The TARGET of a command: a mapper by its name, its module, its file or its command.
 
     basic                       a name of the catalogue
-    package.module:attribute    a callable of an importable module, in this process or its own
-    path/file.py:attribute      a callable of a file, likewise
-    --cmd program args          a program behind protocol 1, started when it plays its first world
-    --library file.so:symbol    a function of a shared library, in a process of its own
+    package.module:attribute    a callable of an importable module
+    path/file.py:attribute      a callable of a file
+    --cmd program args          a program behind protocol 1, started in its first world
+    --library file.so:symbol    a function of a shared library, in its own process
     --library path/file.py:name a function that numba compiles; as path/file.py:name, too
-    all                         the algorithms of the catalogue that are right in every world
+    all                         the algorithms that are right in every world
     basic,path/file.py:name     several of these, but for programs and libraries
 
-The other way round, `text_of` gives the text by which a command line finds a callable again that
-was handed over in Python:
+Conversely, `text_of` gives the text by which a command line finds a callable again:
 
 | the callable | its text |
 | --- | --- |
@@ -18,11 +17,6 @@ was handed over in Python:
 | what a module holds under a name | `package.module:name` |
 | likewise, but other programs do not find the module by its name | `path/file.py:name` |
 | anything else, such as a closure, or what a notebook holds | `module:<name>`, which finds none |
-
-No replay command is printed for the last kind.
-
-The text of a program or a library is the option and its value in one text, so that workers, ledgers
-and baselines keep every mapper as one text.
 
 Source: docs/semantics.md, section 16.
 """
@@ -52,26 +46,25 @@ def targets(
 ) -> tuple[Target, ...]:
     """The mappers that a TARGET names, in its order.
 
-    A program runs from its first world until it is closed or its object is deleted; a mapper in a
-    process of its own from now on.
+    A program runs from its first world until it is closed or deleted; a mapper in its own process
+    from now on.
 
     Args:
         pick, order: policies for algorithms of the catalogue.
-        in_process: a mapper that is not of the catalogue shares this process, or else gets its own.
+        in_process: a mapper outside the catalogue shares this process.
     Raises:
-        InputError: there is no such algorithm, module, file, attribute or policy; what was found
-            cannot be called; the command is empty; or policies are given for another mapper.
+        InputError: there is no such algorithm, module, file, attribute or policy; it cannot be
+            called; the command is empty; or policies are given for another mapper.
     """
-    found = (_target(one, in_process=in_process) for one in each_text(text))
-    return tuple(_with_policies(target, pick, order) for target in found)
+    mappers = (_target(name, in_process=in_process) for name in each_text(text))
+    return tuple(_with_policies(mapper, pick, order) for mapper in mappers)
 
 
 def each_text(text: str) -> tuple[str, ...]:
-    """The text of each mapper that a TARGET names: it is divided at commas, `all` into names.
+    """The text of each mapper that a TARGET names: split at commas, with `all` expanded.
 
-    A function of a Python file that numba compiles is a native mapper.
+    A numba function of a Python file becomes a native mapper.
     """
-    # The prefix comes first: a command may well hold a comma, a module path never begins with `--`.
     place = text.rpartition(":")[0]
     named = "," in place and os.path.isfile(place)  # noqa: PTH113  Path.is_file raises if a list is longer than a file name
     if text.startswith(OPTIONS):
@@ -101,7 +94,7 @@ def _names_jitted(text: str) -> bool:
 
 
 def _is_jit(mark: ast.expr) -> bool:
-    """Whether this is `numba.njit`, `njit`, `njit(...)`, or a call of what such a call returns."""
+    """Whether this is `numba.njit`, `njit`, `njit(...)`, or a call of such a call's result."""
     while isinstance(mark, ast.Call):
         mark = mark.func
     return ast.unparse(mark).rpartition(".")[2] in ("njit", "jit")
@@ -125,10 +118,10 @@ def one_target(
         if not callable(mapper):
             raise InputError(f"expected a callable that takes a robot, got {mapper!r}")
         return _with_policies(Target(text_of(mapper), mapper), pick, order)
-    found = targets(mapper, pick=pick, order=order, in_process=in_process)
-    if len(found) != 1:
-        raise InputError(f"{mapper!r} names {len(found)} mappers: name one")
-    return found[0]
+    mappers = targets(mapper, pick=pick, order=order, in_process=in_process)
+    if len(mappers) != 1:
+        raise InputError(f"{mapper!r} names {len(mappers)} mappers: name one")
+    return mappers[0]
 
 
 def _target(text: str, *, in_process: bool) -> Target:
@@ -176,7 +169,7 @@ def _with_policies(target: Target, pick: str | None, order: str | None) -> Targe
 
 
 def target_text(target: str | None, command: str | None, default: str | None = None) -> str:
-    """The text of the TARGET that is given as an argument, by `--cmd` or by `--library`.
+    """The text of the TARGET given as an argument, by `--cmd` or by `--library`.
 
     Args:
         command: the command of a program, or the whole text of a library.
@@ -231,7 +224,7 @@ def is_found_again(text: str) -> bool:
 
 
 def _name_in(module: ModuleType, mapper: Mapper) -> str | None:
-    """The name under which a module holds this very object; None if it does not."""
+    """The name under which a module holds this very object, or None."""
     name: str = getattr(mapper, "__qualname__", "")
     try:
         if attrgetter(name)(module) is mapper:
@@ -258,10 +251,9 @@ def _place(module: ModuleType) -> str | None:
 
 
 def _is_guarded(script: ModuleType, path: Path) -> bool:
-    """Whether a script may be loaded again: the line that it is at stands below a guard.
+    """Whether a script may be loaded again: its current line stands below a `__name__` guard.
 
-    The guard is `if __name__ == "__main__":`. A script without one would do its work again as soon
-    as it is loaded, and that may fail before the mapper is found.
+    Without one it would do its work again when it is loaded.
     """
     if path.suffix != ".py" or not path.is_file():
         return False

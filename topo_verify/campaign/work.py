@@ -1,13 +1,7 @@
 """What the workers of a pool do, as a value: tasks, results, and what becomes of a lost task.
 
-    Work        the work: what a worker runs, and what a task means that loses its workers
-    Loss        how a worker was lost
-    Division    how a task is cut around the item that kills
-    Remote      what other machines need on top of that
-    TaskBackend     does tasks: `pool.py` on this machine, `cluster.py` on others
-
-A job, a task and a result are data (JSON); this file knows nothing of what they mean. A task that
-loses its workers is cut into pieces, which are done like tasks; their results are joined again.
+A job, a task and a result are data (JSON), opaque to this file. A task that loses its workers is
+cut into pieces; their results are joined.
 """
 
 from __future__ import annotations
@@ -36,9 +30,9 @@ class Loss:
 
     Attributes:
         status: its exit status in words, `exit code 3` or `signal 9`.
-        silence: after how many seconds without a heartbeat it was killed; None: it ended itself.
+        silence: seconds without a heartbeat after which it was killed; None: it ended itself.
         loading: it was not ready for its first task yet.
-        items: the number of items of its task that were finished.
+        items: number of finished items of its task.
     """
 
     status: str
@@ -66,13 +60,13 @@ class Loss:
 
 @dataclass(frozen=True)
 class Division(Generic[TaskT, ResultT]):
-    """How a task is cut into pieces, which are tasks, too.
+    """How a task is cut into smaller tasks.
 
     Attributes:
-        cut: the pieces in their order, given how many items were finished when the worker was lost;
-            fewer than two: the task cannot be cut.
-        join: one result from those of the pieces, in their order.
-        last: no piece behind one with such a result is wanted, and none is joined.
+        cut: the pieces in order, given the number of items finished when the worker was lost; fewer
+            than two: the task cannot be cut.
+        join: one result from those of the pieces, in order.
+        last: whether the pieces behind one with this result are dropped.
     """
 
     cut: Callable[[TaskT, int], Sequence[TaskT]]
@@ -82,16 +76,16 @@ class Division(Generic[TaskT, ResultT]):
 
 @dataclass(frozen=True)
 class Remote(Generic[TaskT, ResultT]):
-    """What other machines need to do a task of some work.
+    """What other machines need to do a task.
 
     Attributes:
         remade: `module:function`, which makes the same `Work` from its job, as JSON.
         task: the type of a task, to read it from JSON.
         parts: a task in parts, without a look at its items; fewer than two: it cannot be cut.
-        lost: the result of a task that cannot be cut and with which machines were lost each time;
-            it convicts no mapper.
-        require_ours: raises an InputError if a result was made with other files than are here; it
-            is given the result and the name of the worker.
+        lost: the result of a task that cannot be cut and lost its machines each time; it convicts
+            no mapper.
+        require_ours: raises an InputError if a result was made with other files than are here;
+            takes the result and the name of the worker.
     """
 
     remade: str
@@ -107,17 +101,16 @@ class Work(Generic[TaskT, ResultT]):
 
     Attributes:
         serve: the function that a worker runs, `module:function`; a `worker.Serve`.
-        job: what each worker is handed once, before its first task.
+        job: what each worker gets before its first task.
         result: the type of a result, to read it from JSON.
         lost: the result of a task that was lost with its last worker; it may raise.
-        survived: the result of a task that lost workers, given its last result, how they were lost,
-            each with the piece that it was at, and the pieces that were given up; default: its
-            last result.
+        survived: the result of a task that lost workers, given its last result, the losses, each
+            with its piece, and the pieces that were given up.
         silence: seconds without a heartbeat after which a worker is lost.
         loading: seconds that a worker has to get ready.
         attempts: the most workers that may be lost with a task.
         division: how a task is cut; None: it cannot be.
-        remote: what other machines need; None: the work is done on this one only.
+        remote: what other machines need; None: this one only.
     """
 
     serve: str
@@ -135,7 +128,7 @@ class Work(Generic[TaskT, ResultT]):
 
 
 class TaskBackend(Protocol[TaskT, ResultT_co]):
-    """Does tasks: a pool on this machine, or a cluster of others."""
+    """Does tasks: a pool on this machine, or a cluster."""
 
     def run(
         self, tasks: Iterable[TaskT], *, room: Callable[[], bool] = ...
@@ -155,8 +148,8 @@ def in_order(
 
     Args:
         tasks: different objects.
-        ahead: the most tasks that are taken before the first of them is finished: a slow one must
-            not fill the memory with results that wait for it.
+        ahead: the most tasks taken before the first of them is finished: a slow one must not fill
+            the memory with results that wait for it.
     """
     taken: deque[TaskT] = deque()
     results: dict[int, ResultT] = {}  # by the identity of the task, which `taken` keeps alive
@@ -177,10 +170,10 @@ def in_order(
 
 @dataclass(eq=False)
 class WholeTask(Generic[TaskT, ResultT]):
-    """A task as it was taken, and its pieces in their order; at first, it is its only piece.
+    """A task as it was taken, and its pieces in order; at first, it is its only piece.
 
     Attributes:
-        losses: how workers were lost with it, each with what it was at.
+        losses: how workers were lost with it, each with its piece.
         given_up: the pieces that were lost with their last worker.
     """
 
@@ -192,10 +185,10 @@ class WholeTask(Generic[TaskT, ResultT]):
 
 @dataclass(eq=False)
 class Piece(Generic[TaskT, ResultT]):
-    """A task or a part of one, done in one go.
+    """A task or a part of one.
 
     Attributes:
-        deaths: how many workers were lost with it.
+        deaths: number of workers lost with it.
         results: its result, once it is there.
     """
 
@@ -206,11 +199,11 @@ class Piece(Generic[TaskT, ResultT]):
 
 
 class Pieces(Generic[TaskT, ResultT]):
-    """The pieces of the tasks of some work. It lives as long as a pool.
+    """The pieces of the tasks of some work, as long as a pool lives.
 
     Attributes:
         queue: pieces that go before new tasks.
-        finished: tasks that are finished, each with its result, until somebody takes them.
+        finished: finished tasks with their results, until the pool takes them.
     """
 
     def __init__(self, work: Work[TaskT, ResultT]) -> None:
@@ -219,7 +212,7 @@ class Pieces(Generic[TaskT, ResultT]):
         self.finished: deque[tuple[TaskT, ResultT]] = deque()
 
     def next(self, todo: Iterator[TaskT], room: Callable[[], bool]) -> Piece[TaskT, ResultT] | None:
-        """The piece that is done next; None if there is none, or no room for a new task."""
+        """The next piece; None if there is none, or no room for a new task."""
         if self.queue:
             return self.queue.popleft()
         if not room():
@@ -231,7 +224,7 @@ class Pieces(Generic[TaskT, ResultT]):
         return None
 
     def finish(self, piece: Piece[TaskT, ResultT], result: ResultT) -> None:
-        """Note the result of a piece; with the last of its pieces a task is finished."""
+        """Record the result of a piece; its last piece finishes a task."""
         piece.results.append(result)
         whole, division = piece.whole, self._work.division
         if division is None:

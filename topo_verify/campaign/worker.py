@@ -1,26 +1,19 @@
-"""One worker of a `Pool`: the process, which does tasks, and the handle that its parent has on it.
+"""One worker of a `Pool`: the process, which does tasks, and its parent's handle on it.
 
     in          the key and the job, then the tasks: a JSON value a line
-    out         a sealed message a line: WorkerReady, a TaskDone for each task; or WorkerFailed, the
-                last
-    heartbeat   three words in a file: how many items of the task are finished, a number that
-                grows, and in how many milliseconds the next sign of life is due (0: as usual)
+    out         a sealed message a line: WorkerReady, a TaskDone for each task; at last perhaps
+                WorkerFailed
+    heartbeat   three words in a file: finished items of the task, a number that grows, and
+                milliseconds until the next sign of life is due (0: as usual)
 
-The work is named by `module:function` (`Serve`): the pool, which starts the process, knows nothing
-of searches, mappers or worlds.
-
-Four things the code here must see to:
-
-- **A worker ends with its parent, however that ends.** It is a fork of the launcher, which sees its
-  control end, and on Linux the kernel kills a worker with the launcher, for a mapper that sits in C
-  code lets no thread run. Elsewhere the thread that reads tasks sees the channel end.
+- **A worker ends with its parent.** It is a fork of the launcher, which sees its control end; on
+  Linux the kernel kills a worker with the launcher, because a mapper in C code lets no thread run.
+  Elsewhere the thread that reads tasks sees the channel end.
 - **No other program speaks for a worker.** A worker is shielded from its first moment
-  (launcher.py), so that its memory and its channel cannot be opened. Each message carries a *seal*:
-  its number and its text, signed with a key that only parent and worker know. So a message that
-  comes by another way, as through a channel that a child has inherited, ends the work.
-- **A mapper cannot disturb the channel.** One that reads standard input finds nothing, and what it
-  prints goes to standard error.
-- **Ctrl-C is for the parent**, which decides what becomes of the workers.
+  (launcher.py). Each message carries a *seal*: its number and its text, signed with a key that only
+  parent and worker know. A forged message ends the work.
+- **A mapper cannot disturb the channel**: standard input is empty, prints go to standard error.
+- **Ctrl-C is for the parent**, which ends the workers.
 """
 
 from __future__ import annotations
@@ -51,13 +44,13 @@ from topo_verify.programs.launcher import launch
 from topo_verify.robot.stopwatch import Stopwatch, tasks_of
 
 Beat = Callable[[int], None]
-"""Called in the course of a task, before anything that may take long: (items finished so far)."""
+"""Called in the course of a task, before anything slow: (items finished so far)."""
 
 Handler = Callable[[bytes, Beat], Any]
 """Does one task: takes it as JSON, returns the result, which msgspec can write as JSON."""
 
 Serve = Callable[[bytes], AbstractContextManager[Handler]]
-"""Takes the job as JSON, and prepares for its tasks; on leaving the context, clears up."""
+"""Takes the job as JSON and prepares for its tasks; clears up on leaving the context."""
 
 
 def function_at(place: str) -> Any:
@@ -70,14 +63,14 @@ END_GRACE = 5.0
 """Seconds that an idle worker has to leave its context and end."""
 
 LOOK = 1.0
-"""Seconds between two looks of the pool at a heartbeat, at most, unless the pool does not run."""
+"""Most seconds between two looks of the pool at a heartbeat, while the pool runs."""
 
 TERM_GRACE = 2.0
 """Seconds that a busy worker has to end after SIGTERM."""
 
 
 class WorkerReady(msgspec.Struct, frozen=True, tag=True):
-    """The worker is prepared and waits for tasks."""
+    """The worker waits for tasks."""
 
 
 class TaskDone(msgspec.Struct, frozen=True, tag=True):
@@ -97,13 +90,11 @@ WorkerMessage = WorkerReady | TaskDone | WorkerFailed
 
 
 class Heartbeat:
-    """The file that a worker writes its signs of life to, and its parent reads.
+    """The file to which a worker writes signs of life. Its parent reads it.
 
-    It is memory that both share, so that machine code can write to it as well. A pipe would fill up
-    while the parent is busy, and would have to be drained; of words only the last is ever read.
+    It is shared memory, so that machine code can write to it as well. A pipe would fill up while
+    the parent is busy.
 
-    Args:
-        file: its file descriptor.
     Attributes:
         address: of its words.
     """
@@ -130,17 +121,17 @@ class Heartbeat:
             self._words[2] = 0
 
     def read(self) -> tuple[int, int, float]:
-        """How many items are finished, how many beats there were, and when the next one is due."""
+        """Number of finished items, number of beats, and when the next one is due."""
         items, count, due = self._words
         return items, count, due / 1000
 
 
 class Seal:
-    """Signs the messages of one worker, each with its number, so that none is forged or repeated.
+    """Signs the messages of one worker, each with its number, against forgery and repetition.
 
     Args:
         key: known to the worker and to its parent.
-        process: the number of the worker's process: a copy of it signs nothing.
+        process: the worker's process id: a copy of it signs nothing.
     """
 
     def __init__(self, key: str, process: int) -> None:
@@ -171,16 +162,16 @@ class Seal:
 
 
 class WorkerProcess:
-    """A worker, as its parent sees it. Life cycle: made, `start` tasks, `kill`.
+    """A worker, as its parent sees it: made, `start` tasks, `kill`.
 
     Args:
-        serve: what it is to run, `module:function`; a `Serve`.
-        job: what it is handed before its first task.
-        folder: where it is started; None: in the current folder.
+        serve: the function that it runs, `module:function`; a `Serve`.
+        job: what it gets before its first task.
+        folder: where it is started; default: the current folder.
     Attributes:
-        ready: it has said that it waits for tasks.
-        items: how many items of its task were finished when its heartbeat was last read.
-        due: in how many seconds its next heartbeat is due; 0: it does not say.
+        ready: it waits for tasks.
+        items: finished items of its task when its heartbeat was last read.
+        due: seconds until its next heartbeat is due; 0: as usual.
     """
 
     def __init__(self, serve: str, job: object, folder: str | None = None) -> None:
@@ -204,7 +195,7 @@ class WorkerProcess:
         return self.process.channel
 
     def start(self, task: object) -> None:
-        """Hand it a task. It must be idle: a busy one would not read, and the pipe may fill up."""
+        """Hand an idle worker a task: a busy one would not read, and the pipe may fill up."""
         self.items, self._since_beat = 0, self._stopwatch()
         self._write(task)
 
@@ -225,17 +216,14 @@ class WorkerProcess:
         return [msgspec.json.decode(self._seal.opened(line), type=WorkerMessage) for line in lines]
 
     def _received(self) -> bytes:
-        """What has come; nothing if it has ended."""
+        """Bytes that have come; none if it has ended."""
         try:
             return self.out.recv(1 << 16)
         except ConnectionError:  # it ended before it read what was written
             return b""
 
     def silence(self) -> float:
-        """For how many seconds it has written no heartbeat.
-
-        Seconds in which it waits for a processor do not count: a busy machine hangs no worker.
-        """
+        """Seconds since its last heartbeat, not counting waits for a processor."""
         items, beats, self.due = self.heartbeat.read()
         if beats != self._beats:
             self.items, self._beats, self._since_beat = items, beats, self._stopwatch()
@@ -263,7 +251,7 @@ class WorkerProcess:
                     return
 
     def kill(self) -> str:
-        """Kill it and whatever it started; its exit status in words."""
+        """Kill it and whatever it started. Returns its exit status in words."""
         # Its number names no other group: it is not reaped before `wait`.
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(self.process.pid, signal.SIGKILL)
@@ -307,7 +295,6 @@ def _work(
     send: Callable[[WorkerMessage], None],
     beat: Beat,
 ) -> None:
-    """Do tasks until there are no more."""
     with served as handle:
         send(WorkerReady())
         beat(0)
@@ -324,7 +311,7 @@ def _send(out: BinaryIO, seal: Seal, process: int, message: WorkerMessage) -> No
 
 
 def _read(commands: BinaryIO, put: Callable[[bytes | None], None]) -> None:
-    """Hand on the lines; when they end, have the process end, in the midst of a task or not."""
+    """Hand on the lines; when they end, end the process, even within a task."""
     for line in commands:
         put(line)
     put(None)  # an idle worker sees this, and leaves its context
