@@ -1,13 +1,8 @@
 """An attempt: a mapper runs in a world, every claim is judged, and a row is made of it.
 
-    attempt(world, target, ...)    runs the mapper and judges the run     -> Attempt
-    row_of(attempt, ...)           the same as data                       -> Row
-    lost_row(...)                  the run that took its process with it  -> Row
-
-**The second try.** A program, or a mapper in a process of its own, may be killed by what it does or
-by something else: a system without memory sends SIGKILL. So the world is tried again. If the mapper
-fails again, the first run counts. If it passes, a crash is still a finding, and SIGKILL leaves the
-world undecided.
+**The second try.** A program, or a mapper in its own process, may be killed by its own fault or by
+the out-of-memory killer (SIGKILL). So the world is tried again. If the mapper fails again, the
+first run counts. If it passes, a crash is still a finding, and SIGKILL leaves the world undecided.
 """
 
 from __future__ import annotations
@@ -38,7 +33,7 @@ OUTSIDE = "perhaps for a reason outside; the second try passed"
 """What is said of a run that was lost once."""
 
 KEPT_FINDINGS = 5
-"""The most findings of each claim that a row keeps."""
+"""Most findings of each claim that a row keeps."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,9 +41,9 @@ class Attempt:
     """A run of a mapper in a world, and its judgement.
 
     Attributes:
-        seconds: processor time of mapper and robot, see `_processor_seconds`.
+        seconds: processor time of mapper and robot.
         lines: the transcript of a program that records one.
-        lost: the signal that ended an earlier try, perhaps by nothing that the mapper did.
+        lost: the signal that ended an earlier try, perhaps not by the mapper's fault.
         choices: as in a `Row`.
     """
 
@@ -61,7 +56,7 @@ class Attempt:
 
 
 Look = Callable[[Attempt], Any]
-"""What a study notes about a run beside what every row has: JSON."""
+"""What a study notes about a run, as JSON."""
 
 
 def attempt(  # noqa: PLR0913  an argument an option
@@ -81,7 +76,7 @@ def attempt(  # noqa: PLR0913  an argument an option
         where: the world, as the command line names it.
         strict: judge claim 10 also in worlds with more than 2,000 edges.
         witness: also run the mapper in the witness world of a wrong map.
-        known: in the place of `check`.
+        known: replaces `check`.
         beat: called before each run and each judgement.
     """
 
@@ -115,11 +110,7 @@ def attempt(  # noqa: PLR0913  an argument an option
 
 
 def _processor_seconds(program: Program | None) -> float:
-    """Seconds of processor time that this process and that of a program have used so far.
-
-    Of a program they are those of its threads and processes that run now; 0 where the system does
-    not tell.
-    """
+    """Seconds of processor time that this process and the present ones of a program have used."""
     seconds = process_time()
     if program is not None and program.process is not None:
         for task in tasks_of(program.process):
@@ -136,7 +127,7 @@ def row_of(made: Attempt, where: str, place: int, turn: int = 0, look: Look | No
         where: the world, as the command line names it.
         place: its rank among the worlds of its size, or its place in a list.
         turn: the number of runs in the same world before this one.
-        look: what the study notes.
+        look: the study's note.
     """
     run, report = made.run, made.report
     why = None
@@ -188,7 +179,7 @@ def lost_row(
 
     Args:
         cause: what became of the process, in words.
-        external: the mapper may have had no part in it; then the world is undecided.
+        external: the mapper may not be at fault; then the world is undecided.
     """
     bare = Row(
         world=where,
@@ -228,8 +219,8 @@ def _ended(run: Exploration) -> str:
 def _counted(trace: Sequence[ev.Event]) -> tuple[list[int], list[object], int, int, int]:
     """Doors; declared decisions; how many rejections, and how many without motion; confirmations.
 
-    A decision counts with the number of moves before it: edge, hypotheses, rule, kind, dart. The
-    evidence of a rejection and the purpose of a move say why, not what, and are left out.
+    A decision is the number of moves before it, edge, hypotheses, rule, kind, dart. Evidence and
+    purposes say why, not what, and are left out.
     """
     doors: list[int] = []
     decisions: list[object] = []

@@ -78,12 +78,12 @@ class Report(msgspec.Struct, frozen=True, dict=True):
 
     @property
     def run(self) -> JudgedRun | None:
-        """The run that is judged; None for a report that was read from a file."""
+        """The judged run; None for a report that was read from a file."""
         return self.__dict__.get(_RUN)
 
     @cached_property
     def playback(self) -> Playback | None:
-        """The run, event by event, with what is wrong; None where `run` is."""
+        """The run, event by event, with its findings; None where `run` is."""
         from topo_verify.player.scenes import Playback
 
         if self.run is None:
@@ -105,7 +105,7 @@ class Report(msgspec.Struct, frozen=True, dict=True):
         return self
 
     def with_findings(self, findings: Sequence[Finding]) -> Report:
-        """The report with other findings for those that it has."""
+        """The report with these findings instead of its own."""
         judgements = tuple(
             msgspec.structs.replace(
                 one, findings=tuple(f for f in findings if f.claim == one.claim)
@@ -121,7 +121,7 @@ class Report(msgspec.Struct, frozen=True, dict=True):
 
     @property
     def head(self) -> str:
-        """What ran where, at what cost, and how many claims hold."""
+        """World, mapper, cost, and how many claims hold."""
         ran = f"{self.target} in {self.world}, {plural(self.cost, 'edge traversal')}"
         return f"{ran}: {in_words(self.claims, 'claims hold')}"
 
@@ -163,7 +163,7 @@ def in_words(claims: Mapping[str, Status], hold: str) -> str:
 
 
 def shortfalls(judgements: Sequence[Judgement]) -> list[str]:
-    """A line for each claim that was asked, and judged only in part."""
+    """A line for each claim that was judged only in part."""
     return [
         f"{one.claim}: {_WORDS[one.status]}, {one.judged} of {one.of}"
         for one in judgements
@@ -207,9 +207,9 @@ def assert_maps(
     Args:
         strict: judge claim 10 also in worlds with more than 2,000 edges.
     Raises:
-        ClaimFailed: a claim fails. It is an AssertionError whose text is the report; its cause is
-            the exception that the mapper raised, if it did.
-        ClaimUndecided: no claim fails, but one is undecided. It is an AssertionError, too.
+        ClaimFailed: a claim fails. An AssertionError whose text is the report; its cause is the
+            mapper's exception, if any.
+        ClaimUndecided: no claim fails, but one is undecided. An AssertionError, too.
         InputError: there is no such mapper or policy.
     """
     run = explore(world, mapper, pick=pick, order=order, limits=limits)
@@ -224,12 +224,12 @@ def assert_maps(
 
 
 class Checks(Protocol):
-    """Gives the judgements of `check`, in a quicker way where there is one."""
+    """Gives the judgements of `check`, perhaps in a quicker way."""
 
     def __call__(
         self, world: World, trace: Sequence[Event], stopped: str | None = None, *, strict: bool
     ) -> Sequence[Judgement]:
-        """The judgements of `check`; see there."""
+        """The judgements of `check`."""
         ...
 
 
@@ -247,7 +247,7 @@ class CheckedTraces:
     def __call__(
         self, world: World, trace: Sequence[Event], stopped: str | None = None, *, strict: bool
     ) -> list[Judgement]:
-        """The judgements of `check`; see there."""
+        """The judgements of `check`."""
         start, *events = trace
         kinds = tuple(map(type, trace))
         try:
@@ -274,12 +274,12 @@ def judge(
     """Judge a run by every claim; see `examine`.
 
     If the history does not entail the map, the mapper also runs in the witness world, with the same
-    limits. (A deterministic mapper makes the same moves there, since its percepts are the same.)
-    Of a run without a trace `TRACELESS` are judged, and no other claim is asked.
+    limits. (A deterministic mapper makes the same moves there.) Of a run without a trace only
+    `TRACELESS` are judged.
 
     Args:
         options: the options that the replay command needs besides world and target.
-        known: in the place of `check`.
+        known: replaces `check`.
     """
     where = where or world_argument(run.world)
     words = (*options, *strict_option(run.world, strict=strict))
@@ -307,7 +307,7 @@ TRACELESS = ("map-isomorphic", "cost-within-bound")
 
 
 def _judge_result(run: Exploration, where: str, replay_command: str) -> Report:
-    """The report on the map and the cost of a run that kept no trace."""
+    """The report on the map and the cost of a run without a trace."""
     world = run.world
     held = (run.map is not None and _is_map_of(world, run.map), run.cost <= world.cost_bound)
     wrong = {
@@ -328,7 +328,6 @@ def _judge_result(run: Exploration, where: str, replay_command: str) -> Report:
 
 
 def _is_map_of(world: World, delivered: MapData) -> bool:
-    """Whether a map is isomorphic to a world, the marker on the marker."""
     try:
         return World.from_map(delivered).code == world.code
     except InputError:
@@ -353,7 +352,7 @@ def judge_trace(  # noqa: PLR0913  an argument an option
         where: the world as the command line names it; default: its id.
         replay_command: the command line that shows the findings again; default: `replay` of the
             target in the world.
-        known: in the place of `check`.
+        known: replaces `check`.
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`.
         InternalError: an algorithm of the catalogue is right at a cost below that of any proof.
@@ -382,8 +381,6 @@ def judge_trace(  # noqa: PLR0913  an argument an option
 
 def _with_least(report: Report, world: World, replay_command: str) -> Report:
     """The report; `cost-within-bound` fails if a right run costs less than any proof of the map.
-
-    The checkers prove each map that they pass, so they cannot say that of such a run.
 
     Raises:
         InternalError: the run is an algorithm's of the catalogue.
@@ -415,7 +412,7 @@ def _with_count(report: Report, made: int, replay_command: str) -> Report:
 
 
 def _failing(report: Report, wrong: Finding, cost: int) -> Report:
-    """The report with one finding more, before the others, and with this cost."""
+    """The report with one more finding, before the others, and with this cost."""
     claim = wrong.claim
     judgements = tuple(
         msgspec.structs.replace(one, status="failed") if one.claim == claim else one
@@ -431,8 +428,7 @@ def _failing(report: Report, wrong: Finding, cost: int) -> Report:
 def undecided(run: Exploration, report: Report) -> bool:
     """Whether no claim is refuted, but one is undecided, or a map is missing without a fault.
 
-    That is the map of a run that exceeded its time while it still moved, or whose program declined
-    the world.
+    That is so if the run exceeded its time while it moved, or its program declined the world.
     """
     if not report.findings:
         return report.undecided
@@ -441,7 +437,7 @@ def undecided(run: Exploration, report: Report) -> bool:
 
 
 def _with_run_in_witness(finding: Finding, run: Exploration) -> Finding:
-    """The finding; if it names a witness of a wrong map, with what the same mapper does there."""
+    """The finding, with the same mapper's run in the witness world that it names, if any."""
     if finding.claim != "map-entailed" or finding.witness is None or run.mapper is None:
         return finding
     witness = World.from_text(finding.witness)
@@ -458,14 +454,14 @@ def _with_run_in_witness(finding: Finding, run: Exploration) -> Finding:
 
 
 def world_argument(world: World) -> str:
-    """The argument that names this world: its id; if it is too large for one, a file to save."""
+    """The argument that names this world: its id, or a file to save if that is too large."""
     return (
         world.id if len(world.edges) <= rank_order.MAX_ID_EDGES else f"{world.name or 'world'}.json"
     )
 
 
 def strict_option(world: World, *, strict: bool) -> tuple[str, ...]:
-    """The option that asks every claim, where a claim is not asked without it."""
+    """The option that asks every claim in a large world."""
     return ("--strict",) if strict and len(world.edges) > LARGE else ()
 
 

@@ -1,7 +1,6 @@
 """A row: what one mapper did in one world, judged by every claim, as frozen data.
 
-`attempt.py` runs and judges a mapper and makes the row. Every command that reports about runs reads
-rows. A row never holds an object of a mapper's: it is what another process would have sent.
+It holds no object of a mapper: it is what another process would send.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from topo_verify.checkers import CLAIMS, Finding, Judgement, Status
 from topo_verify.robot import events as ev
 
 SECOND_TRY = "; at the second try it delivered one"
-"""How `stopped` ends if a first try lost its process and a second one passed."""
+"""The end of `stopped` if a first try lost its process and a second one passed."""
 
 
 class Judged(msgspec.Struct, frozen=True, array_like=True):
@@ -129,7 +128,7 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def late(self) -> bool:
-        """Whether it was cut off: it lacks a map, is undecided for that, and says nothing else."""
+        """Whether it was cut off without a map and without any other finding."""
         return self.undecided is not None and bool(self.findings)
 
     @property
@@ -139,7 +138,7 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def by_chance(self) -> bool:
-        """Whether its process was lost and need not be lost when it is run again."""
+        """Whether its process was lost, and may not be lost when it is run again."""
         return self.lost is not None or (self.stopped or "").endswith(SECOND_TRY)
 
     @property
@@ -162,9 +161,9 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     def digest(self) -> str:
         """A hash of what happened, the same in another process if the mapper is deterministic.
 
-        It covers the status of every claim, the cost and the doors. How far a run came that was
-        out of time depends on the machine, so of such a run it covers no more than that. It does
-        not cover the evidence of decisions and the numbering of the map.
+        It covers the status of every claim, the cost and the doors; of a run out of time, whose
+        length depends on the machine, only that. It covers neither evidence nor the numbering of
+        the map.
         """
         if self.ended == "world-timeout":
             return hashed([self.mapper, "out of time"])

@@ -1,4 +1,4 @@
-"""The one way to run a mapper in a world: `explore`; what judges the run is `judge.py`.
+"""The one way to run a mapper in a world: `explore`; judge.py judges the run.
 
 A **mapper** is any callable that takes a robot and returns a map: an object with the attributes, or
 a mapping with the keys, `vertices`, `edges`, `marker`, and optionally `cost`. It is not trusted: if
@@ -6,14 +6,12 @@ it raises, returns something else, exceeds its budget or loops without moving, t
 
     run = explore(world, "enhancement-ii")         # -> Exploration: map, cost, trace
 
-A TARGET's text runs in this process, or, with `in_process=False`, in one of its own. An algorithm
-of the catalogue may be run by the compiled engine (`topo_verify.compiled`), some hundred times as
-fast, which is given the world. It is not trusted: what it delivers is judged like the run of any
-mapper, and tests hold it to the reference event by event.
+The compiled engine (`topo_verify.compiled`) runs algorithms of the catalogue some hundred times as
+fast. It is given the world, and is not trusted: its runs are judged like any.
 
 What this does not show: a mapper in the same process can be stopped only if it runs Python code and
-does not catch BaseException in a loop; see `topo_verify.robot.limits`. If it is determined to look,
-it finds world and trace; a mapper in a process of its own does not.
+does not catch BaseException in a loop (`topo_verify.robot.limits`), and can find world and trace. A
+mapper in its own process cannot.
 """
 
 from __future__ import annotations
@@ -57,18 +55,17 @@ class Exploration:
     """One run of a mapper in a world.
 
     Attributes:
-        world: the world in which the mapper ran.
-        algorithm: the mapper's name, as a TARGET of the command line.
+        algorithm: the mapper's name, as a TARGET.
         policies: its policies, or None where they are not known.
-        trace: all events, in order; together with the world it is a certificate.
+        trace: all events; together with the world it is a certificate.
         map: the map that it delivered, or None.
         stopped: why it delivered none, or None.
         error: the exception that it raised, if it did.
-        cost: the number of moves, in edge traversals, as counted by the simulator.
+        cost: moves counted by the simulator, in edge traversals.
         limit: the limit that stopped it, if one did.
-        mapper: the mapper itself; a program's process lives as long as it.
+        mapper: the mapper; a program's process lives as long as it.
         limits: the moves and the time that it was allowed.
-        misbehaved: what a program, or a mapper in a process of its own, did in place of a map.
+        misbehaved: what a program, or a mapper in its own process, did in place of a map.
     """
 
     world: World
@@ -94,20 +91,17 @@ class Exploration:
 
     @property
     def declined(self) -> bool:
-        """Whether a program skipped the world or gave it up, as the protocol lets it."""
+        """Whether a program skipped the world or gave it up."""
         return self.misbehaved is not None and self.misbehaved.kind in ("skip", "error")
 
     @property
     def rejected_free(self) -> int:
-        """How many hypotheses were rejected where the robot had not moved since it decided."""
+        """Number of hypotheses rejected where the robot had not moved since its last decision."""
         return sum(isinstance(e, Reject) for e in self.trace) - self.rejected_moving
 
     @property
     def rejected_moving(self) -> int:
-        """How many hypotheses were rejected after moves that no other decision came after.
-
-        Counted from the moves: what rule a rejection names changes nothing.
-        """
+        """Number of hypotheses rejected after moves, whatever rule they name."""
         return sum(
             isinstance(before, Move) and isinstance(event, Reject)
             for before, event in pairwise(self.trace)
@@ -115,11 +109,11 @@ class Exploration:
 
     @property
     def confirmed(self) -> int:
-        """How many hypotheses were confirmed."""
+        """Number of hypotheses confirmed."""
         return sum(isinstance(e, Confirm) for e in self.trace)
 
     def _repr_html_(self) -> str:
-        """The run as a page in a frame, for notebooks: the player."""
+        """The player's page in a frame, for notebooks."""
         from topo_verify.player.page import framed
         from topo_verify.player.recording import PlayedRun
 
@@ -143,10 +137,10 @@ def explore(
         mapper: a callable, a name of the catalogue, or any other TARGET of one mapper.
         pick, order: policies, for algorithms of the catalogue; default: the reference policies.
         limits: moves and seconds; default: the bound of claim 7, 5 s between moves, 60 s in all.
-        engine: what runs an algorithm of the catalogue, "reference" or "compiled".
-        trace: keep the trace; False, for the compiled engine: cost and map at once, no trace.
+        engine: runs an algorithm of the catalogue, "reference" or "compiled".
+        trace: keep the trace; False, for the compiled engine: only cost and map.
     Returns:
-        The run, also of a mapper that delivers no map: then `map` is None and `stopped` says why.
+        The run. If the mapper delivers no map, `map` is None and `stopped` says why.
     Raises:
         InputError: there is no such mapper or policy; the engine cannot run it.
     """
@@ -189,7 +183,6 @@ def explore(
 
 
 def _on(engine: Engine, target: Target, limits: Limits, *, trace: bool) -> Target:
-    """The mapper, to be run by this engine; an InputError if it cannot be."""
     if engine not in ENGINES:
         raise InputError(f"engine={engine!r}: expected one of {', '.join(ENGINES)}")
     (found,) = on_engine(engine, (target,), limits)
@@ -199,7 +192,6 @@ def _on(engine: Engine, target: Target, limits: Limits, *, trace: bool) -> Targe
 
 
 def _start(world: World, target: Target, policies: Policies | None) -> Start:
-    """The first event of a trace."""
     known = len(world.edges) <= rank_order.MAX_ID_EDGES
     return Start(
         algorithm=target.text,
@@ -212,7 +204,6 @@ def _start(world: World, target: Target, policies: Policies | None) -> Start:
 def _compiled(
     world: World, target: Target, mapper: CompiledAlgorithm, limits: Limits, *, trace: bool
 ) -> Exploration:
-    """The run of an algorithm by the compiled engine."""
     from topo_verify.compiled.explore import run_world
 
     made = run_world(world, mapper.name, trace=trace, budget=limits.budget, fault=mapper.fault)
@@ -233,7 +224,7 @@ def _compiled(
 def _run(
     mapper: Mapper, robot: SimulatedRobot, limits: Limits
 ) -> tuple[Finish | None, str | None, BaseException | None, Limit | None]:
-    """The delivered map; or why there is none, what the mapper raised and which limit struck."""
+    """The delivered map; or why there is none, the mapper's exception and the limit that struck."""
 
     def survey() -> Finish | Undelivered:
         # What a program is given stays on this side of its pipe.
@@ -266,8 +257,7 @@ class CompiledAlgorithm:
     """An algorithm of the catalogue, to be run by the compiled engine.
 
     Attributes:
-        name: as in the catalogue.
-        fault: a mistake that is planted in it, by the name of the seeded fault; empty: none.
+        fault: the name of a seeded fault that is planted in it; empty: none.
         trace: keep the trace of a run; False: cost and map alone.
     """
 
@@ -286,7 +276,7 @@ class CompiledAlgorithm:
 
 
 def policies_of(target: Target) -> Policies | None:
-    """The policies of an algorithm of the catalogue, whatever runs it; None for other mappers."""
+    """The policies of an algorithm of the catalogue; None for other mappers."""
     mapper = target.mapper
     return mapper.policies if isinstance(mapper, Algorithm | CompiledAlgorithm) else None
 
@@ -295,8 +285,7 @@ def on_engine(engine: Engine, targets: Iterable[Target], limits: Limits) -> tupl
     """The same algorithms, to be run by this engine.
 
     Raises:
-        InputError: the compiled engine cannot run one of them, or has no such limits; the message
-            says what it can.
+        InputError: the compiled engine cannot run one of them, or has no such limits.
     """
     found = tuple(targets)
     if engine == "reference":
@@ -311,7 +300,7 @@ def is_native(target: Target) -> bool:
 
 
 def planted(fault: str) -> CompiledAlgorithm | None:
-    """The compiled mapper with the mistake of this seeded fault; None if no kernel has it."""
+    """The compiled mapper with this seeded fault; None if no kernel has it."""
     from topo_verify.compiled.faults import PLANTED
 
     found = PLANTED.get(fault)
@@ -322,7 +311,7 @@ def require_compiled(targets: Iterable[Target], limits: Limits, *, libraries: bo
     """Raise an InputError unless the compiled engine can run these mappers under these limits.
 
     Args:
-        libraries: it can run native mappers as well.
+        libraries: native mappers are allowed, too.
     """
     require("--engine compiled")
     for target in targets:
