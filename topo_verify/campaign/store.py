@@ -1,7 +1,7 @@
 """A store: the SQLite file in which finished shards are kept, and from which a campaign resumes.
 
     with Store("search.db") as store:
-        memory = store.campaign(identity, loaded)
+        memory = store.resumed(campaign, mappers)
         for shard, result in results(campaign, backend, store=memory): ...
 
 `meta` says what was run, so that only results of the same campaign are added up: versions, the
@@ -29,12 +29,13 @@ from typing import Any, Self
 
 import msgspec
 
-from topo_verify.campaign.campaign import Shard, ShardResult
-from topo_verify.campaign.identity import merged, require_unchanged
+from topo_verify.campaign.campaign import Campaign, Shard, ShardResult
+from topo_verify.campaign.identity import Identity, merged, require_unchanged, source_hash
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import Tally, notable
 from topo_verify.errors import InputError, shown
 from topo_verify.programs.loaded import Loaded
+from topo_verify.programs.loader import Target
 
 FORMAT = "topo-verify/store"
 VERSION = 3
@@ -99,6 +100,24 @@ class Store:
 
     def __exit__(self, *_error: object) -> None:
         self._base.close()
+
+    def resumed(
+        self,
+        campaign: Campaign,
+        mappers: Sequence[Target] = (),
+        depends: Sequence[str] = (),
+        *,
+        name: str = "",
+        all_rows: bool = False,
+    ) -> StoredCampaign:
+        """A campaign with the sources and files of its mappers; see `campaign`.
+
+        Args:
+            mappers: those of the campaign; algorithms of the catalogue may be left out.
+            depends: further files that they depend on.
+        """
+        identity, now = campaign.identity(source_hash(mappers)), Identity(mappers, depends).loaded()
+        return self.campaign(identity, now, name=name, all_rows=all_rows)
 
     def campaign(
         self, identity: Mapping[str, str], now: Loaded, *, name: str = "", all_rows: bool = False

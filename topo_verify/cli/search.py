@@ -13,7 +13,6 @@ import click
 from topo_verify.campaign.backend import clustered, here, pooled
 from topo_verify.campaign.campaign import Backend, Campaign
 from topo_verify.campaign.cluster import Cluster, both_given, connected
-from topo_verify.campaign.identity import Identity, source_hash
 from topo_verify.campaign.run import Engine, is_native
 from topo_verify.campaign.store import Store, StoredCampaign
 from topo_verify.campaign.targets import targets
@@ -213,8 +212,7 @@ def _opened(
         yield None
         return
     with Store(ledger) as store:
-        now = Identity(mappers, depends).loaded()
-        known = store.campaign(campaign.identity(source_hash(mappers)), now)
+        known = store.resumed(campaign, mappers, depends)
         if known.since is not None:
             output.timing["ledger"] = dict(zip(("first", "last"), known.since, strict=True))
         yield known

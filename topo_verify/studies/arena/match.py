@@ -22,7 +22,7 @@ from topo_verify.algorithms import NAMED
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import Attempt
 from topo_verify.campaign.backend import MapperCampaign, here
-from topo_verify.campaign.identity import Identity, runs_here, source_hash
+from topo_verify.campaign.identity import runs_here
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.store import Store
 from topo_verify.errors import InputError
@@ -61,10 +61,8 @@ def _kept(
 ) -> c.ShardMemory | None:
     if store is None:
         return None
-    identity = campaign.identity(source_hash([mapper]))
     name = f"{prefix}{mapper.text}"
-    kept = store.campaign(identity, Identity([mapper]).loaded(), name=name, all_rows=True)
-    return _Hidden(kept, league.seed)
+    return _Hidden(store.resumed(campaign, [mapper], name=name, all_rows=True), league.seed)
 
 
 # ---------------------------------------------------------------- hidden worlds

@@ -15,7 +15,7 @@ import msgspec
 
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import MapperCampaign
-from topo_verify.campaign.identity import Identity, runs_here, source_hash
+from topo_verify.campaign.identity import runs_here
 from topo_verify.campaign.judge import replay_line
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Engine, policies_of
@@ -58,10 +58,7 @@ def baseline_runs(
         in_process=runs_here(target),
         stop=c.Stop(timeouts=MAX_TIMEOUTS),
     )
-    kept = None
-    if store is not None:
-        identity, now = campaign.identity(source_hash([target])), Identity([target]).loaded()
-        kept = store.campaign(identity, now, all_rows=True)
+    kept = None if store is None else store.resumed(campaign, [target], all_rows=True)
     return MapperCampaign(campaign, worlds, kept, target)
 
 

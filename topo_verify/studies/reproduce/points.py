@@ -28,13 +28,11 @@ from topo_verify.algorithms import Algorithm
 from topo_verify.campaign.attempt import Attempt
 from topo_verify.campaign.backend import MapperCampaign
 from topo_verify.campaign.campaign import Campaign, ListedWorlds
-from topo_verify.campaign.identity import source_hash
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import CompiledAlgorithm, Engine
 from topo_verify.campaign.store import Store
 from topo_verify.checkers import Finding, Status
 from topo_verify.checkers.claims import LARGE
-from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.reproduce import figures as fig
@@ -301,8 +299,7 @@ def line_campaigns(
             limits=Limits() if engine == "compiled" else LIMITS,
             ways=None if ways is None else f"{__name__}:{ways}",
         )
-        identity = campaign.identity(source_hash(()))
-        kept = store.campaign(identity, Loaded(), name=name.format(line), all_rows=True)
+        kept = store.resumed(campaign, name=name.format(line), all_rows=True)
         named = [(graph, resolved[graph]) for graph in graphs]
         campaigns.append(MapperCampaign(campaign, named, kept))
     return campaigns
