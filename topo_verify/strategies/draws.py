@@ -1,13 +1,9 @@
 """Draws what a grown world is made of: one byte an edge, and the place of the marker.
 
-Drawing costs more than growing, and its cost is the number of choices, not their size. So all edges
-are one string of bytes. Hypothesis draws short strings unless it must draw long ones, so the first
-choice raises the least length; in its simplest case it does not.
-
-No two choices come from the same strategy: Hypothesis likes to copy values between them, which here
-would make no new worlds.
-
-A strategy prints as the call that made it, `worlds(max_edges=6)`.
+Drawing costs more than growing, by the number of choices. So all edges are one string of bytes.
+Hypothesis draws short strings unless it must draw long ones, so the first choice raises the least
+length. No two choices come from the same strategy: Hypothesis likes to copy values between them,
+which here would make no new worlds.
 """
 
 from __future__ import annotations
@@ -58,7 +54,7 @@ _FURTHER = 8
 """The least length of the second string, which is read in a circle."""
 
 AT_MOST = (0, 6, 8, 8, 10, 10, 12, 12, 14, 16, 16, 20, 20, 24, 30, 40)
-"""Bounds on the number of edges, for strategies that draw sizes as numbers; 0 is no bound."""
+"""Bounds on the number of edges, for strategies that draw sizes; 0 is no bound."""
 
 
 def worlds_of(

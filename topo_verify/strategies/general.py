@@ -1,12 +1,11 @@
 """Worlds of every kind: all rooted maps, or those of given genus, degree, simplicity, density.
 
-Every world within the bounds can be drawn: `growth.py` says why. Dense worlds, 2m >= n(n-1)/2, pose
-many hypotheses for each edge. In a tree no hypothesis is ever true.
+Every world within the bounds can be drawn: `growth.py` says why. Dense worlds pose many hypotheses
+for each edge; in a tree no hypothesis is ever true.
 
 **Uniform worlds.** Hypothesis prefers small integers, but draws bytes evenly. So a rank is drawn as
 bytes, 8 more than its own length, and scaled down: rank = ⌊bytes · number of worlds / 256^length⌋.
-The bytes of two ranks differ in number by one at most, so the likelihoods of two worlds differ by
-at most one part in 2^64.
+The likelihoods of two worlds differ by at most one part in 2^64.
 """
 
 from __future__ import annotations

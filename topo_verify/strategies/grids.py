@@ -1,8 +1,7 @@
 """Lattices: rectangles of a grid without some nodes, like the paper's street networks.
 
-From a rectangle nodes are removed, unless the rest would fall apart; then single edges (closed
-streets) if there are still too many. All lattices are planar and simple, with degrees of 4 at most,
-and carry their positions.
+Nodes are removed, unless the rest would fall apart; then single edges if there are still too many.
+All lattices are planar and simple, with degrees of 4 at most, and carry their positions.
 """
 
 from __future__ import annotations

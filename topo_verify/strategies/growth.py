@@ -6,23 +6,20 @@
     newest corner  that of the highest dart                                            2k-1
 
 A byte is two bits of kind (leaf, split or cross: see `shapes.py`) and six bits of place, counted
-from the newest edge back. A leaf grows at that corner: at place 0 it is the newest leaf's sister,
-at place 1 its daughter. A closing leads from the newest corner to the place's corner among those
-that it may reach; if none, it starts from the next newest. If the requested kind is impossible here
-or would make the bounds unsatisfiable, the next kind is used.
+from the newest edge back; above 32 edges a second string adds multiples of 64. A leaf grows at that
+corner. A closing leads from the newest corner to the place's corner among those that it may reach;
+if none, from the next newest. A kind that is impossible, or after which the bounds would be, is
+replaced by the next kind.
 
 Places are relative, so that a world stays similar when Hypothesis removes a byte. Zeros make a
 star, ones a path. Hypothesis tries zeros first and keeps them if the test still fails; in a star no
-hypothesis is posed, so the test seldom fails, and Hypothesis shrinks further. (Rejected: paths at
-zero. Planted faults ended in paths of twice the edges of their smallest worlds.)
-
-Above 32 edges, a second string of bytes says how many times 64 are added to the place.
+hypothesis is posed, so it shrinks further. (Rejected: paths at zero. Planted faults ended in paths
+of twice the edges of their smallest worlds.)
 
 Every map within the bounds is reached. Take a spanning tree and its vertices in an order that
 grows it; let each vertex grow as a leaf, then close its edges to itself and to earlier vertices in
 clockwise order from the edge by which it grew, a loop at its second end: each leads from the newest
-corner. The marker is drawn apart, except at a leaf, which is dart 0: the first edge is in every
-tree.
+corner. The marker is drawn apart, or is dart 0 if it must lie at a leaf.
 
 Cost: O(m) a byte.
 """
@@ -67,7 +64,6 @@ class Grown:
     """A map: dart 0 leaves the first vertex, and alpha(d) is d ^ 1.
 
     Attributes:
-        sigma: the next dart clockwise.
         vertex: the vertex of each dart, in the order of growth.
         closings: the edges outside the tree, in the order of growth.
     """
@@ -102,8 +98,6 @@ def grow(shape: Shape, kinds: EdgeKinds, steps: bytes, further: bytes = b"\0") -
 
 
 class _Sapling:
-    """A map that grows, during one call of `grow`."""
-
     def __init__(self, shape: Shape, edges: int, *, genus_first: bool = False) -> None:
         self._shape = shape
         self._genus_first = genus_first
@@ -135,7 +129,7 @@ class _Sapling:
         return Grown(tuple(self._sigma), tuple(self._vertex), tuple(self._closings))
 
     def _add(self, kind: EdgeKind, place: int) -> bool:
-        """Add an edge of this kind, if the map can be finished then. Returns whether it did."""
+        """Add an edge of this kind if the map can be finished then. Returns whether it did."""
         # what the edge adds: vertices, faces, genus, room
         if kind == "leaf":
             possible = self._can_finish(1, 0, 0, self._shape.max_degree - 2)

@@ -6,12 +6,8 @@
         observe(run)
         assert run.map.cost == run.cost
 
-Hypothesis then prints this line for the failing example:
-
-    enhancement-ii (pick nearest, order shortest) in m4/17: 12 edge traversals
-
-With `HYPOTHESIS_EXPERIMENTAL_OBSERVABILITY=1` Hypothesis writes the features of every run under
-`.hypothesis/observed`.
+The note: `enhancement-ii (pick nearest, order shortest) in m4/17: 12 edge traversals`. Hypothesis
+writes features under `.hypothesis/observed` with `HYPOTHESIS_EXPERIMENTAL_OBSERVABILITY=1`.
 """
 
 from __future__ import annotations

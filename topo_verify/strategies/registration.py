@@ -2,13 +2,12 @@
 
     st.from_type(World)   draws from `worlds()`; Algorithm from `mappers()`, Policies from
                           `policies()`
-    topo                  Hypothesis's own profile without a deadline; the pytest plugin loads it
-                          if the user has loaded none
+    topo                  Hypothesis's own profile without a deadline, the pytest plugin's default
     topo-ci               the same examples everywhere, no deadline
     topo-nightly          new examples every time, fifty times as many
 
-Hypothesis calls `register` at import (entry point `hypothesis`), in every program of the
-environment. So it makes no strategy and imports nothing that `import topo_verify` does not.
+Hypothesis calls `register` at import (entry point `hypothesis`) in every program, so it imports
+nothing that `import topo_verify` does not.
 """
 
 from __future__ import annotations

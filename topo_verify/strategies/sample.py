@@ -1,13 +1,9 @@
 """Draws worlds from a strategy outside of any test: the same ones for the same seed, everywhere.
 
 Hypothesis draws no two equal examples in one run. If a run yields too few, another follows under
-the next seed, and worlds repeat.
+the next seed, and worlds repeat. What this does not show: only `uniform_worlds` are evenly spread.
 
-What this does not show: the worlds are not evenly spread, except those of `uniform_worlds`. Another
-version of Hypothesis may draw other worlds.
-
-A strategy on a command line is a call, as `planar_worlds(max_edges=20, simple=True)`; a name alone
-has the widest arguments.
+A strategy on a command line is a call, as `planar_worlds(max_edges=20, simple=True)`, or a name.
 """
 
 from __future__ import annotations

@@ -1,28 +1,26 @@
 """Bounds on the worlds of a strategy, and whether any world keeps them.
 
     min_edges, max_edges   the number of edges m; default: 1 to 200, the worlds with an id.
-                           min_edges=0 also draws m0/0, the world with no edge
+                           min_edges=0 also draws m0/0
     min_genus, max_genus   the genus g of the surface
-    simple                 neither loops nor parallel edges
-    loopless               no loops
+    simple, loopless       no loops, and if simple no parallel edges
     max_degree             no vertex has more exits than this
     marker                 "any" exit; "leaf", at a dead end, where its direction says nothing;
-                           "hub", at a vertex of the greatest degree, where it says most. m0/0 has
-                           no marker, so "leaf" excludes it
+                           "hub", at a vertex of the greatest degree, where it says most
 
 Worlds are grown edge by edge: a **leaf** is a new vertex on a new edge; a **split** joins two
 corners of one face (one face more); a **cross** joins corners of two faces (one face less, the
 genus one more). Splits and crosses are **closings**. `can_finish` tells whether a half-grown map
-may still be finished within the bounds. Its condition is necessary and uses counts alone:
+may still be finished. Its condition is necessary and uses counts alone:
 
     closings  each missing handle takes a cross, and a split before it if there is one face
     leaves    all edges to come that need not be closings count as leaves, which is best
     room      the free places at vertices: a leaf takes one and brings max_degree - 1, a closing two
     capacity  the edges that the vertices can carry, if loops or parallels are forbidden
 
-What this does not show: that a world exists if it holds. Without `max_degree` one does (one-faced
-graphs of diameter two: M. Škoviera, "The maximum genus of graphs of diameter two", Discrete Math.
-87 (1991)); with it, the tests compare with all worlds up to 6 edges.
+What this does not show: that a world exists if it holds. Without `max_degree` one does (M.
+Škoviera, "The maximum genus of graphs of diameter two", Discrete Math. 87 (1991)); with it, the
+tests compare with all worlds up to 6 edges.
 """
 
 from __future__ import annotations

@@ -5,17 +5,17 @@ edge of the small map has a *shift* s: in sheet i it leads to sheet i + s. Turni
 the cover onto itself, so without the marker no place differs from its n - 1 copies. Two kinds:
 
 **Rosettes**: the small map has one vertex, so all vertices look alike (the Cayley maps of cyclic
-groups). Its darts are `a A b B …`, an edge being a letter in both cases; a letter by itself is an
-edge that is its own other half, which must shift by n/2: half an edge a sheet. For example:
+groups). Its darts are `a A b B …`, an edge being a letter in both cases; a letter by itself is half
+an edge a sheet, which must shift by n/2. For example:
 
     darts, sheets          cover                        darts, sheets          cover
     aA, n, a: 1            cycle                        abAB, n, a: 1, b: c    lattice on a torus
     abc, 2, all: 1         3 parallel edges             all of n-1 shifts      complete graph
     aAbB, 1                2 loops (a bouquet)          abA, n, b: n/2         Möbius ladder
 
-**Necklaces**: the small map is any map with a cycle; a bead with one closing edge to the next makes
-a ring of equal beads, a bead with loops of shift 1 a prism or a torus. Source (voltage graphs): J.
-L. Gross and T. W. Tucker, "Topological Graph Theory" (1987), chapter 2.
+**Necklaces**: the small map is any map with a cycle, such as a bead with one closing edge to the
+next. Source (voltage graphs): J. L. Gross and T. W. Tucker, "Topological Graph Theory" (1987),
+chapter 2.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class _CoverSizes:
 
     Attributes:
         smalls: darts of a rosette, or edges of a bead; ascending, once for each number of sheets.
-        sheets: the number of sheets that goes with each of `smalls`.
+        sheets: the numbers of sheets for each of `smalls`.
     """
 
     smalls: SearchStrategy[int]
@@ -72,14 +72,7 @@ class _CoverSizes:
 
 @dataclass(frozen=True, slots=True)
 class Small:
-    """The small map that every sheet is a copy of.
-
-    Attributes:
-        alpha: the other dart of each dart's edge; itself, if it is half an edge.
-        sigma: the next dart clockwise.
-        shift: of the edge, seen from each of its darts.
-        vertex: the vertex of each dart.
-    """
+    """The small map that every sheet is a copy of; `alpha` of half an edge is itself."""
 
     alpha: tuple[Dart, ...]
     sigma: tuple[Dart, ...]

@@ -164,10 +164,7 @@ def covering_walk(
 
 
 def _last(tree: BreadthFirstTree, core: set[int], branches: Iterable[int]) -> tuple[int, int]:
-    """The branch at which a walk ends best (v0 if none saves moves), and the moves saved.
-
-    Ended at v, attached at a, the walk saves the way from v to a, and costs that from v0 to a.
-    """
+    """The branch at which a walk ends best (v0 if none saves moves), and the moves saved."""
     attached: dict[int, int] = {}  # of each branch: the depth of the core vertex above it
     best, saved = 0, 0
     for v in branches:  # parents stand before their children

@@ -34,8 +34,8 @@ def lay_out(world: World, *, centre: Dart | None = None) -> Layout:
     """A layout of the world whose picture was read back and found true.
 
     Args:
-        centre: show a part around this dart, unless that is everything; default: the whole world
-            if possible, or the part around the marker.
+        centre: show a part around this dart; default: everything if possible, or the part around
+            the marker.
     """
     if centre is not None and len(ball(world, centre, limit=LIMIT).vertices) < len(world.vertices):
         return _ball(world, centre)
@@ -129,8 +129,7 @@ class Ball:
 
     Attributes:
         part: as a world; an edge that leaves it ends at a vertex of degree 1.
-        whole: the world that it is a part of.
-        vertices: the shown vertices of the whole, the first ones in `part`.
+        vertices: the shown vertices of `whole`, the first ones in `part`.
         cut: the darts whose edges leave the part, each with the vertex of `part` at its end.
     """
 

@@ -6,9 +6,9 @@ Over the picture of svg.py lie
 - along the beginning of each dart a stroke in its colour, `data-dart` and `data-cost`,
 
 and beneath it a legend. The arrow stands on the best dart, a dashed ring around the vertex of the
-worst. The scale, from dark to light, is perceptually uniform, also for colour-blind eyes (J. R.
-Nuñez, C. R. Anderton, R. S. Renslow: "Optimizing colormaps with consideration for color vision
-deficiency", PLOS ONE 13(7), 2018).
+worst. The scale is perceptually uniform, also for colour-blind eyes (J. R. Nuñez, C. R. Anderton,
+R. S. Renslow: "Optimizing colormaps with consideration for color vision deficiency", PLOS ONE
+13(7), 2018).
 """
 
 from __future__ import annotations

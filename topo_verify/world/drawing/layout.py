@@ -23,11 +23,9 @@ Kind = Literal["positions", "planar", "bridges", "cell", "ball"]
 
 @dataclass(frozen=True)
 class Bridge:
-    """One edge passes over another (or over itself).
+    """One edge passes over another (or over itself), by indices into `world.edges`.
 
-    Attributes:
-        over, under: indices into `world.edges`.
-        path: the piece of the upper edge's curve over the lower one, as path data.
+    `path` is the piece of the upper edge's curve over the lower one, as path data.
     """
 
     over: int
@@ -54,15 +52,12 @@ class Layout:
 
     Attributes:
         kind: `positions` of the file, `planar` without crossings, planar with `bridges`, a `cell`
-            of a surface that was cut open, or a `ball` around a vertex.
-        width, height: of the picture; its top left corner is (0, 0).
-        radius: of the circles.
+            of a cut surface, or a `ball` around a vertex.
         centres: of the vertices; of a hidden one, where the way to it leaves the ball.
         paths: the curve of each edge, as SVG path data, from the circle of the lesser dart's vertex
             to that of the other's; several parts if it leaves a cell, none if hidden.
         stubs: in a ball, the beginnings of edges whose other vertex is hidden: dart and path data.
         hidden: in a ball, the vertices that are not shown.
-        cell: where the surface was cut open.
     """
 
     kind: Kind
@@ -97,7 +92,7 @@ class Sketch:
         centres: of the vertices, an (n, 2) array.
         chains: the control points of each edge, from centre to centre, the lesser dart first.
         bridges: the number of crossings; None: any.
-        turn: whether the picture may be turned so that it lies wide.
+        turn: may the picture be turned to lie wide?
     """
 
     kind: Kind
@@ -108,11 +103,7 @@ class Sketch:
 
 
 def fitted(sketch: Sketch, rounding: float) -> Layout:
-    """The layout of the sketch, with the largest circles that stay clear of all else.
-
-    Args:
-        rounding: as for `curves.smooth`.
-    """
+    """The layout of the sketch, with the largest circles that stay clear of all else."""
     centres, chains = _upright(sketch)
     radius = clear_radius(centres, chains, rounding)
     corner, size = _box(centres, chains)
@@ -136,11 +127,7 @@ def fitted(sketch: Sketch, rounding: float) -> Layout:
 
 
 def path(chain: Floats, radius: float, rounding: float) -> str:
-    """Path data of an edge, from circle to circle.
-
-    Args:
-        chain: its control points, from centre to centre.
-    """
+    """Path data of an edge, from circle to circle."""
     points = chain.copy()
     points[0] += radius * _towards(chain[1] - chain[0])
     points[-1] += radius * _towards(chain[-2] - chain[-1])

@@ -1,9 +1,9 @@
 """Sketches of any world as a plane map with bridges, one after the other until one is true.
 
-**A drawing on a grid** is a first injective map of the mesh into the plane: n points on a grid of
-2n - 4 by n - 2, so no triangle is too small for floating-point numbers (M. Chrobak and T. Payne, "A
-linear-time algorithm for drawing a planar graph on a grid", 1995). Rejected: a circle packing,
-whose circles shrink exponentially where loops lie within loops.
+**A drawing on a grid** of 2n - 4 by n - 2 is a first injective map of the mesh into the plane: no
+triangle is too small for floating-point numbers (M. Chrobak and T. Payne, "A linear-time algorithm
+for drawing a planar graph on a grid", 1995). Rejected: a circle packing, whose circles shrink
+exponentially where loops lie within loops.
 
 **Polishing** that map gives wished triangles and smooth edges without a flip. The energy of a
 triangle is the symmetric Dirichlet energy of the linear map J from its wished shape, |J|² + |J⁻¹|²,

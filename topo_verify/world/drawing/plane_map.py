@@ -7,10 +7,10 @@ counts (M. Chimani and C. Gutwenger, "Advances in the Planarization Method", JGA
 
 A half-edge lies in the face on its left, which is the cycle of "cross, then turn clockwise".
 
-**The mesh** gets points between the ends of every half-edge pair, a centre of every face, and a
-collar within a face that touches itself, so it has no loops and no parallel edges. The outer face
-becomes a ring of triangles around the rest, and a large triangle around all of it. The wished
-length of an edge of the mesh is the sum of the wished radii of its points.
+**The mesh** has points on every edge, a centre of every face, and a collar within a face that
+touches itself, so it has no loops and no parallel edges. The outer face becomes a ring of triangles
+around the rest, and a large triangle around all of it. The wished length of an edge of the mesh is
+the sum of the wished radii of its points.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ MOST_CROSSINGS = 1000
 
 
 class PlaneMap:
-    """A plane map that grows: it begins with the nodes and no half-edge.
+    """A plane map that grows from the nodes.
 
     Attributes:
         other, after, before: of each half-edge: the other half, the next and the previous half
             clockwise at its node.
-        node, edge, face: of each half-edge: its node, the edge of the world, the face on its left.
+        node, edge, face: of each half-edge; the edge is the world's, the face lies on its left.
         half: the half-edge of each inserted dart.
         nodes: their number; those from `vertices` on are dummies.
     """
@@ -232,10 +232,7 @@ def _insert_uncrossed(plane: PlaneMap, rest: list[int]) -> list[int]:
 
 
 def best_plane_map(world: World, seed: int = 0) -> PlaneMap | None:
-    """The plane map with the fewest crossings of several; the first of equals.
-
-    None if the first has more than `MOST_CROSSINGS`.
-    """
+    """The plane map with the fewest crossings of several, or None as `planarise`."""
     edges = len(world.edges)
     # small maps have few orders; large ones are slow
     tries = max(3, min(4 + 2 * edges, 40, 3000 // max(1, edges))) if world.genus else 1
@@ -266,8 +263,8 @@ class Mesh:
         weights: of the triangles' shapes.
         radii: the wished radius of each point.
         frame: the outermost triangle, counter-clockwise.
-        between: the points between the ends of each half-edge, from its node on.
-        lines: three points in a row each, along the edges of the world.
+        between: the points inside each half-edge, from its node on.
+        lines: three consecutive points each, along the edges of the world.
     """
 
     size: int

@@ -37,10 +37,7 @@ def tree(world: World) -> Sketch | None:
 
 
 def _fan(world: World) -> Floats:
-    """Each edge points to the middle of its wedge; the wedges share the circle by their leaves.
-
-    (J. Felsenstein's equal-angle algorithm: no edges cross.)
-    """
+    """Each edge points to the middle of its wedge; leaves share the circle (J. Felsenstein)."""
     leaves = _leaves(world)
     places: dict[int, complex] = {}
     root = max(range(len(world.vertices)), key=lambda v: len(world.vertices[v]))
@@ -83,7 +80,7 @@ def _leaves(world: World) -> dict[Dart, int]:
 
 
 def _spiral(world: World) -> Floats:
-    """Points at distances of about 1 along an Archimedean spiral, the marker's side outside."""
+    """Points along an Archimedean spiral, the marker's side outside."""
     start = next(v for v, degree in enumerate(world.degrees) if degree == 1)
     order, dart = [start], world.vertices[start][0]
     while True:

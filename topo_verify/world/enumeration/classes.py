@@ -42,7 +42,6 @@ class WorldClass:
         genus: the exact genus; None: any.
         most_genus: its upper bound; None if `genus` is given, or any will do.
         most_degree: upper bound of the degrees; None: any.
-        loopless, simple: at most one, since simple implies loopless.
     """
 
     genus: int | None = None
@@ -119,8 +118,8 @@ class WorldClass:
         """The number of worlds with this many edges in the class.
 
         A formula counts genera, `count_graphs` properties of the graph up to 16 edges; for both
-        together all worlds are listed and tested. None uses the search (`pruned.py`), so a search
-        that meets the number was complete.
+        together all worlds are listed. None uses the search (`pruned.py`), so a search that meets
+        the number was complete.
 
         Raises:
             InputError: more edges than can be counted.

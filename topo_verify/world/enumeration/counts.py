@@ -53,10 +53,6 @@ def count_graphs(
 ) -> int:
     """The number of rooted maps of any genus with this many edges and these properties.
 
-    Args:
-        most_degree: no vertex has more darts.
-        loopless: no edge joins a vertex with itself.
-        simple: loopless, and no two edges join the same two vertices.
     Raises:
         InputError: a negative number of edges; more than `MAX_EDGES` or, if no degree is above 2,
             more than `MAX_NARROW_EDGES`.

@@ -59,7 +59,7 @@ def ranked_tables(
 
     Args:
         kind: the class; default: any.
-        start, stop: only ranks start … stop-1 (ranks in class `any`, whatever the class).
+        start, stop: only ranks start … stop-1.
     """
     total = rank_order.count(edges)
     stop = total if stop is None else min(stop, total)
@@ -172,7 +172,7 @@ class DegreePruner(NamedTuple):
     most: int
 
     def join(self, dart: int, partner: int, to_create: int) -> DegreePruner | None:  # noqa: ARG002
-        """A join changes no degree."""
+        """This pruner."""
         return self
 
     def hang(self, dart: int, first: int, degree: int, to_create: int) -> DegreePruner | None:  # noqa: ARG002
@@ -181,13 +181,7 @@ class DegreePruner(NamedTuple):
 
 
 class GenusPruner(NamedTuple):
-    """Allows a number of further handles.
-
-    Attributes:
-        words: the open darts along each boundary, in cyclic order.
-        handles: by how much the genus may still grow.
-        exact: must it grow by all of that?
-    """
+    """Allows `handles` further handles, and demands them if `exact`; `words` as above."""
 
     words: tuple[IntTuple, ...]
     handles: int
@@ -256,7 +250,7 @@ class NeighbourPruner(NamedTuple):
         return self._joined(self.vertex, self.opened, self.near, (a, b), to_create)
 
     def hang(self, dart: int, first: int, degree: int, to_create: int) -> NeighbourPruner | None:  # noqa: ARG002
-        """The new vertex has one neighbour, the one that it hangs on."""
+        """The new vertex has one neighbour."""
         fresh = len(self.opened)
         vertex = self.vertex + (fresh,) * degree
         opened, near = (*self.opened, degree), (*self.near, 0)

@@ -63,8 +63,7 @@ def triangular_torus(rows: int, columns: int, *, marker: Dart | None = None) -> 
 def hexagonal_torus(rows: int, columns: int, *, marker: Dart | None = None) -> World:
     """A honeycomb with joined opposite borders, two nodes a cell. Genus 1, degrees 3.
 
-    Simple from 2 by 2 on. It is the dual of the triangular torus of the same size, faces taken as
-    rotations: with north upwards, exits are listed anticlockwise.
+    Simple from 2 by 2 on; the dual of the triangular torus, faces taken as rotations.
     """
     rows, columns, darts = arguments.size("hexagonal_torus", (rows, columns), darts_each=6)
     name, marker, _ = arguments.settled(

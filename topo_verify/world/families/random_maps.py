@@ -9,20 +9,17 @@ corner, in the order of a walk around the tree, is joined with the next corner w
 by one, or with one new vertex if there is none. That gives a quadrangulation; the vertices of even
 labels (or of odd ones: a coin decides), joined across each face, are the map. Each planar map with
 m edges arises from m+2 triples (tree, steps, coin), so it is **exactly uniform among all rooted
-planar maps**. Cost O(m).
+planar maps**.
 
-**Maps of a genus.** A random tree gets edges one after the other: one that joins two corners of a
-face splits that face, one that joins two faces merges them and raises the genus. Vertices and the
-order of the two kinds are drawn so that every rooted map of that genus can occur; **they are not
-equally likely** (`world sample --class genus:1` is uniform). Cost up to O(m²).
-
-**The marker** is at the root of the map: where the map is uniform, so is the world. The simplest
-world of each is the one without edges.
+**Maps of a genus.** A random tree gets edges: one that joins two corners of a face splits that
+face, one that joins two faces merges them and raises the genus. Every rooted map of that genus can
+occur, but they are **not equally likely** (`world sample --class genus:1` is uniform). Cost up to
+O(m²).
 
 Source: G. Schaeffer, "Conjugaison d'arbres et cartes combinatoires aléatoires", thesis, Bordeaux
 1998; P. Chassaing and G. Schaeffer, "Random planar lattices and integrated superBrownian
-excursion", Probab. Theory Relat. Fields 128 (2004). Cycle lemma: A. Dvoretzky and Th. Motzkin, "A
-problem of arrangements", Duke Math. J. 14 (1947). The third is our own.
+excursion", Probab. Theory Relat. Fields 128 (2004); A. Dvoretzky and Th. Motzkin, "A problem of
+arrangements", Duke Math. J. 14 (1947).
 """
 
 from __future__ import annotations
@@ -146,7 +143,7 @@ def planar_map(word: Sequence[int], steps: Sequence[int], *, coin: int) -> tuple
     Args:
         word: the tree, ups (1) and downs (-1), at least one.
         steps: the rise of the label along each edge, in the order of the ups.
-        coin: 0 or 1: the labels of the map's vertices are of the root's parity, or of the other.
+        coin: 0 for vertices with labels of the root's parity, 1 for the others.
     """
     # an arc goes from label l to l - 1, so one of its darts is at a vertex of the map
     vertices, labels = _corners(word, steps)
