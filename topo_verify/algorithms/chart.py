@@ -111,7 +111,7 @@ class Chart:
         """
         reached = {root}
         queue: list[tuple[Vertex, int, MapDart | None]] = [(root, 0, None)]
-        for v, distance, back in queue:  # grows as it goes
+        for v, distance, back in queue:
             yield v, distance, back
             for dart in self.darts(v):
                 other = self.alpha[dart]

@@ -61,8 +61,8 @@ class SeenPlaces:
         self.looks: list[tuple[int, bool]] = [(0, False)]
         self.leader, self.behind, self.weight = [0], [0], [0]
         self.known: set[NodeDart] = set()
-        self.joined: list[tuple[NodeDart, NodeDart]] = []  # every edge, in the order of `join`
-        self.merges = 0  # how many times places were identified
+        self.joined: list[tuple[NodeDart, NodeDart]] = []
+        self.merges = 0
 
     def add(self, percept: Percept) -> NodeDart:
         """Add a node with this percept at its first dart. Returns that dart."""
@@ -94,7 +94,6 @@ class PartialFold:
     def __init__(self, below: PartialFold | None = None) -> None:
         self.below = below
         self.seen: SeenPlaces = SeenPlaces() if below is None else below.seen
-        # The additions to `seen`.
         self.leader: dict[NodeDart, NodeDart] = {}
         self.behind: dict[NodeDart, NodeDart] = {}
         self.weight: dict[NodeDart, int] = {}
@@ -249,10 +248,10 @@ class FoldingRule(NoRule):
 
     def __init__(self) -> None:
         self.fold = PartialFold()
-        self.entries: list[NodeDart] = []  # of each vertex of S: its first dart
+        self.entries: list[NodeDart] = []
         self.e: NodeDart = 0
         self.vu: NodeDart = 0
-        self.assumed: dict[MapDart, PartialFold] = {}  # of each hypothesis kept: its layer
+        self.assumed: dict[MapDart, PartialFold] = {}
 
     def node_dart(self, chart: Chart, dart: MapDart) -> NodeDart:
         """The dart of the fold for a dart of S."""

@@ -150,7 +150,7 @@ class History:
         first = self.places.place(start)
         reached = {first}
         queue: list[tuple[PlaceNode, int, NodeDart | None]] = [(first, 0, None)]
-        for step in queue:  # grows as it goes
+        for step in queue:
             yield step
             place, distance, _ = step
             for neighbour, end in self._neighbours.get(place) or self.neighbours(place):

@@ -72,7 +72,7 @@ class PlanarHistory(History):
     def __init__(self, robot: Robot) -> None:
         """Begin at v0."""
         super().__init__(robot)
-        self._faces: dict[MapDart, frozenset[MapDart]] = {}  # of the darts asked about so far
+        self._faces: dict[MapDart, frozenset[MapDart]] = {}
 
     def suppose(self, e: MapDart, h: MapDart) -> Places | None:
         """The places if a crossed e ends in h, or None if no planar world allows that."""

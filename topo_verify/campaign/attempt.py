@@ -83,7 +83,7 @@ def attempt(  # noqa: PLR0913  an argument an option
     def once() -> Attempt:
         beat()
         if program is not None:
-            program.start()  # the seconds of a run are not those of a start
+            program.start()
         begin = _processor_seconds(program)
         run = explore(world, target, limits=limits)
         seconds = max(0.0, _processor_seconds(program) - begin)
@@ -200,7 +200,6 @@ def lost_row(
 
 
 def _first(findings: Sequence[Finding]) -> tuple[Finding, ...]:
-    """The first findings of each claim."""
     numbers: dict[str, int] = {}
     kept: list[Finding] = []
     for finding in findings:

@@ -3,11 +3,11 @@
 What a lost worker means, for every study:
 
 - A run that loses its worker twice is a finding, for no map was delivered. So is a run whose worker
-  gives no sign of life for longer than any limit allows.
-- A run that loses its worker once and passes at the second try is a finding, too: a right mapper
-  does not crash.
-- But if something else may have ended the worker (SIGKILL, as by the out-of-memory killer; or, if
-  it passed later, no sign of life), the world is undecided.
+  is silent for longer than any limit allows.
+- A run that loses its worker once and passes later is a finding, too: a right mapper does not
+  crash.
+- If something else may have ended the worker (SIGKILL, as by the out-of-memory killer; or silence,
+  if it passed later), the world is undecided.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ MACHINES = "the Dask worker was lost, each time"
 SHORT_OF_MEMORY = "the mapper raised MemoryError there, and here it did not"
 """Why a world is undecided in which a worker, but not the client, lacked memory."""
 
-_MEMORY_ERROR = re.compile(r"the mapper raised \w*MemoryError\b")  # numpy has another one
+_MEMORY_ERROR = re.compile(r"the mapper raised \w*MemoryError\b")
 
 Depends = Sequence[str] | None
 """Further files that mappers depend on; None: do not ask what they load."""
@@ -117,7 +117,7 @@ def pooled(workers: int, depends: Depends = None) -> c.Backend:
             yield from here(depends=depends)(campaign, shards, in_flight)
             return
         work = _work(_job(campaign, depends))
-        _prepare(campaign)  # before the workers start, which then find it in the cache
+        _prepare(campaign)
         with Pool(work, max(1, workers), in_flight=in_flight) as pool:
             for shard, result in pool.run(shards):
                 yield shard, _with_our_memory(work, shard, result)
@@ -157,7 +157,6 @@ def _examined(
     beat: Callable[[int], None],
     look: Look | None = None,
 ) -> c.ShardResult:
-    """The result of a shard, with what the mappers have loaded, if that is asked for."""
     if campaign.engine == "compiled" and isinstance(campaign.worlds, c.Ranks):
         from topo_verify.campaign.compiled import examine_compiled
 
@@ -168,7 +167,7 @@ def _examined(
         return result
     try:
         return msgspec.structs.replace(result, loaded=identity.loaded())
-    except Unlisted as why:  # its process misbehaved between two worlds
+    except Unlisted as why:
         cause = f"after the run: {why}"
         row = _row_at(campaign, shard, _LAST, cause, external=False)
         if row is None or result.tally.failing:
@@ -185,7 +184,6 @@ def calls_native(campaign: c.Campaign) -> bool:
 
 
 def _prepare(campaign: c.Campaign) -> None:
-    """Compile what the campaign needs."""
     if campaign.engine == "compiled" and isinstance(campaign.worlds, c.Ranks):
         from topo_verify.campaign.compiled import warm
 
@@ -193,7 +191,7 @@ def _prepare(campaign: c.Campaign) -> None:
 
 
 def _job(campaign: c.Campaign, depends: Depends) -> CampaignJob:
-    mappers = campaign.load()  # before any worker is started
+    mappers = campaign.load()
     try:
         sources = source_hash(mappers)
     finally:
@@ -284,7 +282,7 @@ def serve(job: bytes) -> Generator[Handler]:
     signal.signal(signal.SIGTERM, lambda _signal, _frame: sys.exit(1))  # through this context
     given = msgspec.json.decode(job, type=CampaignJob)
     if given.depends is not None:
-        watch()  # before a mapper is loaded
+        watch()
     mappers = given.campaign.load()
     try:
         if source_hash(mappers) != given.sources:
@@ -352,13 +350,11 @@ def _cut_at_rank(shard: c.Shard, ranks: int) -> list[c.Shard]:
 
 
 def _parts(shard: c.Shard) -> list[c.Shard]:
-    """Parts of a shard, about equal."""
     width = -(-(shard.stop - shard.start) // PARTS)
     return _split(shard, [*range(shard.start, shard.stop, width), shard.stop])
 
 
 def _split(shard: c.Shard, cuts: Sequence[int]) -> list[c.Shard]:
-    """The parts of a shard between these places."""
     begin = shard.start
     return [
         c.Shard(shard.edges, start, stop, shard.listed[start - begin : stop - begin])

@@ -438,7 +438,7 @@ class _Order:
     ) -> None:
         self._campaign, self._backend, self._worlds = campaign, backend, worlds
         self._store = store
-        self._ahead: dict[tuple[int, int], ShardResult] = {}  # finished, and an earlier one is not
+        self._ahead: dict[tuple[int, int], ShardResult] = {}
         self._finished = Tally()
         total = sum(campaign.worlds.totals().values())
         self._rate = ProgressRate(", ".join(campaign.mappers), total, tell)
@@ -452,7 +452,7 @@ class _Order:
         campaign = self._campaign
         for shard in self._met():
             if isinstance(campaign.worlds, Ranks) and campaign.stop.reached(self._finished):
-                return  # what is not begun lies behind
+                return
             known = None if self._store is None else self._store.get(shard)
             if known is None:
                 yield shard
@@ -498,7 +498,7 @@ class _Order:
                     yield shard, result
                     if self._campaign.stop.reached(tally):
                         return
-                next(finished, None)  # nothing: it ends
+                next(finished, None)
         except KeyboardInterrupt as cut:
             if isinstance(cut, Interrupted):
                 self._ahead[cut.shard.edges, cut.shard.start] = cut.result

@@ -1,20 +1,16 @@
 """A Dask cluster: tasks in, results out, whichever of its workers are lost.
 
-    connected("tcp://host:8786")    a running cluster
-    connected("local")              workers on this machine, one a processor, while the block lasts
-
 A pool on the worker's machine (cluster_worker.py) settles what a task does to its process. So a
 loss means here that a whole Dask worker went, with its machine, its network or its memory:
 
 - The scheduler gives the tasks of a lost worker to others, as often as its setting
   `allowed-failures` says (3). Most losses end here, and change no result.
 - A task lost more often is done again with no other task at work. If it is lost again, it is cut;
-  `Remote.lost` gives the result of a task that cannot be cut. That convicts no mapper.
-- If the scheduler is lost, or no worker is left for `PATIENCE` seconds, an InputError says so. The
-  client holds the results.
+  `Remote.lost` gives the result of a task that cannot be cut, and convicts no mapper.
+- If the scheduler is lost, or no worker is left for `PATIENCE` seconds, an InputError says so.
 
 Workers with another topo-verify or another mapper refuse every task. The client refuses results of
-a worker that loaded a file that differs here (`Remote.require_ours`).
+a worker that loaded a file that differs here.
 """
 
 from __future__ import annotations
@@ -134,9 +130,9 @@ def connected(address: str) -> Generator[Cluster]:
                 n_workers=processors(),
                 threads_per_worker=1,
                 processes=True,
-                dashboard_address=":0",  # a free port
+                dashboard_address=":0",
                 silence_logs="CRITICAL",
-                preload=[cluster_worker.__name__],  # its `dask_setup`
+                preload=[cluster_worker.__name__],
             )
             stack.callback(scheduler.close, timeout=ANSWER)
         try:
@@ -152,7 +148,7 @@ def connected(address: str) -> Generator[Cluster]:
         client = cast("_Client", connection)
         try:
             client.wait_for_workers(1, timeout=PATIENCE)
-        except OSError as error:  # a TimeoutError is one
+        except OSError as error:
             raise _no_worker(address) from error
         yield Cluster(address, client)
 
@@ -166,7 +162,7 @@ def both_given(dask: str, workers: int) -> InputError:
 
 
 def _close(client: Any) -> None:
-    with suppress(OSError, RuntimeError):  # the scheduler is lost: there is nothing to close
+    with suppress(OSError, RuntimeError):
         client.close(timeout=ANSWER)
 
 
@@ -203,7 +199,7 @@ class ClusterPool(Generic[TaskT, ResultT]):
 
     def __exit__(self, *_error: object) -> None:
         if self._at:
-            with suppress(OSError, RuntimeError):  # the scheduler is lost, and its tasks are
+            with suppress(OSError, RuntimeError):
                 self._cluster.client.cancel(list(self._at), force=True)
             self._at.clear()
 
@@ -218,7 +214,7 @@ class ClusterPool(Generic[TaskT, ResultT]):
             self._hand_out(todo, room)
             while self._pieces.finished:
                 yield self._pieces.finished.popleft()
-            self._hand_out(todo, room)  # again: results that were looked at make room
+            self._hand_out(todo, room)
 
     def _hand_out(self, todo: Iterator[TaskT], room: Callable[[], bool]) -> None:
         if self._suspects or self._alone:
@@ -248,7 +244,6 @@ class ClusterPool(Generic[TaskT, ResultT]):
         future.add_done_callback(self._done.put)
 
     def _listen(self) -> None:
-        """Take the result of one task; now and then count the workers."""
         with suppress(Empty):
             self._hear(self._done.get(timeout=LOOK))
         if monotonic() > self._looked + LOOK:

@@ -80,11 +80,6 @@ def do(assignment: bytes) -> bytes:
 
 
 def _require_ours(assignment: bytes) -> ClusterTask:
-    """The assignment.
-
-    Raises:
-        InputError: the client has another topo-verify.
-    """
     here = metadata.version("topo-verify")
     try:
         wanted = msgspec.json.decode(assignment, type=ClusterTask)
@@ -104,7 +99,7 @@ def _place() -> str:
 
     try:
         worker: Any = get_worker()
-    except ValueError:  # no worker runs this
+    except ValueError:
         return "a worker of the cluster"
     return f"worker {worker.address} of the cluster"
 
@@ -151,7 +146,6 @@ class _Kept:
             return msgspec.json.encode(result)
 
     def _ready(self, wanted: ClusterTask) -> tuple[Pool[Any, Any], Work[Any, Any]]:
-        """The pool for tasks of this job, and what it does."""
         of = (wanted.remade, bytes(wanted.job), wanted.folder)
         if self._pool is None or self._work is None or self._of != of:
             self._close()

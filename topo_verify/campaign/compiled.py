@@ -3,23 +3,20 @@
 The engine runs the algorithms in every world, judges all claims and adds up the numbers. It is not
 trusted. The checkers judge again, from runs of the reference algorithms:
 
-- every world that the counts name: the first failing worlds and the first of each claim, so each
-  finding is one of the checkers; the most expensive worlds; those in which the first of two
-  algorithms costs more. Verdicts and costs must be those of the counts.
+- every world that the counts name: the first failing ones, of each claim too, so each finding is
+  one of the checkers; the most expensive ones; those in which the first of two algorithms costs
+  more. Verdicts and costs must be those of the counts.
 - a sample: the first worlds of each slice and about one world in `SAMPLE` with the next one, drawn
   by the campaign's seed. The counts before such a step plus the reference's of the step must equal
-  the counts behind it: verdicts, shares, costs, the named worlds, and the digest, which covers
-      every
-  door. The first step adds to empty counts.
+  the counts behind it, with the digest, which covers every door.
 
 In all these worlds both engines must agree on every event. If they disagree, topo-verify has a bug,
 and the campaign ends.
 
-A **native mapper** (`--library`) is called by the engine in the place of an algorithm; for the
-checkers it runs in its own process. If the two disagree, the mapper may do something else each
-time.
-So the counts of that slice are discarded: its worlds are undecided, except the one in which the two
-disagree, if a claim fails there by the checkers. backend.py treats a worker lost in native code.
+The engine calls a **native mapper** (`--library`) in the place of an algorithm; for the checkers it
+runs in its own process. If the two disagree, the mapper may do something else each time: the counts
+of that slice are discarded, and its worlds are undecided, except the one in which the two disagree,
+if a claim fails there by the checkers.
 
 What this does not show: the other worlds were judged by the engine alone. If it is wrong in a share
 p of all worlds, n steps show it with a probability of at least 1 - (1 - p)^n.
@@ -86,7 +83,6 @@ def warm(campaign: Campaign) -> None:
 
 @cache
 def _native(text: str, beats: int) -> NativeCalls:
-    """A native mapper, opened in this process. Its code runs from now on."""
     from topo_verify.compiled.native_run import NativeCalls
 
     return NativeCalls(native_function(text), beats)
@@ -136,9 +132,9 @@ class _CompiledShard:
         self._campaign, self._worlds = campaign, campaign.worlds
         self._mappers, self._shard, self._calls, self._beat = mappers, shard, calls, beat
         self._tally, self._seconds = Tally(), EngineSeconds()
-        self._rows: dict[tuple[int, int], Row] = {}  # by rank and mapper
+        self._rows: dict[tuple[int, int], Row] = {}
         self._checked: set[int] = set()
-        self._known: dict[tuple[int, int], _Judged] = {}  # of the slice
+        self._known: dict[tuple[int, int], _Judged] = {}
         self._alone: set[tuple[int, int]] = set()
 
     @property
@@ -171,7 +167,6 @@ class _CompiledShard:
         return Shard(self._shard.edges, start, stop)
 
     def _slice(self, ranks: Shard) -> Tally:
-        """The tally of some worlds, by the engine, with the rows of the checkers."""
         begin = process_time()
         with self._watched():
             *snapshots, end = _snapshots(self._campaign, ranks, self._calls)
@@ -191,7 +186,6 @@ class _CompiledShard:
         return _tally(end.counts)
 
     def _watched(self) -> AbstractContextManager[None]:
-        """The engine runs inside: a native mapper is given up if it does not move in time."""
         if not isinstance(self._beat, Heartbeat) or self._calls is None:
             return nullcontext()
         return self._beat.within(self._campaign.limits.move_timeout)
@@ -361,7 +355,6 @@ def _disagreement(where: str, what: str, rank: int) -> _Disagreement:
 def _snapshots(
     campaign: Campaign, ranks: Shard, calls: NativeCalls | None = None
 ) -> list[Snapshot]:
-    """The counts of the engine in some worlds: behind each step, and behind the last world."""
     from topo_verify.campaign.compiled_shard import examine_steps
 
     assert isinstance(campaign.worlds, Ranks)
@@ -388,7 +381,6 @@ def _steps(campaign: Campaign, ranks: Shard) -> Iterator[int]:
 
 
 def _drawn(snapshots: Sequence[Snapshot]) -> Iterator[tuple[Snapshot | None, Snapshot]]:
-    """The snapshots before and behind each step that the checkers judge: see `_steps`."""
     before: Snapshot | None = None
     for place, behind in enumerate(snapshots):
         if place % 2 == 0:
@@ -434,7 +426,6 @@ def _verdict_difference(row: Row, counts: ShardCounts) -> str | None:
 
 
 def _tally(counts: Sequence[ShardCounts]) -> Tally:
-    """The counts of all algorithms in the same worlds as a tally."""
     statuses: dict[str, dict[str, int]] = {claim: {} for claim in CLAIMS}
     shares: dict[str, tuple[int, int]] = {}
     claims: dict[str, int] = {}
@@ -471,7 +462,6 @@ def _as_digest(digest: int) -> str:
 
 
 def _fields(tally: Tally) -> dict[str, object]:
-    """The fields of a tally, with each entry of a table by itself."""
     fields: dict[str, object] = {}
     for name in tally.__struct_fields__:
         value: object = getattr(tally, name)

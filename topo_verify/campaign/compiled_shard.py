@@ -371,7 +371,6 @@ class CompiledChecks:
         ]
 
     def _holds(self, world: World, trace: Sequence[Event]) -> bool:
-        """Whether the judge decides all claims, and none fails."""
         start, events, finish = trace[0], trace[1:-1], trace[-1]
         if (
             len(world.alpha) > ws.WORLD_DARTS

@@ -119,10 +119,8 @@ class Identity:
 
 
 def merged(one: Loaded, other: Loaded, where: str) -> Loaded:
-    """What either has loaded.
+    """What either has loaded; `where` begins the error message.
 
-    Args:
-        where: the beginning of the error message.
     Raises:
         InputError: they differ in a file, a distribution or the values.
     """
@@ -155,7 +153,6 @@ def require_equal(here: Loaded, there: Loaded, where: str) -> None:
     """Raise an InputError unless all that mappers loaded on another machine is the same here.
 
     Args:
-        here: what the mappers have loaded here; they may not have run yet.
         where: the beginning of the error message, which names the other machine.
     """
     if here.values and there.values and here.values != there.values:
@@ -184,12 +181,7 @@ def require_equal(here: Loaded, there: Loaded, where: str) -> None:
 
 
 def require_unchanged(then: Loaded, now: Loaded, where: str) -> None:
-    """Raise an InputError unless files, distributions and values are unchanged.
-
-    Args:
-        now: what the mappers have loaded until now.
-        where: the beginning of the error message.
-    """
+    """Raise an InputError, which begins with `where`, unless files and values are unchanged."""
     again = "name another file, or remove this one to search anew"
     if then.values and now.values and then.values != now.values:
         raise InputError(

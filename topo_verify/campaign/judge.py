@@ -307,7 +307,6 @@ TRACELESS = ("map-isomorphic", "cost-within-bound")
 
 
 def _judge_result(run: Exploration, where: str, replay_command: str) -> Report:
-    """The report on the map and the cost of a run without a trace."""
     world = run.world
     held = (run.map is not None and _is_map_of(world, run.map), run.cost <= world.cost_bound)
     wrong = {

@@ -60,14 +60,14 @@ class Pool(Generic[TaskT, ResultT]):
     ) -> None:
         self._work, self._size, self._in_flight, self._folder = work, size, in_flight, folder
         self._workers: list[WorkerProcess] = []
-        self._at: dict[WorkerProcess, Piece[TaskT, ResultT]] = {}  # what the busy ones are at
+        self._at: dict[WorkerProcess, Piece[TaskT, ResultT]] = {}
         self._pieces = Pieces(work)
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_error: object) -> None:
-        for worker in self._workers:  # all of them first, so that they end at the same time
+        for worker in self._workers:
             worker.dismiss(busy=worker in self._at)
         for worker in self._workers:
             worker.await_end()
@@ -89,10 +89,9 @@ class Pool(Generic[TaskT, ResultT]):
             self._hand_out(todo, room)  # first: workers are busy while a result is looked at
             while self._pieces.finished:
                 yield self._pieces.finished.popleft()
-            self._hand_out(todo, room)  # again: results that were looked at make room
+            self._hand_out(todo, room)
 
     def _hand_out(self, todo: Iterator[TaskT], room: Callable[[], bool]) -> None:
-        """Give every idle worker a piece."""
         idle = [worker for worker in self._workers if worker not in self._at]
         while len(self._at) < self._size:
             piece = self._pieces.next(todo, room)

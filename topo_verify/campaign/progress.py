@@ -33,7 +33,7 @@ class ProgressRate:
     def __init__(self, what: str, total: int, report: Progress | None) -> None:
         self._what, self._total, self._report = what, total, report
         self._begin = monotonic()
-        self._reported = -inf  # never
+        self._reported = -inf
         self._known = 0  # worlds that a ledger knew: they took no time, so the rate leaves them out
         self.done = 0
 

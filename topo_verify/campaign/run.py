@@ -113,7 +113,6 @@ class Exploration:
         return sum(isinstance(e, Confirm) for e in self.trace)
 
     def _repr_html_(self) -> str:
-        """The player's page in a frame, for notebooks."""
         from topo_verify.player.page import framed
         from topo_verify.player.recording import PlayedRun
 

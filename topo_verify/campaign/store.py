@@ -4,16 +4,16 @@
         memory = store.resumed(campaign, mappers)
         for shard, result in results(campaign, backend, store=memory): ...
 
-`meta` says what was run, so that only results of the same campaign are added up: versions, the
-campaign's identity, and what the mappers loaded. A file may hold several campaigns, each under a
-name. `shards` has a line for each finished shard, `rows` the rows kept of it.
+`meta` holds versions, the identity of each campaign, and what its mappers loaded, so that only
+results of the same campaign are added up. `shards` has a line for each finished shard, `rows` the
+rows kept of it.
 
-A shard is written in one transaction once it is finished. The file is locked while it is open, by a
-lock of the operating system's that ends with the process. Workers never open it.
+A shard is written in one transaction. The file is locked while it is open, by a lock of the
+operating system that ends with the process. Workers never open it.
 
 **Checksums.** Each shard has one over its fields, its rows and the checksum before it, and `meta`
-one over all. They are verified when the file is opened, and that of a shard when it is read. They
-guard against accidents, not against forgery.
+one over all. They are verified on opening, and that of a shard on reading. They guard against
+accidents, not against forgery.
 """
 
 from __future__ import annotations
@@ -83,8 +83,8 @@ class Store:
         self.path = _require_file_name(str(path))
         self.sums = [""]  # of nothing, then of each shard
         self.meta: dict[tuple[str, str], str] = {}
-        self.places: dict[tuple[str, str], int] = {}  # the number of a shard, by name and key
-        self.written: dict[str, tuple[str, str]] = {}  # by name: the first date and the last
+        self.places: dict[tuple[str, str], int] = {}
+        self.written: dict[str, tuple[str, str]] = {}
         with explained(self.path):
             # An absolute path: SQLite takes some relative names for something else than a file.
             self._base = sqlite3.connect(Path(path).absolute(), timeout=0, isolation_level=None)
@@ -388,7 +388,6 @@ def checksum(before: str, *parts: Sequence[Any]) -> str:
 
 
 def _seal(meta: Mapping[tuple[str, str], str], last: str) -> str:
-    """The checksum over a whole file."""
     return checksum(last, sorted((*pair, value) for pair, value in meta.items()))
 
 
@@ -405,7 +404,6 @@ def _require_file_name(path: str) -> str:
 
 
 def _older(path: str, known: Mapping[str, str]) -> InputError:
-    """The file is a ledger of 0.2 or before."""
     if known.get("format") != "topo-verify/ledger":
         return no_store(path)
     return InputError(

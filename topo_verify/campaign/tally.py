@@ -215,7 +215,7 @@ class Counts:
         costs[1] += row.cost
         if row.cost > costs[2] or costs[0] == 1:
             costs[2:] = [row.cost, 1, row.place]
-        elif row.cost == costs[2] and row.place != costs[4]:  # several policies, one world
+        elif row.cost == costs[2] and row.place != costs[4]:
             costs[3:] = [costs[3] + 1, row.place]
 
     def tally(self) -> Tally:

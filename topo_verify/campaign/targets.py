@@ -46,15 +46,14 @@ def targets(
 ) -> tuple[Target, ...]:
     """The mappers that a TARGET names, in its order.
 
-    A program runs from its first world until it is closed or deleted; a mapper in its own process
-    from now on.
+    A program starts in its first world; a mapper in its own process now.
 
     Args:
         pick, order: policies for algorithms of the catalogue.
         in_process: a mapper outside the catalogue shares this process.
     Raises:
-        InputError: there is no such algorithm, module, file, attribute or policy; it cannot be
-            called; the command is empty; or policies are given for another mapper.
+        InputError: there is no such mapper or policy; it cannot be called; the command is empty; or
+            policies are given for another mapper.
     """
     mappers = (_target(name, in_process=in_process) for name in each_text(text))
     return tuple(_with_policies(mapper, pick, order) for mapper in mappers)
@@ -94,7 +93,6 @@ def _names_jitted(text: str) -> bool:
 
 
 def _is_jit(mark: ast.expr) -> bool:
-    """Whether this is `numba.njit`, `njit`, `njit(...)`, or a call of such a call's result."""
     while isinstance(mark, ast.Call):
         mark = mark.func
     return ast.unparse(mark).rpartition(".")[2] in ("njit", "jit")
@@ -224,7 +222,6 @@ def is_found_again(text: str) -> bool:
 
 
 def _name_in(module: ModuleType, mapper: Mapper) -> str | None:
-    """The name under which a module holds this very object, or None."""
     name: str = getattr(mapper, "__qualname__", "")
     try:
         if attrgetter(name)(module) is mapper:

@@ -63,8 +63,7 @@ class Division(Generic[TaskT, ResultT]):
     """How a task is cut into smaller tasks.
 
     Attributes:
-        cut: the pieces in order, given the number of items finished when the worker was lost; fewer
-            than two: the task cannot be cut.
+        cut: the pieces, given the number of items finished before the loss; fewer than two: none.
         join: one result from those of the pieces, in order.
         last: whether the pieces behind one with this result are dropped.
     """
@@ -80,12 +79,10 @@ class Remote(Generic[TaskT, ResultT]):
 
     Attributes:
         remade: `module:function`, which makes the same `Work` from its job, as JSON.
-        task: the type of a task, to read it from JSON.
+        task: the type of a task.
         parts: a task in parts, without a look at its items; fewer than two: it cannot be cut.
-        lost: the result of a task that cannot be cut and lost its machines each time; it convicts
-            no mapper.
-        require_ours: raises an InputError if a result was made with other files than are here;
-            takes the result and the name of the worker.
+        lost: the result of a task that cannot be cut and lost its machines; it convicts no mapper.
+        require_ours: raises an InputError if a result of the named worker used other files.
     """
 
     remade: str
@@ -102,10 +99,10 @@ class Work(Generic[TaskT, ResultT]):
     Attributes:
         serve: the function that a worker runs, `module:function`; a `worker.Serve`.
         job: what each worker gets before its first task.
-        result: the type of a result, to read it from JSON.
+        result: the type of a result.
         lost: the result of a task that was lost with its last worker; it may raise.
-        survived: the result of a task that lost workers, given its last result, the losses, each
-            with its piece, and the pieces that were given up.
+        survived: the result of a task that lost workers, given its last result, the losses by
+            piece, and the pieces that were given up.
         silence: seconds without a heartbeat after which a worker is lost.
         loading: seconds that a worker has to get ready.
         attempts: the most workers that may be lost with a task.

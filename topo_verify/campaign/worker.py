@@ -90,10 +90,10 @@ WorkerMessage = WorkerReady | TaskDone | WorkerFailed
 
 
 class Heartbeat:
-    """The file to which a worker writes signs of life. Its parent reads it.
+    """The signs of life that a worker writes and its parent reads.
 
-    It is shared memory, so that machine code can write to it as well. A pipe would fill up while
-    the parent is busy.
+    Shared memory, so that machine code can write to it; a pipe would fill up while the parent is
+    busy.
 
     Attributes:
         address: of its words.
@@ -169,8 +169,7 @@ class WorkerProcess:
         job: what it gets before its first task.
         folder: where it is started; default: the current folder.
     Attributes:
-        ready: it waits for tasks.
-        items: finished items of its task when its heartbeat was last read.
+        items: finished items of its task at its last heartbeat.
         due: seconds until its next heartbeat is due; 0: as usual.
     """
 
@@ -216,7 +215,6 @@ class WorkerProcess:
         return [msgspec.json.decode(self._seal.opened(line), type=WorkerMessage) for line in lines]
 
     def _received(self) -> bytes:
-        """Bytes that have come; none if it has ended."""
         try:
             return self.out.recv(1 << 16)
         except ConnectionError:  # it ended before it read what was written
@@ -256,7 +254,7 @@ class WorkerProcess:
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(self.process.pid, signal.SIGKILL)
         code = self.process.wait()
-        self.silence()  # how far it came
+        self.silence()
         self.out.close()
         self._file.close()
         return f"signal {-code}" if code < 0 else f"exit code {code}"
@@ -266,12 +264,7 @@ class WorkerProcess:
 
 
 def main(commands: BinaryIO, out: BinaryIO, heartbeat: int) -> None:
-    """Work for a parent until it has no more tasks or is gone.
-
-    Args:
-        commands, out: from the parent and to it.
-        heartbeat: the file descriptor of the heartbeat.
-    """
+    """Work for a parent until it has no more tasks or is gone."""
     lines: SimpleQueue[bytes | None] = SimpleQueue()
     threading.Thread(target=_read, args=(commands, lines.put), daemon=True).start()
     first = lines.get()

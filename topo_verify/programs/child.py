@@ -127,7 +127,7 @@ class Child:
         self._readers.register(self._in, 0)
         self._head_sent = False
         self._processor = SharedProcessor(self._process.pid)
-        sleep_briefly()  # in `read_on`
+        sleep_briefly()
         self.heard = 0
         self._lines: deque[bytes] = deque()
         self._rest = bytearray()
@@ -175,7 +175,7 @@ class Child:
                 data = data[os.write(self._in, data) :]
             except BlockingIOError:
                 self._wait_for_room()
-            except OSError:  # a broken pipe
+            except OSError:
                 self.input_closed = True
 
     def close_input(self) -> None:
@@ -271,7 +271,6 @@ class Child:
         self._stderr.take(chunk)
 
     def _wait_for_room(self) -> None:
-        """Wait until the program reads; read its output meanwhile, against a deadlock."""
         self._poll.register(self._in, select.POLLOUT)
         try:
             self._listen()
@@ -317,7 +316,7 @@ class Child:
     def _is_read(self) -> bool:
         try:
             return fcntl.ioctl(self._in, termios.FIONREAD, _NO_BYTES) == _NO_BYTES
-        except OSError:  # a system that does not tell
+        except OSError:
             return True
 
     def _hear_of_end(self) -> None:
@@ -383,7 +382,7 @@ class Child:
         self._status()
         reaper.end_all(None if self._reaped else self._process.pid, self.mark)
         self._process.wait()
-        self.stderr()  # the last of what it printed
+        self.stderr()
         for stream in (self._process.stdin, self._process.stdout, self._process.stderr):
             if stream is not None:
                 with suppress(OSError):

@@ -68,7 +68,6 @@ def deliver(
 
 
 def _passes(error: BaseException) -> bool:
-    """Whether an exception that passed through the mapper is not the mapper's."""
     # Of the bases, too: pytest names another module in those that it prints.
     homes = {kind.__module__.partition(".")[0] for kind in type(error).__mro__}
     of_tool = not isinstance(error, Exception) and not homes.isdisjoint(TEST_TOOLS)

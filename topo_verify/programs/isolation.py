@@ -62,7 +62,7 @@ def hide_arguments() -> None:
         fields = Path("/proc/self/stat").read_text(encoding="ascii").rpartition(")")[2].split()
         begin, end = int(fields[48 - 3]), int(fields[49 - 3])
         line = Path("/proc/self/cmdline").read_bytes()
-        kept = sum(len(word) + 1 for word in line.split(b"\0")[:2])  # the Python and the script
+        kept = sum(len(word) + 1 for word in line.split(b"\0")[:2])
         if 0 < begin < end and len(line) == end - begin > kept:
             ctypes.memset(begin + kept, 0, end - begin - kept)
 

@@ -146,7 +146,7 @@ class _Launcher:
                 stderr=subprocess.DEVNULL,
                 process_group=0,  # Ctrl-C is for its parent
             )
-        if self._control.recv(1) != _READY:  # it is shielded when this returns
+        if self._control.recv(1) != _READY:
             raise InternalError("the process that starts workers ended before it was ready")
 
     @property
@@ -245,7 +245,6 @@ def main() -> None:
 
 
 def _play(channel: int, error: int, *files: int) -> None:
-    """Run the task that the channel names, in this fork."""
     _forked.append(True)
     for file in (channel, *files):
         os.set_inheritable(file, False)  # noqa: FBT003  its only argument
@@ -256,7 +255,7 @@ def _play(channel: int, error: int, *files: int) -> None:
     reader, writer = os.fdopen(channel, "rb"), os.fdopen(os.dup(channel), "wb")
     task = reader.readline()
     if not task.endswith(b"\n"):
-        return  # the parent was interrupted
+        return
     place, path, environment, folder = json.loads(task)
     sys.path[:] = path
     os.environ.clear()

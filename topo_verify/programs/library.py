@@ -131,7 +131,7 @@ def confine() -> None:
     limit = wanted if most == resource.RLIM_INFINITY else min(wanted, most)
     resource.setrlimit(resource.RLIMIT_AS, (limit, most))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    register = getattr(ctypes.CDLL(None), "__register_atfork", None)  # of the GNU library
+    register = getattr(ctypes.CDLL(None), "__register_atfork", None)
     if register is not None and not _before_fork:
         _before_fork.append(ctypes.CFUNCTYPE(None)(_end_before_fork))
         register(_before_fork[0], None, None, None)
@@ -171,7 +171,7 @@ class NativeMapper:
         self._map: dict[str, object] | None = None
         given = _NativeRobot(VERSION, None, *self._callbacks.values())
         self._function(ctypes.byref(given))
-        self._flush(None)  # what it printed
+        self._flush(None)
         if self._stopped is not None:
             raise self._stopped
         return self._map

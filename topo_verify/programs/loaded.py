@@ -212,7 +212,7 @@ def _described(value: object, visited: dict[int, object]) -> Iterator[str]:
         return
     for part in _parts(value):
         yield from _described(part, visited)
-    yield "."  # where the parts end
+    yield "."
 
 
 def _parts(value: object) -> Iterator[object]:
@@ -241,5 +241,5 @@ def _parts(value: object) -> Iterator[object]:
 def _content(cell: Any) -> object:
     try:
         return cell.cell_contents
-    except ValueError:  # it is empty
+    except ValueError:
         return None

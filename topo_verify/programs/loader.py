@@ -114,7 +114,7 @@ def _attribute(whole: object, name: str) -> object:
 
 
 def _load_module(name: str, text: str) -> object:
-    with suppress(FileNotFoundError):  # the working folder was removed
+    with suppress(FileNotFoundError):
         if "" not in sys.path and str(Path.cwd()) not in sys.path:
             sys.path.insert(0, str(Path.cwd()))  # a console script lacks it
     try:

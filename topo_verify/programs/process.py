@@ -60,7 +60,7 @@ class SharedProcessor:
             self._ours = set()
 
     def _move_to(self, here: int) -> None:
-        with suppress(OSError):  # it has ended
+        with suppress(OSError):
             ours, tasks = os.sched_getaffinity(0), list(tasks_of(self._process))
             if len(tasks) == 1:
                 if self._bound is not None or os.sched_getaffinity(self._process) == ours:

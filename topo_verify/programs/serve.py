@@ -56,7 +56,7 @@ class RemoteRobot:
     def __init__(self, percept: Percept, reader: BinaryIO, writer: BinaryIO) -> None:
         self._percept, self._reader, self._writer = percept, reader, writer
         self.misuse: tuple[Literal["bad-door", "bad-declaration"], Misuse] | None = None
-        self._over: MapperStopped | None = None  # the harness has ended the world
+        self._over: MapperStopped | None = None
         self._is_under_way = False  # a move was begun, and its percept has not come
 
     @property
@@ -174,7 +174,6 @@ def _as_child(mapper: Mapper, robot: RemoteRobot) -> object:
 
 
 def _words(text: str) -> str:
-    """The text as it can be sent: cut, and without surrogates."""
     return text[:WORDS].encode(errors="backslashreplace").decode()
 
 
@@ -214,7 +213,7 @@ def fresh(text: str) -> None:
     """
     reader, writer = isolation.private_pipes()
     if is_python(text):
-        with suppress(InputError):  # each fork will say it
+        with suppress(InputError):
             compiled_once(text)
     _send(writer, ms.ReadyMessage())
     for line in reader:
