@@ -30,6 +30,7 @@ from topo_verify.compiled.explore import (
     CompiledRun,
     place_map,
     place_world,
+    require_kernel,
     run_world,
 )
 from topo_verify.compiled.faults import PLANTED
@@ -217,9 +218,6 @@ class _Shard:
                 counts.rule = ws.RULE_NATIVE
                 continue
             counts.fault, algorithm = self._fault(name)
-            if algorithm not in KERNELS:
-                known = ", ".join(KERNELS)
-                raise InputError(f"expected an algorithm of the catalogue, got {name!r}: {known}")
             counts.rule, counts.motion = KERNELS[algorithm]
         self.claims = tuple(CLAIMS)[:claims]
         self.calls = calls
@@ -232,13 +230,9 @@ class _Shard:
             self.walk = tally.ControlWords(self.control)
 
     def _fault(self, name: str) -> tuple[int, str]:
-        if name not in self.faults:
-            return 0, name
-        fault = self.faults[name]
-        if fault not in PLANTED:
-            known = ", ".join(PLANTED)
-            raise InputError(f"expected a fault that has a kernel, got {fault!r}: {known}")
-        return PLANTED[fault]
+        fault = self.faults.get(name)
+        require_kernel(name if fault is None else "basic", fault)
+        return (0, name) if fault is None else PLANTED[fault]
 
     def examine(self, steps: Iterable[int]) -> Iterator[Snapshot]:
         for step in chain(steps, (0,)):

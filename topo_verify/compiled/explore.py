@@ -122,12 +122,7 @@ def run_world(
         large.
     """
     require("the compiled engine")
-    if algorithm not in KERNELS:
-        known = ", ".join(KERNELS)
-        raise InputError(f"expected an algorithm of the catalogue, got {algorithm!r}: {known}")
-    if fault and fault not in PLANTED:
-        known = ", ".join(PLANTED)
-        raise InputError(f"expected a fault that has a kernel, got {fault!r}: {known}")
+    require_kernel(algorithm, fault or None)
     _require_room(world)
     job = CompiledJob(
         world, algorithm, trace, world.cost_bound if budget is None else budget, fault
@@ -150,6 +145,16 @@ def run_world(
         else:
             return job.result(space, layout)
         job.events.clear()
+
+
+def require_kernel(algorithm: str, fault: str | None) -> None:
+    """Raise an InputError unless the algorithm, and the fault if any, have kernels."""
+    if algorithm not in KERNELS:
+        known = ", ".join(KERNELS)
+        raise InputError(f"expected an algorithm of the catalogue, got {algorithm!r}: {known}")
+    if fault is not None and fault not in PLANTED:
+        known = ", ".join(PLANTED)
+        raise InputError(f"expected a fault that has a kernel, got {fault!r}: {known}")
 
 
 def _more_room(job: CompiledJob, layout: ws.WordLayout, room: int) -> int:
@@ -231,12 +236,9 @@ class CompiledJob:
         space = workspace(layout, room)
         place_world(space, layout, self.world)
         kernel = KERNELS[self.algorithm]
-        space[layout.at("task.rule")] = kernel.rule
-        space[layout.at("task.motion")] = kernel.motion
-        space[layout.at("task.fault")] = PLANTED[self.fault][0] if self.fault else 0
-        space[layout.at("task.budget")] = self.budget
-        space[layout.at("task.tracing")] = self.trace
-        space[layout.at("task.room")] = room
+        fault = PLANTED[self.fault][0] if self.fault else 0
+        write(space, layout, "task", rule=kernel.rule, motion=kernel.motion, fault=fault)
+        write(space, layout, "task", budget=self.budget, tracing=self.trace, room=room)
         open_darts, stop = layout.at("chart.unexplored"), layout.at("stop")
         size, at, taken, most = layout.at("trace.size"), -1, 0, room
         while at < 0 or (space[open_darts] > 0 and space[stop] == 0):
@@ -284,6 +286,12 @@ def workspace(layout: ws.WordLayout, room: int) -> Workspace:
             f"the compiled engine needs {size * 8 / 2**30:.2f} GiB of address space for this run"
             " and gets none: raise the limit (ulimit -v), or use the reference engine"
         ) from None
+
+
+def write(space: Workspace, layout: ws.WordLayout, part: str, **words: int) -> None:
+    """Write single words of a part of a workspace, by their names."""
+    for name, word in words.items():
+        space[layout.at(f"{part}.{name}")] = word
 
 
 def trace_of(space: Workspace, layout: ws.WordLayout) -> list[int]:

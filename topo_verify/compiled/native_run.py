@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 from topo_verify.compiled import native, tally
 from topo_verify.compiled import workspace as ws
 from topo_verify.compiled.events import decoded
-from topo_verify.compiled.explore import CompiledRun, map_of, place_world
+from topo_verify.compiled.explore import CompiledRun, map_of, place_world, write
 from topo_verify.compiled.kernel import address_of, compiled
 from topo_verify.robot.events import MapData
 from topo_verify.world.rooted_map import World
@@ -132,14 +132,8 @@ class NativeCalls:
         here = space.ctypes.data
         robot = self.guarded.row(robot_name, np.array([VERSION, here, *_addresses()], np.int64))
         self.guarded.lock(robot)
-        for name, word in (
-            ("mapper", self._function),
-            ("robot", robot.ctypes.data),
-            ("self", here),
-            ("beats", self._beats),
-            ("exit", self._end),
-        ):
-            space[_at(f"native.{name}")] = word
+        addresses = {"mapper": self._function, "robot": robot.ctypes.data, "self": here}
+        write(space, ws.SMALL, "native", **addresses, beats=self._beats, exit=self._end)
 
     def require_whole(self) -> None:
         """End this process if the mapper wrote before a row."""
@@ -152,15 +146,8 @@ class NativeCalls:
         while True:
             space = self.space("run", room)
             place_world(space, ws.SMALL, world)
-            space[_at("task.budget")], space[_at("task.tracing")], space[_at("task.room")] = (
-                world.cost_bound,
-                1,
-                room,
-            )
-            space[_at("native.rank")], space[_at("native.first")] = (
-                self.worlds,
-                0,
-            )  # the shard is done
+            write(space, ws.SMALL, "task", budget=world.cost_bound, tracing=1, room=room)
+            write(space, ws.SMALL, "native", rank=self.worlds, first=0)  # the shard is done
             run = compiled(native.run_native, ws.SMALL)
             run(space, len(world.alpha), len(world.vertices))
             if space[_at("stop")] < ws.STOP_FULL or room >= MOST_ROOM:

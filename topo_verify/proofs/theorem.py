@@ -68,6 +68,13 @@ class Query:
     expected: SolverAnswer
 
 
+def one_query(
+    name: str, smt2: Callable[[], str], expected: SolverAnswer
+) -> Callable[[], Iterator[Query]]:
+    """The `queries` of a theorem with one question, whose script is made when asked for."""
+    return lambda: iter([Query(name, smt2(), expected)])
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RefutationCertificate:
     """A refutation of clauses, judged by a checker that calls no solver.

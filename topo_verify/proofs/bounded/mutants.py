@@ -18,7 +18,7 @@ leads one nearer to v0.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
@@ -36,7 +36,7 @@ from topo_verify.proofs.bounded.replay import (
 )
 from topo_verify.proofs.bounded.statements import EncodedCounterexample
 from topo_verify.proofs.solvers.z3_solver import z3_result
-from topo_verify.proofs.theorem import Budget, Query, Theorem, TheoremResult, timed
+from topo_verify.proofs.theorem import Budget, Theorem, TheoremResult, one_query, timed
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,7 +180,7 @@ def _negative(case: Negative) -> Theorem:
         solver_part=f"finds a world with {case.edges} edges, a map and a hypothesis",
         expected="REFUTED",
         prove=timed(partial(_refute, build, partial(replay_confirmation, marker=case.marker))),
-        queries=partial(_queries, case.name, build),
+        queries=one_query(case.name, partial(_script, build), "sat"),
         edges=case.edges,
     )
 
@@ -235,7 +235,7 @@ def _mutant(case: _FaultyRule) -> Theorem:
         solver_part=f"finds a world with {plural(case.edges, 'edge')}, a map and doors",
         expected="REFUTED",
         prove=timed(partial(_refute, build, _replay_of(case))),
-        queries=partial(_queries, name, build),
+        queries=one_query(name, partial(_script, build), "sat"),
         edges=case.edges,
         of=f"words-{case.rule}",
     )
@@ -274,5 +274,5 @@ def _refute(
     )
 
 
-def _queries(name: str, build: Callable[[], EncodedCounterexample]) -> Iterator[Query]:
-    yield Query(name, build().world.smt2() + "(check-sat)\n", "sat")
+def _script(build: Callable[[], EncodedCounterexample]) -> str:
+    return build().world.smt2() + "(check-sat)\n"

@@ -8,7 +8,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from functools import partial
 from typing import Literal
 
 from topo_verify.errors import InternalError
@@ -20,17 +20,13 @@ from topo_verify.proofs.first_order.obligations import Obligation, growth, hypot
 from topo_verify.proofs.first_order.terms import Term, conj, implies, neg, script, shown
 from topo_verify.proofs.first_order.theory import INVARIANT, LEMMAS
 from topo_verify.proofs.solvers import z3_solver
-from topo_verify.proofs.theorem import Budget, Query, Theorem, TheoremResult, timed
+from topo_verify.proofs.theorem import Budget, Theorem, TheoremResult, one_query, timed
 
 
 def theorem(obligation: Obligation) -> Theorem:
     """The obligation as a theorem."""
     given = tuple(obligation.given.values())
     statement = implies(conj(*given), obligation.goal) if given else obligation.goal
-
-    def queries() -> Iterator[Query]:
-        yield Query(obligation.name, script(obligation.negation()), "unsat")
-
     return Theorem(
         name=obligation.name,
         kind="inductive",
@@ -42,7 +38,7 @@ def theorem(obligation: Obligation) -> Theorem:
         assumed=tuple(n for n in obligation.theory if n not in {*LEMMAS, *INVARIANT}),
         expected="PROVED",
         prove=timed(lambda budget: _prove(obligation, budget)),
-        queries=queries,
+        queries=one_query(obligation.name, lambda: script(obligation.negation()), "unsat"),
     )
 
 
@@ -99,11 +95,9 @@ def mutant(obligation: Obligation, lost: str) -> Theorem:
             note=f"{lost} is false there, the other premises are true, the goal is false",
         )
 
-    def queries() -> Iterator[Query]:
-        yield Query(f"{obligation.name}-without-{lost}", finite_models.question(formulas), "sat")
-
+    name = f"{obligation.name}-without-{lost}"
     return Theorem(
-        name=f"{obligation.name}-without-{lost}",
+        name=name,
         kind="mutant",
         claims=obligation.claims,
         words=f"{obligation.words}; but without {lost}",
@@ -111,7 +105,7 @@ def mutant(obligation: Obligation, lost: str) -> Theorem:
         solver_part="a structure of a few elements in which it fails, evaluated without a solver",
         expected="REFUTED",
         prove=timed(prove),
-        queries=queries,
+        queries=one_query(name, lambda: finite_models.question(formulas), "sat"),
         of=obligation.name,
     )
 
@@ -124,11 +118,7 @@ def _telling(obligation: Obligation) -> str:
 def rule_mutant(faulty: RuleMutant, kind: Literal["mutant", "negative"] = "mutant") -> Theorem:
     """The claim that the faulty rule is right, which must be refuted."""
     edges, known = faulty.size
-
-    def queries() -> Iterator[Query]:
-        asked = scenes.question(faulty.scene, edges=edges, known=known)
-        yield Query(faulty.name, asked, "sat")
-
+    asked = partial(scenes.question, faulty.scene, edges=edges, known=known)
     return Theorem(
         name=faulty.name,
         kind=kind,
@@ -138,7 +128,7 @@ def rule_mutant(faulty: RuleMutant, kind: Literal["mutant", "negative"] = "mutan
         solver_part="a world, a map and a history in which it fails; replayed in the simulator",
         expected="REFUTED",
         prove=timed(lambda budget: _refute(faulty, budget)),
-        queries=queries,
+        queries=one_query(faulty.name, asked, "sat"),
         edges=edges,
         of=faulty.of if kind == "mutant" else None,
     )

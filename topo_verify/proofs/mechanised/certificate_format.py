@@ -39,7 +39,7 @@ Line = Sequence[int]
 
 @dataclass(frozen=True, slots=True)
 class CoqCertificate:
-    """A statement about one log; only the log and the statement are trusted."""
+    """A statement about one log, with evidence that a checker must accept."""
 
     statement: CertifiedStatement
     log: tuple[ev.Event, ...]

@@ -16,7 +16,7 @@ Complexity: nearly linear in the number of moves.
                           dart of S that is unexplored at that moment
 
 Places are not the checkers' representatives, which later merges replace. Coq has no planarity: a
-decision that follows under the planar prior only is left out, and after such an augmentation all.
+decision that follows under the planar prior only is left out; after such an augmentation all are.
 """
 
 from __future__ import annotations
