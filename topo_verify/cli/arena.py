@@ -48,14 +48,14 @@ from topo_verify.studies.arena.suites import DEFAULT, SUITES, chosen_suites
     "commands",
     multiple=True,
     metavar="'PROGRAM ARGS'",
-    help="Let this program take part, without a shell; may be repeated; see docs/arena.md.",
+    help="Also rank this program; may be repeated.",
 )
 @click.option(
     "--library",
     "libraries",
     multiple=True,
     metavar="FILE[:SYMBOL]",
-    help="Let this native mapper take part; may be repeated.",
+    help="Also rank this native mapper; may be repeated.",
 )
 @options.in_process
 @click.option(
@@ -67,18 +67,14 @@ from topo_verify.studies.arena.suites import DEFAULT, SUITES, chosen_suites
 )
 @options.seed("Of the drawn worlds; 0: the public ones, any other: drawn anew.")
 @click.option(
-    "--out",
-    metavar="DIR",
-    help="Write tables, CSV, JSON, plots, players and a page here, and keep the runs: the same"
-    " call goes on.",
+    "--out", metavar="DIR", help="Write tables, plots and a page to DIR; resume from its runs."
 )
 @options.workers()
 @click.option(
     "--game",
     type=int,
     metavar="M",
-    help="Instead: what the best robot pays in the worlds of 1 to M edges, and how far the mappers"
-    " of the catalogue are from it.",
+    help="Instead: what the best robot pays in worlds of 1 to M edges.",
 )
 @options.limits
 def arena(

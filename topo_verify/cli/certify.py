@@ -135,7 +135,9 @@ def certify(
                 try:
                     certificate = judge(log)
                 except InputError as error:
-                    raise InputError(f"{_name(trace)}: {error}") from error
+                    raise InputError(
+                        f"{'standard input' if trace == '-' else trace}: {error}"
+                    ) from error
                 if map_file is not None and certificate.map is not None:
                     certificate.map.save(map_file)
                 proof = None
@@ -159,10 +161,6 @@ def _require_one_task(
         raise click.UsageError(
             "--check CERTIFICATE takes --log LOG and --timeout, and no TRACE or other option"
         )
-
-
-def _name(trace: str) -> str:
-    return "standard input" if trace == "-" else trace
 
 
 def _result(

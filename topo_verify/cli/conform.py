@@ -202,7 +202,13 @@ _COLUMNS = ("level", "verdict", ">passed", ">failed", ">not decided", ">of world
 
 
 def _shown(levels: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Iterator[Block]:
-    rows = [(one.level, one.verdict, *_numbers(one)) for one in levels]
+    rows = [
+        (
+            *(one.level, one.verdict, str(one.passed), str(one.failed)),
+            *(str(one.worlds - one.passed - one.failed), str(one.worlds)),
+        )
+        for one in levels
+    ]
     yield TextTable(_COLUMNS, rows, title=f"{levels[0].target}, like {levels[0].like}")
     first = levels[0]
     gone = {
@@ -223,11 +229,6 @@ def _shown(levels: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Ite
     for sentence in runs.unjudged(first.target, "these worlds", judgements) if first.passed else ():
         yield Text("")
         yield sentence
-
-
-def _numbers(level: LevelResult) -> tuple[str, ...]:
-    rest = level.worlds - level.passed - level.failed
-    return (str(level.passed), str(level.failed), str(rest), str(level.worlds))
 
 
 def _findings(level: LevelResult, shared: Mapping[str, Playback]) -> Iterator[Block]:

@@ -101,8 +101,7 @@ marker_option = click.option(
     "--marker",
     callback=_dart_or_all,
     metavar="DART|all",
-    help="Let the marker point at this DART instead; all: at each dart in turn, best and worst"
-    " named, with --svg as a heat map.",
+    help="Let the marker point at this DART; all: at each dart in turn (--svg: a heat map).",
 )
 
 

@@ -175,7 +175,11 @@ def _head(names: Sequence[str], *, thorough: bool) -> str:
 
 def _show(entries: Sequence[study.Caught]) -> Iterator[Block]:
     rows = [
-        (entry.name, entry.part, *_row(entry)[1:-1], _theorem(entry), _ok(entry))
+        (
+            *(entry.name, entry.part, *_row(entry)[1:-1]),
+            f"{entry.proofs.theorem}: {entry.proofs.verdict}" if entry.proofs else "-",
+            _ok(entry),
+        )
         for entry in entries
     ]
     yield TextTable(("fault", "part", *COLUMNS[1:-1], "theorem", "ok"), rows)
@@ -214,10 +218,6 @@ def _examples(entry: study.Caught) -> str:
     if drawn.median_examples is None:
         return "none"
     return f"{drawn.median_examples}{'*' * (drawn.strategy != study.STRATEGIES[0])}"
-
-
-def _theorem(entry: study.Caught) -> str:
-    return f"{entry.proofs.theorem}: {entry.proofs.verdict}" if entry.proofs else "-"
 
 
 def _end(entries: Sequence[study.Caught]) -> Iterator[Block]:

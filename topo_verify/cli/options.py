@@ -218,13 +218,12 @@ def policies(command: Callable[..., int]) -> Callable[..., int]:
     pick = click.option(
         "--pick",
         metavar="POLICY",
-        help="Which edge comes next: nearest, last, first, random(SEED).  [default: nearest]",
+        help="Next edge: nearest, last, first, random(SEED).  [default: nearest]",
     )
     order = click.option(
         "--order",
         metavar="POLICY",
-        help="Which hypothesis comes first: shortest, oldest, newest, random(SEED)."
-        "  [default: shortest]",
+        help="Next hypothesis: shortest, oldest, newest, random(SEED).  [default: shortest]",
     )
     return pick(order(command))
 
@@ -243,20 +242,15 @@ MAX_EDGES = 1000
 """Most edges of a world that is counted or drawn at random: more take minutes."""
 
 
-def _joined(_context: click.Context, _option: click.Parameter, values: Sequence[str]) -> str:
-    return ",".join(values)
-
-
 world_class = click.option(
     "--class",
     "kind",
     multiple=True,
     default=["any"],
     show_default=True,
-    callback=_joined,
+    callback=lambda _context, _option, values: ",".join(values),
     metavar="CLASS",
-    help="any, planar, genus:G, genus<=G, simple, loopless, max-degree:D; with commas, or given"
-    " several times: worlds with all of these properties.",
+    help="any, planar, genus:G, genus<=G, simple, loopless, max-degree:D; several with commas.",
 )
 
 
@@ -278,22 +272,21 @@ engine = click.option(
     type=click.Choice(ENGINES),
     default="reference",
     show_default=True,
-    help="What runs algorithms of the catalogue; compiled is faster and needs numba.",
+    help="compiled is faster and needs numba; only for the catalogue.",
 )
 
 
 search_engine = click.option(
     "--engine",
     type=click.Choice(ENGINES),
-    help="What runs algorithms of the catalogue and native mappers; compiled is faster and needs"
-    " numba.  [default: reference; compiled with --library]",
+    help="compiled is faster and needs numba.  [default: reference; compiled with --library]",
 )
 
 
 in_process = click.option(
     "--in-process",
     is_flag=True,
-    help="Run a mapper of your own in this process: faster, and it is trusted not to look around.",
+    help="Run your own mapper in this process: faster, but it could see its judge.",
 )
 
 
@@ -363,16 +356,12 @@ _ARGUMENT = (
 
 _PROGRAM = (
     click.option(
-        "--cmd",
-        metavar="'PROGRAM ARGS'",
-        help="Run this program as the TARGET, without a shell; see docs/oracle.md.",
+        "--cmd", metavar="'PROGRAM ARGS'", help="Run this program as the TARGET, without a shell."
     ),
     click.option(
         "--library",
         metavar="FILE[:SYMBOL]",
-        help="Run this native mapper, also FILE.py:NAME by numba, as the TARGET; see"
-        " docs/tutorials/native.md."
-        "  [default SYMBOL: map_world]",
+        help="Run this native mapper, or FILE.py:NAME by numba.  [default SYMBOL: map_world]",
     ),
     in_process,
 )

@@ -253,16 +253,12 @@ def _show(
         if not undecided:
             yield from runs.unjudged(entry.target, entry.world, entry.judgements)
         if entry.kernel is not None:
-            yield Text(_in_coq(entry.kernel))
+            by, why, number = entry.kernel.by, entry.kernel.why, len(entry.kernel.judgements)
+            same = f"Judged again by {by}: the same of {number} of 10 claims."
+            yield Text(f"Not judged by the judge that is proved in Coq: {why}" if why else same)
         if not entry.ok or asked.to_end:
             yield Text("")
             yield from runs.walk_view(report, asked)
             yield from runs.other_findings(report, asked)
         elif not undecided:
             yield Text("Nothing is wrong; --all shows the walk.")
-
-
-def _in_coq(kernel: judge.ProvedOpinion) -> str:
-    if kernel.why:
-        return f"Not judged by the judge that is proved in Coq: {kernel.why}"
-    return f"Judged again by {kernel.by}: the same of {len(kernel.judgements)} of 10 claims."

@@ -62,7 +62,7 @@ _Found = list[tuple[fig.Figure, list[pts.FigurePoint]]]
     default="figures",
     show_default=True,
     metavar="DIR",
-    help="Write CSV, SVG, PNG and Markdown here, and keep the runs: the next call goes on.",
+    help="Write CSV, pictures and a page to DIR; resume from its runs.",
 )
 @options.seed("Of the graphs.")
 @options.engine

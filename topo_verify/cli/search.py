@@ -46,14 +46,14 @@ from topo_verify.world.enumeration.classes import WorldClass
 @click.option(
     "--dask",
     metavar="ADDRESS",
-    help="Work on the Dask cluster whose scheduler has this ADDRESS; local: start one here.",
+    help="Work on the Dask cluster of this scheduler; local: start one here.",
 )
 @click.option("--ledger", metavar="FILE", help="Keep finished work in FILE and resume from it.")
 @click.option(
     "--depends",
     multiple=True,
     metavar="FILE",
-    help="The TARGET depends on FILE: if it changes, the ledger is refused. May be repeated.",
+    help="The TARGET uses FILE: if it changes, the ledger is refused. May be repeated.",
 )
 @click.option("--keep-going", is_flag=True, help="Do not stop at the first counterexample.")
 @click.option(

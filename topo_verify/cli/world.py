@@ -91,8 +91,7 @@ class ShowEntry(msgspec.Struct, frozen=True):
     "--twin",
     "model",
     type=click.Choice(MODELS),
-    help="Show another world that no robot can tell from this one if the marker shows no direction"
-    " (undirected) or if there is no marker (none).",
+    help="Show a world that looks the same if the marker has no direction, or without it (none).",
 )
 @click.option(
     "-o", "file", metavar="FILE.svg", help="With --twin: draw both worlds side by side to FILE."

@@ -171,15 +171,12 @@ def _about_pose(playback: Playback, moment: Moment, pose: ev.Pose) -> Iterator[s
     left = either_place(playback, last.through, last.left_by)
     words = f"door {last.event.door} at event {last.number} led out by {left}"
     wanted = map_place(playback, edge)
-    if before.position is not None and _same_vertex(playback, before.position, phi):
+    place = playback.world.vertex_of
+    if before.position is not None and place[before.position] == place[phi]:
         door = playback.door(before.position, phi)
         yield f"{words}; edge {edge} ({wanted}) was behind door {door} there"
     else:
         yield f"{words}; edge {edge} ({wanted}) is at another vertex"
-
-
-def _same_vertex(playback: Playback, one: WorldDart, other: WorldDart) -> bool:
-    return playback.world.vertex_of[one] == playback.world.vertex_of[other]
 
 
 # ---------------------------------------------------------------- names of darts

@@ -18,7 +18,7 @@ from textwrap import wrap
 from typing import TypeVar
 
 from topo_verify.errors import InputError, plural, shown
-from topo_verify.player.animation.tracks import Leg, Tracks, timed
+from topo_verify.player.animation.tracks import Tracks, timed
 from topo_verify.player.narrator import Narrator, Saying
 from topo_verify.player.scenes import Moment, Playback
 from topo_verify.robot import events as ev
@@ -247,7 +247,8 @@ def _walkers(tracks: Tracks, stage: Stage) -> Iterator[str]:
     dots = f'stroke-dasharray="{number(0.5 * r)}"'
     for ghost in tracks.ghosts():
         ring = f'<circle class="ghost" {line} {dots} r="{number(1.3 * r)}"/>'
-        going = stage.moving(_places(ghost.steps, stage))
+        way = timed(ghost.steps, stage.begins)
+        going = stage.moving([(at, *points[-1], None) for at, points in way])
         yield f"<g{stage.during(ghost.span)}><g{going}>{ring}</g></g>"
     size = 0.74 * r
     notch = f"M{number(0.9 * size)} 0L{number(0.05 * size)} {number(0.5 * size)}"
@@ -256,10 +257,6 @@ def _walkers(tracks: Tracks, stage: Stage) -> Iterator[str]:
         f' stroke-width="{number(0.12 * r)}" r="{number(size)}"/>'
         f'<path class="notch" d="{notch}V{number(-0.5 * size)}Z"/></g>'
     )
-
-
-def _places(steps: Sequence[Leg], stage: Stage) -> list[Keyframe]:
-    return [(at, *points[-1], None) for at, points in timed(steps, stage.begins)]
 
 
 def _turned(tracks: Tracks, stage: Stage) -> Iterator[Keyframe]:
