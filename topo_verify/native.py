@@ -55,8 +55,8 @@ _NO_DOORS = np.zeros(1, np.int64)[:0]
 
 
 def _compiled(function: F) -> F:
-    made: F = _njit(function)
-    return made
+    kernel: F = _njit(function)
+    return kernel
 
 
 class NativePercept(NamedTuple):
@@ -68,15 +68,19 @@ class NativePercept(NamedTuple):
 
 def _called(_typing: Any, _robot: Any, _member: Any, given: Any) -> Any:
     """A call of a member of the robot with its world and these words and rows."""
-    for one in given:
-        if isinstance(one, types.Array) and (one.dtype, one.ndim, one.layout) != (
+    for argument in given:
+        if isinstance(argument, types.Array) and (
+            argument.dtype,
+            argument.ndim,
+            argument.layout,
+        ) != (
             types.int64,
             1,
             "C",
         ):
-            raise TypingError(f"expected a row of int64 without gaps, got {one}")
-        if not isinstance(one, types.Array | types.Integer | types.Boolean):
-            raise TypingError(f"expected an integer or a row of int64, got {one}")
+            raise TypingError(f"expected a row of int64 without gaps, got {argument}")
+        if not isinstance(argument, types.Array | types.Integer | types.Boolean):
+            raise TypingError(f"expected an integer or a row of int64, got {argument}")
     word = ir.IntType(64)
 
     def generate(context: Any, builder: Any, _signature: Any, values: Any) -> Any:

@@ -109,7 +109,7 @@ def arena(
     mappers = _loaded(asked, in_process=in_process)
     league = League(mappers, suites, seed, limits)
     _require_players(league)
-    dearest: list[acc.Exhibit] = []
+    most_expensive: list[acc.Exhibit] = []
 
     def entries() -> Iterator[Result[LeagueEntry]]:
         try:
@@ -120,20 +120,20 @@ def arena(
         table = league.entries()
         _run_again(output, league, table)
         if output.exhibits:
-            dearest.extend(files.dearest_exhibits(league))
+            most_expensive.extend(files.dearest_exhibits(league))
         if folder is not None:
-            files.write_folder(folder, league, table, dearest, output.found.exhibits)
+            files.write_folder(folder, league, table, most_expensive, output.found.exhibits)
         _add_timing(output, league, table)
         yield from map(_result, table)
         close(mappers)
 
     def account(table: Sequence[LeagueEntry]) -> acc.Account:
         blocks = _show(league, table, memory=None, pictures=True)
-        return _account(table, blocks, dearest, exact=all(s.exact for s in suites))
+        return _account(table, blocks, most_expensive, exact=all(s.exact for s in suites))
 
     close(mappers)
     show = partial(_show, league, memory=league.memory)
-    words = [one.name for one in suites]
+    words = [chosen.name for chosen in suites]
     return output.run(
         "arena",
         entries,
@@ -249,7 +249,7 @@ def _show(
 def _account(
     table: Sequence[LeagueEntry],
     blocks: Iterable[Block],
-    dearest: Sequence[acc.Exhibit],
+    most_expensive: Sequence[acc.Exhibit],
     *,
     exact: bool,
 ) -> acc.Account:
@@ -266,7 +266,7 @@ def _account(
         judged,
         acc.suites((f"{entry.mapper} in {entry.suite}", _cases(entry)) for entry in table),
         tuple(blocks),
-        others=tuple(dearest),
+        others=tuple(most_expensive),
         results_first=True,
     )
 

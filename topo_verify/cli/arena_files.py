@@ -180,18 +180,18 @@ def broken_blocks(entries: Sequence[lg.LeagueEntry]) -> Iterator[Block]:
     broken = {e.mapper: e.counterexample for e in entries if e.counterexample is not None}
     if broken:
         rows = [
-            (mapper, Cell(found.claim, tone="failed"), found.world, found.suite)
-            for mapper, found in broken.items()
+            (mapper, Cell(example.claim, tone="failed"), example.world, example.suite)
+            for mapper, example in broken.items()
         ]
         yield Text("")
         columns = ("mapper", "claim that fails", "world", "suite")
         yield TextTable(columns, rows, title="No place, for a claim fails")
-    for mapper, found in broken.items():
+    for mapper, example in broken.items():
         yield Text("")
-        yield Text(f"{mapper} in {found.world}:")
-        yield Bullets((f"{found.claim}: {found.message}",))
-        if found.replay:
-            yield Command(found.replay, "again: ")
+        yield Text(f"{mapper} in {example.world}:")
+        yield Bullets((f"{example.claim}: {example.message}",))
+        if example.replay:
+            yield Command(example.replay, "again: ")
 
 
 # ---------------------------------------------------------------- the files
@@ -199,24 +199,25 @@ def broken_blocks(entries: Sequence[lg.LeagueEntry]) -> Iterator[Block]:
 
 def dearest_exhibits(league: lg.League) -> Iterator[Exhibit]:
     """Each ranked mapper in its most expensive world of all suites, run once more."""
-    dearest: dict[str, lg.MostExpensiveWorld] = {}
+    most_expensive: dict[str, lg.MostExpensiveWorld] = {}
     for entry in league.entries():
-        one, other = entry.dearest, dearest.get(entry.mapper)
-        if entry.place is not None and one is not None:
-            dearest[entry.mapper] = one if other is None or one.ratio > other.ratio else other
-    for mapper in league.mappers:
-        if (one := dearest.get(mapper.text)) is None:
+        worst, previous = entry.dearest, most_expensive.get(entry.mapper)
+        if entry.place is None or worst is None:
             continue
-        world = resolve_world(one.world)
+        if previous is None or worst.ratio > previous.ratio:
+            most_expensive[entry.mapper] = worst
+    for mapper in league.mappers:
+        if (worst := most_expensive.get(mapper.text)) is None:
+            continue
+        world = resolve_world(worst.world)
         run = explore(world, mapper, limits=league.limits)
         judgements = check(world, run.trace, run.stopped)
+        cost = f"{worst.cost} edge traversals, {worst.ratio:.2f} × LB = {worst.least}"
         yield Exhibit(
-            title=target_title(mapper.text, one.world),
+            title=target_title(mapper.text, worst.world),
             world=world,
-            name=one.world,
-            notes=(
-                f"most expensive: {one.cost} edge traversals, {one.ratio:.2f} × LB = {one.least}",
-            ),
+            name=worst.world,
+            notes=(f"most expensive: {cost}",),
             runs=(PlayedRun(mapper.text, run.trace, tuple(judgements), run.stopped),),
             whole=True,
         )
@@ -226,7 +227,7 @@ def write_folder(
     folder: Path,
     league: lg.League,
     table: Sequence[lg.LeagueEntry],
-    dearest: Sequence[Exhibit],
+    most_expensive: Sequence[Exhibit],
     counterexamples: Sequence[Exhibit],
 ) -> None:
     """Write all files of the league into the folder.
@@ -241,13 +242,13 @@ def write_folder(
     for suite in league.suites:
         if plot := plot_of(league, suite, table):
             files.write(folder / f"ratio-{suite.name}.svg", plot)
-    for exhibit in dearest:
+    for exhibit in most_expensive:
         _write_player(folder / "players", exhibit)
     for exhibit in counterexamples:
         _write_player(folder / "counterexamples", exhibit)
         name = _stem(exhibit)
         files.write(folder / "counterexamples" / f"{name}.svg", exhibit.world.draw())
-    files.write(folder / "table.md", _table(league, table, dearest, counterexamples))
+    files.write(folder / "table.md", _table(league, table, most_expensive, counterexamples))
 
 
 def _write_player(folder: Path, exhibit: Exhibit) -> None:
@@ -289,7 +290,7 @@ def _timing(league: lg.League, table: Sequence[lg.LeagueEntry]) -> str:
 def _table(
     league: lg.League,
     table: Sequence[lg.LeagueEntry],
-    dearest: Sequence[Exhibit],
+    most_expensive: Sequence[Exhibit],
     counterexamples: Sequence[Exhibit],
 ) -> str:
     parts = ["# The arena\n"]
@@ -299,18 +300,18 @@ def _table(
         parts.append(markdown(suite_blocks(suite, table)))
         if ranked_in(suite, table):
             parts.append(f"![cost / LB in {suite.name}](ratio-{suite.name}.svg)\n")
-    if dearest:
+    if most_expensive:
         parts.append("## The most expensive worlds\n")
-        for one in dearest:
-            parts.append(markdown([Text(f"{one.title}, {one.notes[0]}")]))
-            parts.append(f"[The run, step by step](<players/{_stem(one)}.html>)\n")
+        for exhibit in most_expensive:
+            parts.append(markdown([Text(f"{exhibit.title}, {exhibit.notes[0]}")]))
+            parts.append(f"[The run, step by step](<players/{_stem(exhibit)}.html>)\n")
     if broken := list(broken_blocks(table)):
         parts.append("## No place\n")
         parts.append(markdown(broken))
-    for one in counterexamples:
-        parts.append(f"![The counterexample](<counterexamples/{_stem(one)}.svg>)\n")
-        if one.runs:
-            parts.append(f"[The run, step by step](<counterexamples/{_stem(one)}.html>)\n")
+    for exhibit in counterexamples:
+        parts.append(f"![The counterexample](<counterexamples/{_stem(exhibit)}.svg>)\n")
+        if exhibit.runs:
+            parts.append(f"[The run, step by step](<counterexamples/{_stem(exhibit)}.html>)\n")
     return "\n".join(parts)
 
 
@@ -331,16 +332,16 @@ def table_csv(entries: Sequence[lg.LeagueEntry]) -> str:
 def _rows(entry: lg.LeagueEntry) -> Iterator[Sequence[object]]:
     ratio, behind = entry.ratio, entry.behind
     broken = entry.counterexample
-    one = entry.families[0] if len(entry.families) == 1 else None
+    alone = entry.families[0] if len(entry.families) == 1 else None
     yield (
-        *(entry.place, entry.mapper, entry.suite, one.family if one else "", entry.worlds),
-        *((one.edges, one.least, one.cost) if one else (None, None, None)),
+        *(entry.place, entry.mapper, entry.suite, alone.family if alone else "", entry.worlds),
+        *((alone.edges, alone.least, alone.cost) if alone else (None, None, None)),
         *((ratio.mean, ratio.low, ratio.high) if ratio else (None, None, None)),
         *((behind.mean, behind.low, behind.high) if behind else (None, None, None)),
         *(entry.rejected_free, entry.rejected_moving, claims_in_words(entry)),
         f"{broken.claim} in {broken.world}" if broken else None,
     )
-    for family in entry.families if one is None else ():
+    for family in entry.families if alone is None else ():
         mean = family.ratio
         yield (
             *(None, entry.mapper, entry.suite, family.family, family.worlds),

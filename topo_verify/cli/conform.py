@@ -242,13 +242,13 @@ def _findings(level: LevelResult, shared: Mapping[str, Playback]) -> Iterator[Bl
 
 
 def _difference(
-    found: WorldFinding, level: LevelResult, shared: Mapping[str, Playback]
+    finding: WorldFinding, level: LevelResult, shared: Mapping[str, Playback]
 ) -> Iterator[Block]:
     """One finding; if two runs differ, their common walk, and what each does then."""
-    parted, run = found.difference, shared.get(found.replay)
+    parted, run = finding.difference, shared.get(finding.replay)
     if parted is None or run is None:
-        where = "" if found.event is None else f"event {found.event}: "
-        yield Bullets((f"{where}{found.message}",))
+        where = "" if finding.event is None else f"event {finding.event}: "
+        yield Bullets((f"{where}{finding.message}",))
         return
     sides = ((level.like, parted.expected), (level.target, parted.seen))
     lines = [(name, does or "does nothing more") for name, does in sides]
@@ -259,11 +259,11 @@ def _difference(
 
 def _shared(study: Conform, level: LevelResult) -> dict[str, Playback]:
     """The reference's run where a mapper first differs from it, by its replay command."""
-    for found in level.findings:
-        if found.difference is not None:
-            world = next(at.world for at in study.corpus if at.name == found.world)
+    for finding in level.findings:
+        if finding.difference is not None:
+            world = next(at.world for at in study.corpus if at.name == finding.world)
             run = explore(world, study.asked.reference)
-            return {found.replay: Playback(world, run.trace)}
+            return {finding.replay: Playback(world, run.trace)}
     return {}
 
 
@@ -365,7 +365,8 @@ def _runs_in(
 
 def _failing_run(study: Conform, levels: Sequence[LevelResult]) -> Report | None:
     """The run in the first world where a claim fails, made again; None if it holds this time."""
-    convicting = (one for level in levels for one in level.findings if one.difference is None)
+    findings = (finding for level in levels for finding in level.findings)
+    convicting = (finding for finding in findings if finding.difference is None)
     finding = next(convicting, None)
     if finding is None:
         return None
@@ -375,6 +376,6 @@ def _failing_run(study: Conform, levels: Sequence[LevelResult]) -> Report | None
         run = explore(world, target, limits=campaign.limits)
         named = runs.NamedWorld(world, finding.world)
         report, _ = runs.judged(run, named, campaign.limits, strict=campaign.strict)
-        if any(one.claim == finding.claim for one in report.findings):
+        if any(other.claim == finding.claim for other in report.findings):
             return report
     return None

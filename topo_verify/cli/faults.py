@@ -82,12 +82,12 @@ def faults(
             yield Result(entry, failed=not (entry.ok or entry.undecided), incomplete=not entry.ok)
             output.progress(entry.name, done, len(chosen))
 
-    seen: set[str] = set()
+    parts_shown: set[str] = set()
 
     def live(entry: study.Caught) -> Iterator[Block]:
         part = _part(entry)
-        if part not in seen:
-            seen.add(part)
+        if part not in parts_shown:
+            parts_shown.add(part)
             yield Text(f"{part}:")
         yield TextTable(COLUMNS, [_row(entry)], widths=WIDTHS, headed=False)
 

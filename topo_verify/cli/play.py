@@ -82,5 +82,5 @@ def play(
 def _show(entries: Sequence[PlayEntry]) -> Iterator[Block]:
     for entry in entries:
         names = ", ".join(entry.algorithms)
-        found = f"; {plural(entry.findings, 'finding')}" if entry.findings else ""
-        yield Text(f"{entry.file}: {names} in {entry.world}{found}. Open it in a browser.")
+        marked = f"; {plural(entry.findings, 'finding')}" if entry.findings else ""
+        yield Text(f"{entry.file}: {names} in {entry.world}{marked}. Open it in a browser.")

@@ -399,13 +399,13 @@ def _end(entries: Sequence[ProveEntry]) -> Iterator[Block]:
         if not mine:
             continue
         replays = [entry.replayed for entry in mine if entry.replayed is not None]
-        done = sum(one.replayed for one in replays)
+        done = sum(replay.replayed for replay in replays)
         papers = sum(entry.certificate is not None and entry.certificate.checked for entry in mine)
         rows.append(
             (
                 kind,
                 f"{sum(entry.ok for entry in mine)} of {len(mine)}",
-                f"{done} of {sum(one.total for one in replays)}" if replays else "-",
+                f"{done} of {sum(replay.total for replay in replays)}" if replays else "-",
                 f"{papers} of {len(mine)}" if kind == "bounded" else "-",
             )
         )

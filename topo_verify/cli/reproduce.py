@@ -141,18 +141,18 @@ def _runs(
         return {run: row for row in rows for run in pts.runs_of(row)}
 
 
-def _write(output: Output, folder: Path, found: _Found, command: str) -> None:
+def _write(output: Output, folder: Path, figures: _Found, command: str) -> None:
     drawn = True
-    for figure, points in found:
+    for figure, points in figures:
         files.write(folder / f"{stem(figure)}.csv", pts.points_csv(points))
         drawn = drawn and _draw(folder, figure, points)
     if not drawn:
         output.note(MATPLOTLIB)
-    every = [point for _, points in found for point in points]
-    settings = {figure.name: figure.setting.name for figure, _ in found}
+    every = [point for _, points in figures for point in points]
+    settings = {figure.name: figure.setting.name for figure, _ in figures}
     files.write(folder / "growth.csv", pts.growth_csv(every, settings))
     judged = judged_sentence(every)
-    files.write(folder / PAGE, page(found, command=command, judged=judged, pictures=drawn))
+    files.write(folder / PAGE, page(figures, command=command, judged=judged, pictures=drawn))
 
 
 def _draw(folder: Path, figure: fig.Figure, points: Sequence[pts.FigurePoint]) -> bool:

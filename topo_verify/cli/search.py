@@ -190,11 +190,11 @@ def _searched(
         known["checkers"] += one_search.seconds.checkers
     entry = one_search.entry()
     reports = None if campaign.ways is None else partial(reports_of, campaign)
-    for one in (entry.counterexample, *(claim.smallest for claim in entry.claims)):
-        if one is not None:
+    for example in (entry.counterexample, *(claim.smallest for claim in entry.claims)):
+        if example is not None:
             output.found.run_again(
                 one_search.mappers,
-                *(one.world, one.claim, campaign.limits, one.message),
+                *(example.world, example.claim, campaign.limits, example.message),
                 reports=reports,
             )
     yield result()
@@ -328,10 +328,10 @@ def _every(entry: study.SearchEntry, *, worst: bool) -> Iterator[Block]:
 
 def _saved(entry: study.EveryCost) -> tuple[str, ...]:
     together = f"{1 - entry.cheapest / entry.reference:.1%}"
-    one = entry.most_saved
-    if one is None or one.reference == one.cheapest:
+    most = entry.most_saved
+    if most is None or most.reference == most.cheapest:
         return together, "-", "-"
-    return together, f"{1 - one.cheapest / one.reference:.1%}", one.world
+    return together, f"{1 - most.cheapest / most.reference:.1%}", most.world
 
 
 def _who(entry: study.SearchEntry) -> str:

@@ -29,10 +29,10 @@ def report_card(
         head: mapper, world, and how many claims hold.
         again: the replay command, or "".
     """
-    findings = [finding for one in judgements for finding in one.findings]
+    findings = [finding for judgement in judgements for finding in judgement.findings]
     parts = [f"<p><strong>{_text(head)}</strong></p>", _claims(judgements)]
     if findings:
-        parts += [f"<ul>{''.join(f'<li>{_sentence(one)}</li>' for one in findings)}</ul>"]
+        parts += [f"<ul>{''.join(f'<li>{_sentence(finding)}</li>' for finding in findings)}</ul>"]
         if playback is not None:
             parts += [_picture(playback.world, "the world"), _walk(playback)]
         parts += _again(again)

@@ -43,7 +43,7 @@ class Circle(NamedTuple):
 
 def turns(playback: Playback) -> dict[int, Turn]:
     """By event, the moves, except retracing ones, whose door does not count from the entry dart."""
-    found: dict[int, Turn] = {}
+    turned: dict[int, Turn] = {}
     positions = playback.replayed.positions
     entries = [positions[0]]  # by which dart it came to each place
     asked = 1  # their number at the last question
@@ -58,12 +58,12 @@ def turns(playback: Playback) -> dict[int, Turn]:
         stands, entry = positions[number - 1], entries[-1]
         back = out == entry and len(entries) > 1
         if stands != entry and not (back and len(entries) > asked):
-            found[number] = Turn(entry, stands, playback.door(entry, out))
+            turned[number] = Turn(entry, stands, playback.door(entry, out))
         if back:
             entries.pop()
         else:
             entries.append(positions[number])
-    return found
+    return turned
 
 
 def _sees_marker(playback: Playback, dart: WorldDart) -> bool:

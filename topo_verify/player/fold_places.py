@@ -69,11 +69,11 @@ LONGEST = 20_000
 
 def fold_places(moments: Sequence[Moment]) -> FoldPlaces:
     """Fold the history of a run up to the first illegal move, lie or false augmentation."""
-    found = FoldPlaces({}, {})
+    places = FoldPlaces({}, {})
     if len(moments) > LONGEST:
-        return found
+        return places
     if not moments or moments[0].position is None:
-        return found
+        return places
     start, first = moments[0].event, moments[0].position
     assert isinstance(start, Start)
     fold = _WatchedFold(start.percept)
@@ -85,16 +85,16 @@ def fold_places(moments: Sequence[Moment]) -> FoldPlaces:
             break
         visited += [moment.position] * (fold.visits - len(visited))
         if nodes := fold.identified(mark):
-            found.identified[number] = tuple(dict.fromkeys(visited[node] for node in nodes))
+            places.identified[number] = tuple(dict.fromkeys(visited[node] for node in nodes))
         match moment.event:
             case Reject(e, h, "folding") if on_fold.is_open(e) and on_fold.is_open(h):
                 if clash := fold.clash(on_fold.place(e), on_fold.place(h)):
-                    found.clashes[number] = visited[clash[0]], visited[clash[1]]
+                    places.clashes[number] = visited[clash[0]], visited[clash[1]]
             case Augment() if not _grown(on_fold, moment):
                 break
             case _:
                 pass
-    return found
+    return places
 
 
 def _grown(on_fold: MapOnFold, moment: Moment) -> bool:

@@ -205,16 +205,16 @@ class Narrator:
         sentences = tuple(self._evidence(moment, reject, moment.mismatch))
         return Saying("bad", title, sentences, cited.observed, cited.expected, labels)
 
-    def _evidence(self, moment: Moment, reject: ev.Reject, found: Mismatch) -> Iterator[str]:
+    def _evidence(self, moment: Moment, reject: ev.Reject, mismatch: Mismatch) -> Iterator[str]:
         observed, expected = reject.evidence.observed, reject.evidence.expected
         assert observed is not None, "the caller has looked"
         assert expected is not None, "the caller has looked"
         if reject.rule in EARLIER:
             yield f"It replays {EARLIER[reject.rule]}."
-        is_seen = self.map.seen_at(found.trail[-1]) == observed
-        there = self.map.seen_at(self.map.phi[found.traced[-1]])
+        is_seen = self.map.seen_at(mismatch.trail[-1]) == observed
+        there = self.map.seen_at(self.map.phi[mismatch.traced[-1]])
         recorded = reject.evidence.record is not None
-        known = there == expected if found.leaves is None else recorded
+        known = there == expected if mismatch.leaves is None else recorded
         is_sure = known and is_seen and not moment.findings
         if is_sure and observed.signature == expected.signature:
             yield "At the ring the marker would have to point another way."
@@ -277,21 +277,21 @@ class Narrator:
             return self._rejects(moment.number, moment.event, moment.mismatch)
         return event_words(moment.event, brief=True)
 
-    def _rejects(self, number: int, event: ev.Reject, found: Mismatch | None) -> str:
+    def _rejects(self, number: int, event: ev.Reject, mismatch: Mismatch | None) -> str:
         cited, spoiled = event.evidence, self.playback.replayed.spoiled
         if cited.contradiction is not None:
             return event_words(event)
         words = rejection_words(event)
-        if found is None:
+        if mismatch is None:
             why = "cannot be found in the walk"
             if spoiled is not None and spoiled < number:
                 why = f"is not looked for: the mapper's map is false since event {spoiled}"
             return f"{words}{cited_words(cited)} at step {cited.step}, which {why}"
-        start = map_place(self.playback, found.traced[0])
-        behind = f"behind {door_words(found.doors)} from {start}"
-        behind = behind if found.doors else "behind the edge"
-        of = "" if found.sequence is None else f" (sequence {found.sequence})"
-        at = world_place(self.playback, found.trail[-1])
+        start = map_place(self.playback, mismatch.traced[0])
+        behind = f"behind {door_words(mismatch.doors)} from {start}"
+        behind = behind if mismatch.doors else "behind the edge"
+        of = "" if mismatch.sequence is None else f" (sequence {mismatch.sequence})"
+        at = world_place(self.playback, mismatch.trail[-1])
         return f"{words}{behind}{of} it {cited_words(cited)} at {at}"
 
 

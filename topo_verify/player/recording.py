@@ -187,15 +187,15 @@ def _findings(
     playback: Playback, worlds: list[dict[str, Any]], places: dict[str, int]
 ) -> list[dict[str, Any]]:
     """The findings; the first at an event has the remarks of the text walk."""
-    found: list[dict[str, Any]] = []
-    turned, told = turns(playback), set[int | None]([None])
+    rows: list[dict[str, Any]] = []
+    turned, explained = turns(playback), set[int | None]([None])
     for finding in playback.findings:
         number, notes = finding.event, list[str]()
-        if number is not None and number not in told:
+        if number is not None and number not in explained:
             notes = list(remarks(playback, playback.moments[number], turned.get(number)))
-        told.add(number)
-        found.append({**_finding(finding, worlds, places), "remarks": notes})
-    return found
+        explained.add(number)
+        rows.append({**_finding(finding, worlds, places), "remarks": notes})
+    return rows
 
 
 def _finding(
@@ -220,7 +220,7 @@ _LETTERS = {"walk": "w", "cross": "c", "validate": "v", "retrace": "t", None: "m
 
 
 def _event(moment: Moment, clashes: Mapping[int, Sequence[int]], *, cites_records: bool) -> str:
-    found: Sequence[int] = ()
+    extra: Sequence[int] = ()
     match moment.event:
         case ev.Start():
             letter, numbers = "s", []
@@ -230,16 +230,16 @@ def _event(moment: Moment, clashes: Mapping[int, Sequence[int]], *, cites_record
             letter, numbers = "p", [edge, *hypotheses]
         case ev.Reject(edge, hypothesis, rule):
             if rule == "folding":
-                found = clashes.get(moment.number, ())
+                extra = clashes.get(moment.number, ())
             else:
-                found = (-1,) if moment.mismatch is None else moment.mismatch.doors
-            letter, numbers = "r", [edge, hypothesis, _RULES.index(rule), *found]
+                extra = (-1,) if moment.mismatch is None else moment.mismatch.doors
+            letter, numbers = "r", [edge, hypothesis, _RULES.index(rule), *extra]
         case ev.Confirm(edge, hypothesis, rule):
             letter, numbers = "k", [edge, hypothesis, _RULES.index(rule)]
         case ev.Augment(edge, kind, dart, degree):
             if cites_records:
-                found = [dart for dart, _ in moment.recorded]
-            letter, numbers = "a" if kind == "new" else "l", [edge, dart, degree, *found]
+                extra = [dart for dart, _ in moment.recorded]
+            letter, numbers = "a" if kind == "new" else "l", [edge, dart, degree, *extra]
         case ev.Finish():
             letter, numbers = "f", []
         case _:

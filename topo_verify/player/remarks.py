@@ -43,12 +43,12 @@ def remarks(playback: Playback, moment: Moment, turn: Turn | None = None) -> Ite
             pass
 
 
-def _leaving(playback: Playback, number: int, found: Mismatch, leaves: KnownDart) -> str:
-    start = map_place(playback, found.traced[0])
+def _leaving(playback: Playback, number: int, mismatch: Mismatch, leaves: KnownDart) -> str:
+    start = map_place(playback, mismatch.traced[0])
     words = (
-        f"from {start}, {door_words(found.doors)} would leave S by {map_place(playback, leaves)}"
+        f"from {start}, {door_words(mismatch.doors)} would leave S by {map_place(playback, leaves)}"
     )
-    home = door_words(way_home(playback, found.traced[0], number))
+    home = door_words(way_home(playback, mismatch.traced[0], number))
     return f"{words}, which is unexplored; the way home from {start} is by {home}"
 
 

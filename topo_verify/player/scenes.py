@@ -316,15 +316,15 @@ def _after(spent: Spent, move: ev.Move) -> Spent:
 
 
 def _question(
-    event: ev.Event, edge: int | None, left: tuple[int, ...]
+    event: ev.Event, edge: int | None, open_hypotheses: tuple[int, ...]
 ) -> tuple[int | None, tuple[int, ...]]:
     """The edge in question after an event, and its hypotheses that are left."""
     match event:
         case ev.Pose():
             return event.edge, event.hypotheses
         case ev.Reject(hypothesis=h) | ev.Confirm(hypothesis=h):
-            return edge, tuple(one for one in left if one != h)
+            return edge, tuple(dart for dart in open_hypotheses if dart != h)
         case ev.Augment():
             return None, ()
         case _:
-            return edge, left
+            return edge, open_hypotheses

@@ -197,15 +197,15 @@ class _View:
     # ------------------------------------------------------------ below the table
 
     def more(self, last: int) -> list[str]:
-        left, words, found = len(self.playback.trace) - 1 - last, "", self.circle
-        if found is not None and last == found.last:
-            times = f"{found.moves / found.period:.3g} times in all"
-            words = f"Events {found.first} to {last} repeat to the end of the run, {times}."
-        elif left:
-            words = f"{plural(left, 'more event')}: topo-verify replay --all shows them."
-            if found is not None:
-                moves = plural(found.period, "move")
-                words += f" From event {found.first} on the robot walks in a circle of {moves}."
+        following, words, repeated = len(self.playback.trace) - 1 - last, "", self.circle
+        if repeated is not None and last == repeated.last:
+            times = f"{repeated.moves / repeated.period:.3g} times in all"
+            words = f"Events {repeated.first} to {last} repeat to the end of the run, {times}."
+        elif following:
+            words = f"{plural(following, 'more event')}: topo-verify replay --all shows them."
+            if repeated is not None:
+                moves = plural(repeated.period, "move")
+                words += f" From event {repeated.first} on the robot walks in a circle of {moves}."
         return self.wrapped(words)
 
     def end(self, *, at_end: bool) -> Iterator[str]:
