@@ -55,6 +55,17 @@ def test_a_misdeed_is_a_finding_in_its_world(deed: str, tmp_path: Path) -> None:
     assert examine(target, World.from_id("m1/1")).ok
 
 
+def test_a_crash_is_one_line_that_names_the_function(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    target = one_target(hostile(tmp_path, "crash"))
+    place = target.text.removeprefix("--library ")
+    assert explore(World.from_id("m2/9"), target).stopped == (
+        f"map_world of {place} was ended by SIGSEGV after 0 moves, before it delivered a map"
+    )
+    assert capfd.readouterr().err == ""  # none of our own lines
+
+
 def test_a_world_that_is_skipped_is_neither_right_nor_wrong(tmp_path: Path) -> None:
     run = explore(World.from_id("m1/0"), one_target(hostile(tmp_path, "nothing")))
     assert run.declined

@@ -21,12 +21,14 @@ from topo_verify.errors import InputError
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import Child, Ended, ReaperProcess, Silent, TooLong
 from topo_verify.programs.isolation import python_command
+from topo_verify.programs.library import LIBRARY, library_file
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
 from topo_verify.programs.misbehaviour import Misbehaved, crash_report, decoded
 from topo_verify.programs.program import Program
+from topo_verify.robot.events import Finish, Robot
 from topo_verify.robot.limits import Limits, MapperStopped, helped_by, within
-from topo_verify.robot.simulator import EXPECTED
+from topo_verify.robot.simulator import EXPECTED, SimulatedRobot
 
 T = TypeVar("T")
 
@@ -109,6 +111,19 @@ class Foreign(Program):
         if isinstance(answer, ms.RefusedMessage):
             raise InputError(f"target {self.text!r}: {answer.why}")
         return answer.loaded
+
+    def _play(self, child: Child, robot: Robot) -> Finish | Misbehaved:
+        try:
+            return super()._play(child, robot)
+        except Misbehaved as why:
+            if why.kind != "crashed" or not self.text.startswith(LIBRARY):
+                raise
+            path, symbol = library_file(self.text)
+            words = str(why).replace("the program", f"{symbol} of {path}", 1)
+            if isinstance(robot, SimulatedRobot):
+                moves = f"after {robot.cost} move{'s' * (robot.cost != 1)}"
+                words = words.replace(" before it", f" {moves}, before it", 1)
+            raise Misbehaved(why.kind, words, signal=why.signal) from None
 
     def _unwound(self) -> bool:
         child = self._ready()

@@ -26,7 +26,7 @@ from topo_verify.errors import InputError
 from topo_verify.programs import isolation, loaded
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.delivery import Undelivered, deliver, finish_of
-from topo_verify.programs.library import Skipped
+from topo_verify.programs.library import LIBRARY, Skipped
 from topo_verify.programs.loader import Mapper, compiled_once, is_python, load
 from topo_verify.robot.events import Decision
 from topo_verify.robot.limits import MapperStopped
@@ -188,7 +188,8 @@ def child(text: str) -> None:
     loaded.watch()
     reader, writer = isolation.private_pipes()
     cast("TextIOWrapper", sys.stdout).reconfigure(line_buffering=True)
-    faulthandler.enable()  # what kills the process says in which line
+    if not text.startswith(LIBRARY):  # below a library's function stand lines of ours alone
+        faulthandler.enable()  # what kills the process says in which line
     try:
         mapper = load(text)
     except InputError as error:
