@@ -143,13 +143,16 @@ class _Sapling:
         careful = self._genus_first and kind == "split" and self._genus < self._shape.min_genus
         for near, far in self._moves(kind, place):
             # shallow copies: the values of lists and dicts do not change
-            state = vars(self).items() if careful else ()
-            before = {name: copy(value) for name, value in state if name != "_shape"}
+            before = (
+                {name: copy(value) for name, value in vars(self).items() if name != "_shape"}
+                if careful
+                else None
+            )
             if kind == "leaf":
                 self._leaf(near)
             else:
                 self._join(near, far, across=kind == "cross")
-            if not before or any(True for _ in self._moves("cross", 0)):
+            if before is None or any(True for _ in self._moves("cross", 0)):
                 return True
             vars(self).update(before)
         return False
