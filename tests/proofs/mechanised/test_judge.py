@@ -19,7 +19,7 @@ import pytest
 
 from tests.helpers import EMPTY, edited, trace_of, worlds
 from tests.proofs.mechanised.conftest import LIMIT
-from topo_verify import CATALOGUE, InputError, World
+from topo_verify import CATALOGUE, InputError, Limits, World, explore
 from topo_verify.campaign.compiled_shard import examine_range
 from topo_verify.checkers import CLAIMS, Judgement, check
 from topo_verify.faults import FAULTS
@@ -34,6 +34,9 @@ LARGER = (
     "family:lattice(4,4,holes=0.2,seed=7)", "family:torus(3,3)", "family:wheel(5)",
     "family:random_genus(9,2,seed=3)", "nyc",
 )  # fmt: skip
+
+STUCK_SOON = Limits(move_timeout=0.5)
+"""In 13 of these worlds a fault loops without a move: its trace is the same after 5 s."""
 
 
 @pytest.fixture(scope="module")
@@ -155,7 +158,11 @@ def test_the_judge_agrees_on_every_fault_in_every_world_to_4_edges(
     program: Path, part: int
 ) -> None:
     faults = list(FAULTS.values())[part::2]
-    every = ((world, trace_of(world, fault)) for world in worlds(range(5)) for fault in faults)
+    every = (
+        (world, explore(world, fault, limits=STUCK_SOON).trace)
+        for world in worlds(range(5))
+        for fault in faults
+    )
     assert differing(program, every) == []
 
 
