@@ -104,14 +104,6 @@ def starts_and_sleeps(robot: Robot) -> object:
     return result
 
 
-def fails_and_sleeps(robot: Robot) -> object:
-    """Wrong, and then it sleeps."""
-    if robot.percept.degree > 1:
-        Path("at-work").touch()
-        time.sleep(60)
-    return None
-
-
 def lucky(robot: Robot) -> dict[str, Any]:
     """That every world is a triangle, which three moves of a walk there and back do not prove."""
     for door in (1, 1, 0):

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from tests.cli.conftest import Call, Program, Refused, Results
+from tests.cli.conftest import Call, Program, Results
 from topo_verify.cli import main
 
 WORLDS = "--worlds 'edges<=3' --worlds m9/67076232 --worlds m10/1957360526 --worlds nyc"
@@ -120,18 +120,6 @@ def test_two_comparisons_are_equal_but_for_the_time(program: Program) -> None:
     )
     assert first.partition('"timing"')[0] == second.partition('"timing"')[0]
     assert '"timing"' in first
-
-
-def test_a_changed_baseline_is_refused(call: Call, folder: Path) -> None:
-    (folder / "half.gz").write_bytes((folder / "basic.gz").read_bytes()[:900])
-    done = call("compare half.gz basic")
-    assert done.exit_code == 2
-    assert re.match(r"topo-verify: half\.gz, line \d+: the file ends or breaks here", done.stderr)
-
-
-def test_a_comparison_is_of_one_mapper(refused: Refused) -> None:
-    refused("compare basic.gz", "name a TARGET, a program")
-    refused("compare basic.gz nix", "no algorithm 'nix'")
 
 
 def test_the_page_shows_what_is_printed(call: Call) -> None:

@@ -241,13 +241,6 @@ def test_ctrl_c_and_sigterm_exit_3_and_print_what_is_done(folder: Path, by: sign
     assert error == "topo-verify: interrupted after 1 result\n"
 
 
-def test_ctrl_c_after_a_finding_exits_1(folder: Path) -> None:
-    words = ("verify", "mappers.py:fails_and_sleeps", "--move-timeout", "60", "--format", "json")
-    code, out, _ = interrupted(folder, *words)
-    assert code == 1
-    assert json.loads(out)["results"][-1]["verdict"] == "REFUTED"
-
-
 @pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupted_explore_keeps_the_runs_that_are_done(
     folder: Path, by: signal.Signals

@@ -20,13 +20,6 @@ def test_the_default_corpus_is_recorded(results: Results, folder: Path) -> None:
     assert sum(one.cost for one in written.entries) == entry["cost"]
 
 
-def test_two_recordings_are_the_same_file(call: Call, folder: Path) -> None:
-    for name in ("one", "other"):
-        done = call(f"record mappers.py:right --worlds 'edges<=3' --seed 3 --out {name}")
-        assert done.exit_code == 0
-    assert (folder / "one").read_bytes() == (folder / "other").read_bytes()
-
-
 def test_workers_and_a_store_change_nothing_in_the_file(
     call: Call, results: Results, folder: Path
 ) -> None:
@@ -90,9 +83,3 @@ def test_a_mapper_that_hangs_has_no_baseline(call: Call, results: Results, folde
     assert (entry["wrong"], entry["undecided"], entry["file"]) == (3, 9, None)
     assert not (folder / "b").exists()
     assert "No baseline was written" in call(line).stdout
-
-
-def test_a_mapper_that_is_too_slow_is_incomplete(results: Results) -> None:
-    line = "record mappers.py:strolls --worlds m2/0 --world-timeout 0.02 --out b"
-    (entry,) = results(line, code=3)["results"]
-    assert (entry["equal"], entry["wrong"], entry["undecided"]) == (0, 0, 1)

@@ -84,6 +84,7 @@ REFUSED = [
     ("prove --kind bounded --edges 99", "1 to 6 edges"),
     ("prove percept --timeout 0", "--timeout"),
     ("prove percept --solver yices", "--solver"),
+    ("compare nowhere.gz", "name a TARGET, a program"),
     ("compare nowhere.gz basic", "cannot read nowhere.gz"),
     ("compare mappers.py basic", "expected gzip data"),
     ("compare nowhere.gz basic --tolerance -1", "a percentage such as 5 or 2.5, got '-1'"),
