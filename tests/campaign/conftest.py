@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from topo_verify.studies.search.choices import SHARD
+
 collect_ignore = ["intruder.py"]
 """Modules with no doctest that pytest must not import: this one attacks from its first line on."""
 
@@ -26,3 +28,10 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", [*sys.path])  # a mapper's folder is put there
     return tmp_path
+
+
+@pytest.fixture
+def small_shards(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Several shards a size, so that workers are at different ones."""
+    monkeypatch.setitem(SHARD, "reference", 20)
+    return folder

@@ -26,7 +26,7 @@ from topo_verify.campaign import cluster as clusters
 from topo_verify.campaign.campaign import Campaign, Shard, ShardMemory, ShardResult
 from topo_verify.campaign.cluster import Cluster, ClusterPool, connected
 from topo_verify.campaign.cluster_worker import ClusterTask, ClusterTaskDone, do
-from topo_verify.campaign.identity import Identity, own_hash, source_hash
+from topo_verify.campaign.identity import own_hash
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import targets
 from topo_verify.campaign.work import Work
@@ -190,7 +190,6 @@ CLIENT = """
 import sys
 from topo_verify.campaign.backend import clustered
 from topo_verify.campaign.cluster import connected
-from topo_verify.campaign.identity import Identity, source_hash
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import targets
 from topo_verify.studies.search.choices import SHARD
@@ -199,8 +198,7 @@ SHARD["reference"] = 20
 mappers = targets("cluster_mappers.py:waits_for_go")
 campaign = search_campaign(mappers, edges=4, kind="simple")
 with Store("search.db") as store, connected(sys.argv[1]) as there:
-    identity = campaign.identity(source_hash(mappers))
-    memory = store.campaign(identity, Identity(mappers).loaded())
+    memory = store.resumed(campaign, mappers)
     Search(campaign, mappers, clustered(there), memory).work()
 """
 
@@ -212,9 +210,8 @@ def test_a_client_that_is_killed_resumes_from_its_store(address: str, folder: Pa
     (folder / "go").touch()
     target = "cluster_mappers.py:waits_for_go"
     mappers = targets(target)
-    identity = campaign_of(target, 4, "simple").identity(source_hash(mappers))
     with Store("search.db") as store, connected(address) as cluster:
-        memory = store.campaign(identity, Identity(mappers).loaded())
+        memory = store.resumed(campaign_of(target, 4, "simple"), mappers)
         study = on_cluster(target, 4, "simple", cluster, memory)
     assert 0 < study.from_store < 32
     alone = searched(target, edges=4, kind="simple")

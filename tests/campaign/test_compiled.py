@@ -21,14 +21,12 @@ from topo_verify.campaign.campaign import Campaign, Interrupted, Ranks, Shard, S
 from topo_verify.campaign.campaign import examine as examine_by_checkers
 from topo_verify.campaign.compiled import examine_compiled
 from topo_verify.campaign.compiled_shard import STATUSES
-from topo_verify.campaign.identity import source_hash
 from topo_verify.campaign.run import CompiledAlgorithm, Engine
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.tally import Tally
 from topo_verify.campaign.targets import targets
 from topo_verify.checkers import CLAIMS
 from topo_verify.faults import FAULTS
-from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
 from topo_verify.studies.search.search import Search, SearchEntry, search, search_campaign
 from topo_verify.studies.verify.parts import Part
@@ -447,7 +445,7 @@ def test_a_store_never_mixes_engines(folder: Path) -> None:
         mappers = targets("basic")
         asked = search_campaign(mappers, edges=3, engine=engine)
         with Store(folder / "store") as store:
-            memory = store.campaign(asked.identity(source_hash(mappers)), Loaded())
+            memory = store.resumed(asked, mappers)
             study = Search(asked, mappers, here(mappers), memory)
             study.work()
             return study.entry()

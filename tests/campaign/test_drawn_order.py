@@ -6,17 +6,8 @@ from collections.abc import Callable, Generator, Iterator
 
 import pytest
 
-from topo_verify.campaign import campaign as campaigns
+from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import counted
-from topo_verify.campaign.campaign import (
-    Backend,
-    Campaign,
-    ListedWorlds,
-    Shard,
-    ShardResult,
-    Stop,
-    results,
-)
 from topo_verify.campaign.row import Row
 from topo_verify.world.rooted_map import World
 
@@ -36,8 +27,8 @@ class Examining:
         self.interrupt = interrupt
 
     def __call__(
-        self, campaign: Campaign, shards: Iterator[Shard], in_flight: Callable[[int], None]
-    ) -> Generator[tuple[Shard, ShardResult]]:
+        self, campaign: c.Campaign, shards: Iterator[c.Shard], in_flight: Callable[[int], None]
+    ) -> Generator[tuple[c.Shard, c.ShardResult]]:
         del in_flight
         for shard in shards:
             if len(self.met) == self.interrupt:
@@ -49,16 +40,16 @@ class Examining:
             yield shard, counted([[row]])
 
 
-def names(number: int, seed: int, backend: Backend, enough: int = 99) -> Iterator[str]:
+def names(number: int, seed: int, backend: c.Backend, enough: int = 99) -> Iterator[str]:
     """The worlds in the order of the results."""
-    campaign = Campaign(
-        worlds=ListedWorlds(number),
+    campaign = c.Campaign(
+        worlds=c.ListedWorlds(number),
         mappers=("basic",),
-        stop=Stop(timeouts=enough),
+        stop=c.Stop(timeouts=enough),
         seed=seed,
         drawn=True,
     )
-    for _, result in results(campaign, backend, worlds(number)):
+    for _, result in c.results(campaign, backend, worlds(number)):
         yield from (row.world for row in result.rows)
 
 
@@ -76,7 +67,7 @@ def test_results_have_the_order_of_the_list_and_worlds_a_drawn_one() -> None:
 
 
 def test_the_order_is_drawn_block_by_block(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(campaigns, "BLOCK", 10)
+    monkeypatch.setattr(c, "BLOCK", 10)
     seen = met(25, 1)
     listed = [name for name, _ in worlds(25)]
     for begin in (0, 10, 20):

@@ -31,7 +31,6 @@ from topo_verify.programs.launcher import prepare
 from topo_verify.programs.loaded import Loaded
 from topo_verify.robot.stopwatch import tasks_of
 from topo_verify.studies.search import again
-from topo_verify.studies.search.choices import SHARD
 from topo_verify.studies.search.search import LostWorker, SearchEntry, search, search_campaign
 from topo_verify.world.enumeration.classes import WorldClass
 
@@ -39,11 +38,7 @@ SHORT = Limits(move_timeout=0.2, world_timeout=0.5)
 LOOPED = Limits(move_timeout=0.8, world_timeout=5.0)  # a busy machine holds up no mapper so long
 
 
-@pytest.fixture(autouse=True)
-def small_shards(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Several shards a size, so that workers are at different ones."""
-    monkeypatch.setitem(SHARD, "reference", 20)
-    return folder
+pytestmark = pytest.mark.usefixtures("small_shards")
 
 
 # ---------------------------------------------------------------- the same results

@@ -250,7 +250,9 @@ def _with_our_memory(
     A worker may have less memory than this process. So a MemoryError refutes only if the mapper
     fails here, too; otherwise the world is undecided.
     """
-    short = [row for row in result.rows if _lacks_memory(row)]
+    short = [
+        row for row in result.rows if any(_MEMORY_ERROR.search(f.message) for f in row.findings)
+    ]
     if not short:
         return result
     with Pool(work, 1) as pool:
@@ -263,10 +265,6 @@ def _with_our_memory(
             )
             again = _with_loss(again, lost)
     return again
-
-
-def _lacks_memory(row: Row) -> bool:
-    return any(_MEMORY_ERROR.search(finding.message) for finding in row.findings)
 
 
 # ---------------------------------------------------------------- in a worker
@@ -312,17 +310,13 @@ def _joined(campaign: c.Campaign, parts: list[c.ShardResult]) -> c.ShardResult:
     return c.ShardResult(
         sum((part.tally for part in parts), Tally()),
         _kept(campaign, rows),
-        reduce(_merged, known) if known else None,
+        reduce(partial(merged, where="the campaign"), known) if known else None,
         sum((part.seconds for part in parts), c.EngineSeconds()),
     )
 
 
 def _kept(campaign: c.Campaign, rows: Sequence[Row]) -> tuple[Row, ...]:
     return tuple(rows) if campaign.keep == "all" else notable(rows, campaign.seed)
-
-
-def _merged(loaded: Loaded, other: Loaded) -> Loaded:
-    return merged(loaded, other, "the campaign")
 
 
 def _cut(campaign: c.Campaign, shard: c.Shard, runs: int) -> list[c.Shard]:
@@ -419,7 +413,7 @@ def counted(worlds: Iterable[Sequence[Row]]) -> c.ShardResult:
 def _row_at(
     campaign: c.Campaign, shard: c.Shard, runs: int, cause: str, *, external: bool
 ) -> Row | None:
-    """The row of the run in which a worker was lost, after some runs of the shard."""
+    """The row of the run in which a worker was lost, after some runs."""
     worlds = list(campaign.worlds.worlds(shard))
     if not worlds:
         return None
@@ -462,7 +456,7 @@ def _survived(
 
 
 def _with_loss(result: c.ShardResult, row: Row) -> c.ShardResult:
-    """The result with a lost worker's row in the place of the run that passed, or beside it."""
+    """The result with a lost worker's row, in the place of the run that passed."""
     rows: list[Row] = []
     for known in result.rows:
         if (known.place, known.mapper, known.turn) == (row.place, row.mapper, row.turn):
@@ -492,7 +486,7 @@ class MapperCampaign:
     """The runs of one mapper in a list of worlds.
 
     Mappers may join later, and each stops at its own first failing world. The store finds a world
-    by its name and code, so another call may list it in another order.
+    by name and code, so another call may list it in another order.
 
     Attributes:
         store: where rows are kept, or None.

@@ -71,7 +71,7 @@ class ClusterTaskDone(msgspec.Struct, frozen=True, tag=True):
 def do(assignment: bytes) -> bytes:
     """Do a `ClusterTask`, given and answered as JSON: a `ClusterTaskDone` or `WorkerFailed`."""
     try:
-        result = _mine().do(_require_ours(assignment))
+        result = _threads.kept.do(_require_ours(assignment))
     except InputError as error:
         return msgspec.json.encode(WorkerFailed(f"{_place()}: {error}", bug=False))
     except Exception:  # noqa: BLE001  whatever it is, the client is told
@@ -170,7 +170,3 @@ class _Mine(threading.local):
 
 
 _threads = _Mine()
-
-
-def _mine() -> _Kept:
-    return _threads.kept

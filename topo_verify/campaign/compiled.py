@@ -33,16 +33,8 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import msgspec
 
+from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import attempt, lost_row, row_of
-from topo_verify.campaign.campaign import (
-    Campaign,
-    EngineSeconds,
-    Interrupted,
-    Ranks,
-    Shard,
-    ShardResult,
-    examine,
-)
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Exploration, explore, is_native
 from topo_verify.campaign.tally import KEPT_FAILING, Costs, Counts, Pairs, Tally, notable
@@ -68,7 +60,7 @@ SLICE = 50_000
 """Ranks examined between two heartbeats. The counts of each slice begin empty."""
 
 
-def warm(campaign: Campaign) -> None:
+def warm(campaign: c.Campaign) -> None:
     """Compile the kernels that a campaign needs, or load them from the cache."""
     if campaign.mappers[0].startswith(LIBRARY):
         from topo_verify.compiled.native_run import warm as warm_native
@@ -77,7 +69,7 @@ def warm(campaign: Campaign) -> None:
         return
     from topo_verify.compiled.explore import run_world
 
-    _snapshots(campaign, Shard(1, 0, 2))
+    _snapshots(campaign, c.Shard(1, 0, 2))
     run_world(World.from_id("m1/0"), campaign.mappers[0], trace=True)
 
 
@@ -89,8 +81,8 @@ def _native(text: str, beats: int) -> NativeCalls:
 
 
 def examine_compiled(
-    campaign: Campaign, mappers: Sequence[Target], shard: Shard, beat: Beat
-) -> ShardResult:
+    campaign: c.Campaign, mappers: Sequence[Target], shard: c.Shard, beat: Beat
+) -> c.ShardResult:
     """Run algorithms of the catalogue in every world of a shard; see `campaign.examine`.
 
     Raises:
@@ -106,12 +98,12 @@ def examine_compiled(
     try:
         work.examine()
     except KeyboardInterrupt:
-        raise Interrupted(shard, work.result()) from None
+        raise c.Interrupted(shard, work.result()) from None
     return work.result()
 
 
 class _Judged(NamedTuple):
-    """A run of the reference, as a row, and its part of the digest of its algorithm."""
+    """A run of the reference, and its part of the digest."""
 
     row: Row
     digest: int
@@ -122,16 +114,16 @@ class _CompiledShard:
 
     def __init__(
         self,
-        campaign: Campaign,
+        campaign: c.Campaign,
         mappers: Sequence[Target],
-        shard: Shard,
+        shard: c.Shard,
         calls: NativeCalls | None,
         beat: Beat,
     ) -> None:
-        assert isinstance(campaign.worlds, Ranks)
+        assert isinstance(campaign.worlds, c.Ranks)
         self._campaign, self._worlds = campaign, campaign.worlds
         self._mappers, self._shard, self._calls, self._beat = mappers, shard, calls, beat
-        self._tally, self._seconds = Tally(), EngineSeconds()
+        self._tally, self._seconds = Tally(), c.EngineSeconds()
         self._rows: dict[tuple[int, int], Row] = {}
         self._checked: set[int] = set()
         self._known: dict[tuple[int, int], _Judged] = {}
@@ -139,7 +131,7 @@ class _CompiledShard:
 
     @property
     def _done(self) -> int:
-        """Number of finished runs. A native mapper has been through all worlds of the shard."""
+        """Number of finished runs; a native mapper has been through all worlds of the shard."""
         if self._calls is not None:
             return self._calls.worlds
         return self._tally.worlds * len(self._mappers)
@@ -147,11 +139,11 @@ class _CompiledShard:
     def _beats(self) -> None:
         self._beat(self._done)
 
-    def result(self) -> ShardResult:
+    def result(self) -> c.ShardResult:
         """The result of the worlds examined so far."""
         tally = msgspec.structs.replace(self._tally, by_checkers=len(self._checked))
         rows = notable(self._rows.values(), self._campaign.seed)
-        return ShardResult(tally, rows, None, self._seconds)
+        return c.ShardResult(tally, rows, None, self._seconds)
 
     def examine(self) -> None:
         """Examine the shard, or as far as the campaign goes."""
@@ -163,15 +155,15 @@ class _CompiledShard:
             if self._campaign.stop.reached(self._tally):
                 break
 
-    def _ranks(self, start: int, stop: int) -> Shard:
-        return Shard(self._shard.edges, start, stop)
+    def _ranks(self, start: int, stop: int) -> c.Shard:
+        return c.Shard(self._shard.edges, start, stop)
 
-    def _slice(self, ranks: Shard) -> Tally:
+    def _slice(self, ranks: c.Shard) -> Tally:
         begin = process_time()
         with self._watched():
             *snapshots, end = _snapshots(self._campaign, ranks, self._calls)
         self._beats()
-        self._seconds += EngineSeconds(engine=process_time() - begin)
+        self._seconds += c.EngineSeconds(engine=process_time() - begin)
         if any(counts.undecided for counts in end.counts):
             return self._undecided(ranks)
         begin = process_time()
@@ -182,7 +174,7 @@ class _CompiledShard:
                 raise
             return self._unlike(ranks, wrong)
         finally:
-            self._seconds += EngineSeconds(checkers=process_time() - begin)
+            self._seconds += c.EngineSeconds(checkers=process_time() - begin)
         return _tally(end.counts)
 
     def _watched(self) -> AbstractContextManager[None]:
@@ -190,12 +182,8 @@ class _CompiledShard:
             return nullcontext()
         return self._beat.within(self._campaign.limits.move_timeout)
 
-    def _check(self, ranks: Shard, snapshots: list[Snapshot], end: Snapshot) -> None:
-        """Have the checkers judge what the counts name, and the sample.
-
-        Raises:
-            _Disagreement: the engine and the checkers disagree.
-        """
+    def _check(self, ranks: c.Shard, snapshots: list[Snapshot], end: Snapshot) -> None:
+        """Have the checkers judge what the counts name, and the sample."""
         if not snapshots and end.counts[0].worlds > max(STEP):
             why = "the engine made no pause"
             raise _disagreement(f"m{ranks.edges}/{ranks.start}", why, end.rank)
@@ -209,10 +197,10 @@ class _CompiledShard:
         if self._calls is not None and end.rank >= 0:
             self._judged(0, end.rank)  # the last world of the class is among these
 
-    def _unlike(self, ranks: Shard, wrong: _Disagreement) -> Tally:
-        """The tally of worlds whose counts are not those of the checkers' runs: undecided."""
+    def _unlike(self, ranks: c.Shard, wrong: _Disagreement) -> Tally:
+        """The tally of worlds in which engine and checkers disagree: undecided."""
         alone = self._ranks(wrong.rank, wrong.rank + 1)
-        made = examine(self._campaign, self._mappers, alone)
+        made = c.examine(self._campaign, self._mappers, alone)
         others = sum(1 for _ in self._worlds.worlds(ranks)) - made.tally.worlds
         tally = made.tally + Tally(worlds=others, undecided=others)
         ((place, name, world),) = self._worlds.worlds(alone)
@@ -225,8 +213,8 @@ class _CompiledShard:
             tally += Tally(undecided=1, lost=1)
         return tally
 
-    def _undecided(self, ranks: Shard) -> Tally:
-        """The tally of worlds among which the engine could not decide one: the checkers do that."""
+    def _undecided(self, ranks: c.Shard) -> Tally:
+        """The tally of worlds among which the checkers decide the one that the engine could not."""
         middle = (ranks.start + ranks.stop) // 2
         if middle > ranks.start:
             first = self._slice(self._ranks(ranks.start, middle))
@@ -234,14 +222,14 @@ class _CompiledShard:
                 return first
             return first + self._slice(self._ranks(middle, ranks.stop))
         self._checked.add(ranks.start)
-        made = examine(self._campaign, self._mappers, ranks)
+        made = c.examine(self._campaign, self._mappers, ranks)
         self._rows |= {(row.place, row.turn): row for row in made.rows}
         return made.tally
 
     # ------------------------------------------------------------ by the checkers
 
-    def _require_same(self, before: Snapshot | None, behind: Snapshot, step: Shard) -> None:
-        """Raise an InternalError unless a step adds to the counts what it adds by the reference."""
+    def _require_same(self, before: Snapshot | None, behind: Snapshot, step: c.Shard) -> None:
+        """Raise an InternalError unless a step adds to the counts what the reference adds."""
         numbers, digest, met = Counts(), 0, list[list[Row]]()
         for rank, _, _ in self._worlds.worlds(step):
             judged = [self._judged(which, rank) for which in range(len(self._mappers))]
@@ -269,7 +257,7 @@ class _CompiledShard:
     def _require_named(
         self, which: int, counts: ShardCounts, others: Sequence[ShardCounts]
     ) -> None:
-        """Keep the rows of the worlds that the counts name, once they agree with the counts."""
+        """Keep the rows of the named worlds, once they agree with the counts."""
         firsts = {claim: rank for claim, (failing, rank) in counts.claims.items() if failing}
         for rank in sorted({*firsts.values(), *counts.failing_ranks[:KEPT_FAILING]}):
             row = self._agreed(which, rank)
@@ -288,7 +276,7 @@ class _CompiledShard:
                 raise _disagreement(f"{row.world}, {row.mapper}", what, rank)
 
     def _agreed(self, which: int, rank: int) -> Row:
-        """The row of a run, after a comparison with the engine's verdict on this world alone."""
+        """The row of a run, once it agrees with the engine's verdict on this world alone."""
         row, _ = self._judged(which, rank)
         if (rank, which) not in self._alone:
             self._alone.add((rank, which))
@@ -302,11 +290,7 @@ class _CompiledShard:
         return row
 
     def _judged(self, which: int, rank: int) -> _Judged:
-        """The run of the reference, judged by the checkers.
-
-        Raises:
-            InternalError: its events are not those of the engine.
-        """
+        """The run of the reference, judged, once its events are those of the engine."""
         if (rank, which) not in self._known:
             from topo_verify.campaign.compiled_shard import run_digest
 
@@ -326,7 +310,7 @@ class _CompiledShard:
         return self._known[rank, which]
 
     def _engine_run(self, run: Exploration) -> tuple[int, bool, Trace]:
-        """The engine's run in the same world: the cost, whether there is a map, the events."""
+        """The engine's cost, whether it has a map, and its events."""
         if self._calls is None:
             limits = self._campaign.limits
             made = explore(run.world, run.algorithm, limits=limits, engine="compiled")
@@ -353,11 +337,11 @@ def _disagreement(where: str, what: str, rank: int) -> _Disagreement:
 
 
 def _snapshots(
-    campaign: Campaign, ranks: Shard, calls: NativeCalls | None = None
+    campaign: c.Campaign, ranks: c.Shard, calls: NativeCalls | None = None
 ) -> list[Snapshot]:
     from topo_verify.campaign.compiled_shard import examine_steps
 
-    assert isinstance(campaign.worlds, Ranks)
+    assert isinstance(campaign.worlds, c.Ranks)
     return [
         *examine_steps(
             campaign.mappers,
@@ -372,8 +356,8 @@ def _snapshots(
     ]
 
 
-def _steps(campaign: Campaign, ranks: Shard) -> Iterator[int]:
-    """The numbers of worlds in the steps: every other one, from the first on, is judged again."""
+def _steps(campaign: c.Campaign, ranks: c.Shard) -> Iterator[int]:
+    """The numbers of worlds in the steps; every other one, from the first on, is judged again."""
     draw = Random(f"{campaign.seed} m{ranks.edges}/{ranks.start}")
     while True:
         yield draw.choice(STEP)
@@ -389,10 +373,7 @@ def _drawn(snapshots: Sequence[Snapshot]) -> Iterator[tuple[Snapshot | None, Sna
 
 
 def _run_difference(run: Exploration, cost: int, has_map: bool, trace: Trace) -> str | None:  # noqa: FBT001  of `_engine_run`
-    """The first difference between a run of the reference and one of the engine, or None.
-
-    The darts of a delivered map may have other names: both were judged by the claims.
-    """
+    """The first difference between a run of the reference and one of the engine, or None."""
     if (run.cost, run.map is not None) != (cost, has_map):
         return f"cost {run.cost} by the reference, {cost} by the compiled engine"
     for at, (ours, theirs) in enumerate(zip(run.trace, trace, strict=False)):
@@ -408,7 +389,7 @@ def _without_map(event: Event) -> Event | int | None:
 
 
 def _verdict_difference(row: Row, counts: ShardCounts) -> str | None:
-    """The first difference between the checkers' and the engine's verdict on one run, or None."""
+    """The first difference between the two verdicts on a run, or None."""
     if bool(row.findings) != bool(counts.failing):
         words = ("no claim fails", "a claim fails")
         ours, theirs = words[bool(row.findings)], words[bool(counts.failing)]
@@ -476,7 +457,7 @@ def _fields(tally: Tally) -> dict[str, object]:
 def _names(
     which: int, counts: ShardCounts | None, met: Sequence[Sequence[Row]]
 ) -> dict[str, object]:
-    """The worlds that an algorithm's counts name, once some more worlds are counted."""
+    """The worlds that an algorithm's counts name, once more worlds are counted."""
     failing = [] if counts is None else list(counts.failing_ranks)
     most, worst = (0, []) if counts is None else (counts.most, list(counts.worst))
     dearer = [] if counts is None else [tuple(pair) for pair in counts.dearer_worlds]

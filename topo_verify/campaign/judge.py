@@ -236,9 +236,8 @@ class Checks(Protocol):
 class CheckedTraces:
     """Checks each distinct trace in a world once: mappers in small worlds often leave the same.
 
-    What the checkers say depends on the world, the trace, why it stopped, and `strict`. Of the
-    `start` they read the percept and nothing else, so traces of two mappers may be the same. All of
-    the rest is compared, as bytes; what cannot be written as bytes is checked each time.
+    The checkers read only the percept of a `start`, so traces of two mappers may be equal. All of
+    the rest is compared as bytes; what cannot be written as bytes is checked each time.
     """
 
     def __init__(self) -> None:

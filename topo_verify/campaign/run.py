@@ -56,16 +56,15 @@ class Exploration:
 
     Attributes:
         algorithm: the mapper's name, as a TARGET.
-        policies: its policies, or None where they are not known.
         trace: all events; together with the world it is a certificate.
         map: the map that it delivered, or None.
         stopped: why it delivered none, or None.
-        error: the exception that it raised, if it did.
+        error: the exception that it raised, or None.
         cost: moves counted by the simulator, in edge traversals.
-        limit: the limit that stopped it, if one did.
+        limit: the limit that stopped it, or None.
         mapper: the mapper; a program's process lives as long as it.
         limits: the moves and the time that it was allowed.
-        misbehaved: what a program, or a mapper in its own process, did in place of a map.
+        misbehaved: what a program did in place of a map.
     """
 
     world: World

@@ -22,13 +22,7 @@ from types import CodeType
 from typing import Any, cast
 
 from topo_verify.errors import InputError, shown
-from topo_verify.programs.library import (
-    LIBRARY,
-    NativeMapper,
-    confine,
-    library_file,
-    library_function,
-)
+from topo_verify.programs import library
 from topo_verify.robot.events import Robot
 
 Mapper = Callable[[Robot], object]
@@ -51,8 +45,8 @@ def load(text: str) -> Mapper:
     Raises:
         InputError: there is no such module, file or attribute, or it cannot be called.
     """
-    if text.startswith(LIBRARY):
-        return NativeMapper(native_function(text))
+    if text.startswith(library.LIBRARY):
+        return library.NativeMapper(native_function(text))
     mapper = _found(text)
     if is_jitted(mapper):
         raise InputError(f"target {text!r} is compiled by numba: give it as --library {text}")
@@ -70,15 +64,15 @@ def native_function(text: str) -> Any:
         InputError: there is no such function, or numba cannot compile it.
     """
     if not is_python(text):
-        return library_function(text)
+        return library.library_function(text)
     function = compiled_once(text)
-    confine()
+    library.confine()
     return function
 
 
 def is_python(text: str) -> bool:
     """Whether a native mapper is a function that numba compiles."""
-    return text.startswith(LIBRARY) and library_file(text)[0].endswith(".py")
+    return text.startswith(library.LIBRARY) and library.library_file(text)[0].endswith(".py")
 
 
 @cache
@@ -88,7 +82,7 @@ def compiled_once(text: str) -> Any:
     Raises:
         InputError: as `native_function`.
     """
-    place = ":".join(library_file(text))
+    place = ":".join(library.library_file(text))
     return jitted_function(_found(place), f"--library {place}")
 
 
