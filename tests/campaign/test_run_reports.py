@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shlex
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -206,6 +207,51 @@ def test_the_witness_is_run_with_the_limits_of_the_run() -> None:
     report = tv.examine(mapper, tv.World.from_id("m2/1"), limits=tv.Limits(budget=7))
     (told,) = [f.message for f in report.findings if f.claim == "map-entailed"]
     assert told.endswith("run there, the mapper asked for more than 7 moves")
+
+
+def lucky(robot: tv.Robot) -> object:
+    return FAULTS["confirms-what-is-alone"](robot)
+
+
+def test_a_finding_says_that_the_map_was_right_by_luck_and_how_to_see_it_wrong() -> None:
+    report = tv.examine(lucky, "m2/1")
+    assert report.claims["map-isomorphic"] == "ok"
+    (message,) = [f.message for f in report.findings if f.claim == "map-entailed"]
+    assert "; the map is right here by luck, for another world shows the same" in message
+    again = replay_line("m5/98", one_target(lucky).text)
+    assert message.endswith(f"; witness m5/98: run there, the mapper is wrong: {again}")
+    assert tv.examine(lucky, "m5/98").claims["map-isomorphic"] == "failed"
+
+
+def test_where_the_map_is_wrong_there_is_no_word_of_luck() -> None:
+    messages = [f.message for f in tv.examine(lucky, "m5/98").findings]
+    assert messages
+    assert not any("by luck" in message for message in messages)
+
+
+@pytest.mark.parametrize(
+    "wrong_order",
+    [
+        lambda: tv.explore("basic", WORLD),  # type: ignore[arg-type]
+        lambda: tv.explore(lucky, "m3/5"),  # type: ignore[arg-type]
+        lambda: tv.examine(WORLD, "basic"),  # type: ignore[arg-type]
+        lambda: tv.assert_maps("m3/5", "basic"),
+    ],
+)
+def test_world_and_mapper_in_the_wrong_order_are_named(wrong_order: Callable[[], object]) -> None:
+    with pytest.raises(tv.InputError, match="world and mapper have changed places: write"):
+        wrong_order()
+
+
+def test_a_text_names_a_world_as_on_the_command_line(tmp_path: Path) -> None:
+    WORLD.save(tmp_path / "world.json")
+    for text in (WORLD.id, str(tmp_path / "world.json")):
+        assert tv.explore(text, "basic").world == WORLD
+        assert tv.examine("basic", text).ok
+    with pytest.raises(tv.InputError, match="expected a World or a text that names one"):
+        tv.explore(5)  # type: ignore[arg-type]
+    with pytest.raises(tv.InputError, match="no such world: 'm3/x'"):
+        tv.examine("basic", "m3/x")
 
 
 # ---------------------------------------------------------------- text of unknown origin

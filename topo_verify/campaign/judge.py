@@ -173,7 +173,7 @@ def shortfalls(judgements: Sequence[Judgement]) -> list[str]:
 
 def examine(
     mapper: Mapper | str | Target,
-    world: World,
+    world: World | str,
     *,
     pick: str | None = None,
     order: str | None = None,
@@ -195,7 +195,7 @@ def examine(
 
 def assert_maps(
     mapper: Mapper | str | Target,
-    world: World,
+    world: World | str,
     *,
     pick: str | None = None,
     order: str | None = None,
@@ -298,7 +298,10 @@ def judge(
     report = _with_count(report, run.cost, replay_command)
     if not report.findings:
         return report
-    return report.with_findings([_with_run_in_witness(finding, run) for finding in report.findings])
+    lucky = report.claims["map-isomorphic"] == "ok"
+    return report.with_findings(
+        [_with_run_in_witness(finding, run, words, lucky=lucky) for finding in report.findings]
+    )
 
 
 TRACELESS = ("map-isomorphic", "cost-within-bound")
@@ -434,7 +437,9 @@ def undecided(run: Exploration, report: Report) -> bool:
     return (run.limit == "world-timeout" or run.declined) and lost
 
 
-def _with_run_in_witness(finding: Finding, run: Exploration) -> Finding:
+def _with_run_in_witness(
+    finding: Finding, run: Exploration, options: Sequence[str], *, lucky: bool
+) -> Finding:
     """The finding, with the same mapper's run in the witness world that it names, if any."""
     if finding.claim != "map-entailed" or finding.witness is None or run.mapper is None:
         return finding
@@ -444,10 +449,16 @@ def _with_run_in_witness(finding: Finding, run: Exploration) -> Finding:
     wrong = "map-isomorphic" in failed
     result = "the mapper is wrong" if wrong else "the mapper was lucky again"
     result = str(there.stopped) if there.limit is not None else result
-    name = finding.witness
+    name, again = (
+        finding.witness,
+        replay_line(finding.witness, run.algorithm, run.policies, options),
+    )
     if len(name) >= 200:
         name = f"of {len(witness.edges)} edges (the field `witness` of the JSON has it)"
-    message = f"{finding.message}; witness {name}: run there, {result}"
+        again = ""
+    luck = "; the map is right here by luck, for another world shows the same" if lucky else ""
+    message = f"{finding.message}{luck}; witness {name}: run there, {result}"
+    message += f": {again}" if again else ""
     return msgspec.structs.replace(finding, message=message)
 
 

@@ -23,7 +23,7 @@ from typing import Literal, get_args
 
 import msgspec
 
-from topo_verify.algorithms import CATALOGUE, REFERENCE, Algorithm
+from topo_verify.algorithms import CATALOGUE, NAMED, REFERENCE, Algorithm
 from topo_verify.campaign.targets import one_target
 from topo_verify.checkers import check
 from topo_verify.compiled import require
@@ -47,6 +47,7 @@ from topo_verify.robot.events import (
 from topo_verify.robot.limits import Limit, Limits, MapperStopped, within
 from topo_verify.robot.simulator import SimulatedRobot, first_percept
 from topo_verify.world.enumeration import rank_order
+from topo_verify.world.resolve import as_world
 from topo_verify.world.rooted_map import World
 
 
@@ -120,7 +121,7 @@ class Exploration:
 
 
 def explore(
-    world: World,
+    world: World | str,
     mapper: Mapper | str | Target = "basic",
     *,
     pick: str | None = None,
@@ -132,6 +133,7 @@ def explore(
     """Run a mapper in a world.
 
     Args:
+        world: a world, or a text as on the command line: m5/17, nyc, a file.
         mapper: a callable, a name of the catalogue, or any other TARGET of one mapper.
         pick, order: policies, for algorithms of the catalogue; default: the reference policies.
         limits: moves and seconds; default: the bound of claim 7, 5 s between moves, 60 s in all.
@@ -140,8 +142,10 @@ def explore(
     Returns:
         The run. If the mapper delivers no map, `map` is None and `stopped` says why.
     Raises:
-        InputError: there is no such mapper or policy; the engine cannot run it.
+        InputError: there is no such world, mapper or policy; the engine cannot run it.
     """
+    _require_order(world, mapper)
+    world = as_world(world)
     limits = limits or Limits()
     target = _on(engine, one_target(mapper, pick=pick, order=order), limits, trace=trace)
     if isinstance(target.mapper, CompiledAlgorithm):
@@ -178,6 +182,14 @@ def explore(
         limits,
         misbehaved,
     )
+
+
+def _require_order(world: object, mapper: object) -> None:
+    if isinstance(mapper, World) or callable(world) or (isinstance(world, str) and world in NAMED):
+        raise InputError(
+            "world and mapper have changed places: write explore(world, mapper),"
+            " examine(mapper, world) and assert_maps(mapper, world)"
+        )
 
 
 def _on(engine: Engine, target: Target, limits: Limits, *, trace: bool) -> Target:

@@ -368,11 +368,13 @@ _COLUMNS = (">cost", ">of least", ">rejected free", ">moving", "claims")
 
 
 def _row(entry: ExploreEntry) -> tuple[str, ...]:
+    rejected = [str(entry.rejected_free), str(entry.rejected_moving)]
+    if rejected == ["0", "0"] and "not-declared" in entry.claims.values():
+        rejected = ["-", "-"]
     return (
         str(entry.cost),
         f"{entry.cost / entry.least_cost:.2f}" if entry.least_cost else "-",
-        str(entry.rejected_free),
-        str(entry.rejected_moving),
+        *rejected,
         runs.claims_cell(entry.claims, incomplete=not entry.ok and not entry.findings),
     )
 
