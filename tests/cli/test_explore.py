@@ -102,6 +102,8 @@ def test_what_a_mapper_does_not_declare_is_not_called_ok(results: Results, call:
     assert entry["policies"] == {"pick": None, "order": None}
     text = call(line).stdout
     assert "5 of 10 hold, 5 not declared" in " ".join(text.split())
+    row = next(line for line in text.splitlines() if line.startswith("mappers.py:silent"))
+    assert row.split()[3:5] == ["-", "-"]  # rejected free, moving: not declared
     silent = "Not judged, because mappers.py:silent declares nothing about it: true-hypothesis-"
     assert silent in text.replace("\n", " ")
 

@@ -200,6 +200,11 @@ def test_count_gives_the_known_numbers(
     assert [(e["edges"], e["class"], e["total"]) for e in entries] == totals
 
 
+def test_count_says_why_unrooted_worlds_are_not_counted(call: Call) -> None:
+    assert "not counted" not in call("world count --edges 5 --class planar").stdout
+    assert "- not counted: without" in call("world count --edges 6 --class planar").stdout
+
+
 def test_count_is_exact_however_many_digits_it_takes(results: Results) -> None:
     (entry,) = results("world count --edges 200")["results"]
     assert entry["total"] == rank_order.count_by_recurrence(200) > 10**400

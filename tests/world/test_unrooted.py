@@ -28,8 +28,11 @@ def test_the_formula_counts_the_worlds_that_differ_wherever_the_marker_lies(edge
 
 def test_planar_worlds_are_listed() -> None:
     """Unrooted planar maps: OEIS A006384."""
-    counts = [unrooted_count(m, WorldClass.parse("planar")) for m in range(5)]
-    assert counts == [1, 2, 4, 14, 57]
+    counts = [unrooted_count(m, WorldClass.parse("planar")) for m in range(6)]
+    assert counts == [1, 2, 4, 14, 57, 312]
+    by_genus = [unrooted_count(5, WorldClass.parse(f"genus:{g}")) for g in range(3)]
+    assert by_genus == [312, 452, 106]
+    assert sum(filter(None, by_genus)) == unrooted_count(5, WorldClass())
 
 
 @pytest.mark.parametrize(

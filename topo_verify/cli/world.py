@@ -20,6 +20,7 @@ from topo_verify.cli.twins import TwinEntry, rotation_table, twin_blocks, twin_e
 from topo_verify.errors import InputError, plural
 from topo_verify.report.blocks import Block, Cell, Raw, Text, TextTable
 from topo_verify.studies.corpus import drawn as worlds_drawn
+from topo_verify.world import unrooted
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.pruned import ranked_tables
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES, Table
@@ -27,7 +28,6 @@ from topo_verify.world.formats import files, graphml, node_link, planar_code
 from topo_verify.world.io import format_of_name
 from topo_verify.world.rooted_map import Dart, World
 from topo_verify.world.twins import MODELS, MarkerModel
-from topo_verify.world.unrooted import unrooted_count
 
 FORMATS: dict[str, tuple[Callable[[World], str | bytes], str]] = {
     "json": (World.to_json, ".json"),
@@ -274,8 +274,8 @@ def count(output: Output, *, edges: range, kind: str) -> int:
         worlds = WorldClass.parse(kind)
         for number, m in enumerate(edges):
             output.progress(f"{m} edges, class {worlds}", number, len(edges))
-            total, unrooted = worlds.count(m), unrooted_count(m, worlds)
-            yield Result(CountEntry(m, str(worlds), total, unrooted))
+            total, without_marker = worlds.count(m), unrooted.unrooted_count(m, worlds)
+            yield Result(CountEntry(m, str(worlds), total, without_marker))
 
     return output.run("world-count", counted, _show_counted)
 
@@ -287,6 +287,12 @@ def _show_counted(entries: Sequence[CountEntry]) -> Iterator[Block]:
         (">worlds", lambda e: e.total),
         (">unrooted", lambda e: e.unrooted),
     )
+    if any(entry.unrooted is None for entry in entries):
+        yield Text(
+            "- not counted: without their marker, the worlds of a class other than `any` are"
+            f" listed, up to {unrooted.MOST_LISTED:,} of them; all worlds are counted to"
+            f" {unrooted.SIZES[-1]} edges."
+        )
 
 
 MOST_LISTED = 250_000

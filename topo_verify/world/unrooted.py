@@ -24,7 +24,7 @@ from topo_verify.world.enumeration.pruned import worlds
 SIZES = (20, 60, 200)
 """The formula is evaluated for all sizes up to one of these at once."""
 
-MOST_LISTED = 1000
+MOST_LISTED = 5000
 """The limit of worlds of another class that are listed."""
 
 
