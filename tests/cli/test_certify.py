@@ -117,6 +117,7 @@ def test_the_open_doors_are_named_with_a_way_there_and_the_worlds_that_differ(
         "door 1 of the place reached at event 0: from where the log ends, take doors 0, 1" in text
     )
     assert "2 worlds that show this log and differ" in text
+    assert "vertices and edges above are of the smaller one, not of your map" in text
 
 
 def test_an_edge_walked_five_times_is_proved(results: Results) -> None:

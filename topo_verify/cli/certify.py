@@ -219,7 +219,10 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
         if entry.advice is not None:
             yield from _show_open(entry, entry.advice)
         if entry.witnesses:
-            yield Text(f"{plural(len(entry.witnesses), 'world')} that show this log and differ:")
+            yield Text(
+                f"{plural(len(entry.witnesses), 'world')} that show this log and differ (vertices"
+                " and edges above are of the smaller one, not of your map):"
+            )
             yield Bullets(entry.witnesses)
         if entry.kernel is not None:
             yield from _show_proof(entry.kernel)
