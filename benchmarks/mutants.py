@@ -99,19 +99,13 @@ SAME = {
     " ->  for h in on_fold.others(e)": ONLY_QUICKER,
     "folding.py Fold._visit: 0 -> 1": AT_A_ROOT,
     "folding.py Fold._visit: 1 -> 2": BY_SIZE,
-    "folding.py Fold.identify: if self._size[a] > self._size[b]: -> if not self._size[a] >"
+    "folding.py Fold._merged: if self._size[a] > self._size[b]: -> if not self._size[a] >"
     " self._size[b]:": BY_SIZE,
-    "folding.py Fold.identify: self._size[a] > self._size[b] -> self._size[a] >="
+    "folding.py Fold._merged: self._size[a] > self._size[b] -> self._size[a] >="
     " self._size[b]": BY_SIZE,
-    "folding.py Fold.identify: self._size[b] += self._size[a] -> pass": BY_SIZE,
-    "folding.py Fold.world: if here < number[end]: -> if not here < number[end]:": EITHER_END,
-    "folding.py Fold.world: here < number[end] -> here <= number[end]": EITHER_END,
-    "folding.py Fold.world: 1 -> 2 (3)": ODD_MANY,
-    "folding.py Fold.world: True -> False": AS_MANY,
-    "folding.py Fold.world: True -> False (2)": AS_MANY,
+    "folding.py Fold._merged: self._size[b] += self._size[a] -> pass": BY_SIZE,
     "map_in_world.py MapInWorld.grow: return False -> return None": BOTH_FALSE,
     "map_in_world.py MapInWorld.grow: return False -> return None (2)": BOTH_FALSE,
-    "map_on_fold.py MapOnFold._add_vertex: door + 1 -> door - 1": BACKWARDS,
     "replayed_trace.py ReplayedTrace._walk: self.world.root or 0 -> self.world.root": NO_DART,
 }
 """Equivalent mutants by their text, with the reason."""

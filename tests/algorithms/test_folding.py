@@ -12,6 +12,7 @@ from tests.helpers import any_world, of_type, trace_of, worlds
 from topo_verify import World, examine, explore, families
 from topo_verify.algorithms.folding import PartialFold
 from topo_verify.checkers import Fold, decision_conclusions
+from topo_verify.checkers.entailment import FoldedTrace
 from topo_verify.checkers.folding import Contradiction
 from topo_verify.robot.events import Augment, Confirm, Event, Move, Pose, Reject, Start, Trace
 from topo_verify.robot.percept import Percept
@@ -161,7 +162,9 @@ def test_it_concludes_without_motion_what_is_left_alone() -> None:
 
 def test_it_agrees_with_the_checker_at_every_rejection() -> None:
     for world in worlds(range(1, 5)):
-        assert not [c for c in decision_conclusions(trace_of(world, "folding")) if c.why]
+        assert not [
+            c for c in decision_conclusions(FoldedTrace(trace_of(world, "folding"))) if c.why
+        ]
 
 
 def test_a_hypothesis_that_is_kept_is_not_folded_anew(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import msgspec
 
 from tests.helpers import EIGHT, edited, failing, place, trace_of
 from topo_verify import World
-from topo_verify.checkers import check
+from topo_verify.checkers import Fold, check
+from topo_verify.checkers.entailment import FoldedTrace
 from topo_verify.robot.events import Augment, Event, Finish, Reject, Trace
 
 WORLD = World.from_id("m5/434")
@@ -20,6 +22,12 @@ MAP = TRACE[-1].map if isinstance(TRACE[-1], Finish) else None
 
 LOOP = place(TRACE, Augment, 1)
 """Dart 2 is found to lead to dart 5; before it, 3 and 4 were rejected and 5 confirmed."""
+
+
+def fold_history(trace: Sequence[Event]) -> tuple[Fold, tuple[int, str] | None]:
+    """The fold of a trace; and the first event with which no world shows it, and why, or None."""
+    folded = FoldedTrace(trace)
+    return folded.fold, folded.read_to(len(trace))
 
 
 def wrong(trace: Trace, world: World = WORLD) -> set[str]:

@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 from tests.helpers import any_world, trace_of
 from topo_verify import World
 from topo_verify.checkers.darts import KnownDart
-from topo_verify.checkers.entailment import followed
+from topo_verify.checkers.entailment import FoldedTrace
 from topo_verify.checkers.folding import OWN_END, TURNED, TWO_OF_S, UNLIKE, Fold, Place
 from topo_verify.checkers.map_on_fold import MapOnFold
-from topo_verify.robot.events import Augment, Reject, Start, Trace
+from topo_verify.robot.events import Augment, Reject, Trace
 
 BEHIND_A_TURNED = "m15/56783627632649097"
 """A world in which more is met where a vertex would be itself, turned."""
@@ -27,10 +27,10 @@ THREE_ENDS = "m6/57535", "m8/6719310"
 
 def rejections(trace: Trace) -> Iterator[tuple[MapOnFold, Place, Place]]:
     """At each rejection by folding: S on the fold so far, and the two places that would be ends."""
-    assert isinstance(trace[0], Start)
-    on_fold = MapOnFold(Fold(trace[0].percept))
-    for event in trace:
-        assert not followed(on_fold.fold, event)
+    folded = FoldedTrace(trace)
+    on_fold = MapOnFold(folded.fold)
+    for when, event in enumerate(trace, 1):
+        assert not folded.read_to(when)
         if isinstance(event, Augment):
             on_fold.grow(event)
         elif isinstance(event, Reject) and event.rule == "folding":

@@ -11,6 +11,7 @@ from tests.checkers.example import said, with_evidence
 from tests.helpers import edited, failing, of_type, place, trace_of
 from topo_verify import World
 from topo_verify.checkers import decision_conclusions
+from topo_verify.checkers.entailment import FoldedTrace
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 
@@ -130,14 +131,15 @@ def test_the_planar_rule_must_say_what_it_rests_on() -> None:
 
 
 def test_only_a_rejection_that_cites_a_contradiction_meets_it() -> None:
-    for conclusion in decision_conclusions(TRACE):
+    for conclusion in decision_conclusions(FoldedTrace(TRACE)):
         event = TRACE[conclusion.when]
         assert conclusion.met is (isinstance(event, ev.Reject) and event.rule == "folding")
     assert not any(
-        conclusion.met for conclusion in decision_conclusions(renamed(TRACE, None, "history"))
+        conclusion.met
+        for conclusion in decision_conclusions(FoldedTrace(renamed(TRACE, None, "history")))
     )
     unknown = edited(TRACE, FIRST, hypothesis=10**6)
-    assert [c.met for c in decision_conclusions(unknown) if c.when == FIRST] == [False]
+    assert [c.met for c in decision_conclusions(FoldedTrace(unknown)) if c.when == FIRST] == [False]
 
 
 def test_a_rejection_that_does_not_follow_proves_no_new_vertex() -> None:
@@ -149,6 +151,6 @@ def test_a_rejection_that_does_not_follow_proves_no_new_vertex() -> None:
         ev.Move(1, far),
     )
     lie = (*walk, ev.Reject(3, 4, "history", ev.Evidence(0)), ev.Augment(3, "new", 5, 3))
-    *_, rejected, grown = decision_conclusions(lie)
+    *_, rejected, grown = decision_conclusions(FoldedTrace(lie))
     assert "the edge may well lead there" in rejected.why
     assert "the edge may well lead there" in grown.why

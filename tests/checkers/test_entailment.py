@@ -15,7 +15,7 @@ from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.campaign.judge import Report
 from topo_verify.checkers import check, claims, decision_conclusions
-from topo_verify.checkers.entailment import map_conclusion
+from topo_verify.checkers.entailment import FoldedTrace, map_conclusion
 from topo_verify.faults import FAULTS
 from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.robot import events as ev
@@ -129,7 +129,9 @@ def test_a_mapper_that_declares_nothing_is_still_convicted_of_guessing() -> None
 
 
 def why(trace: ev.Trace) -> list[str]:
-    return [conclusion.why for conclusion in decision_conclusions(trace) if conclusion.why]
+    return [
+        conclusion.why for conclusion in decision_conclusions(FoldedTrace(trace)) if conclusion.why
+    ]
 
 
 def test_a_decision_made_too_early_does_not_follow() -> None:
@@ -163,7 +165,7 @@ def test_nonsense_is_a_finding(kind: type, fields: dict[str, object], message: s
 def test_an_edge_that_was_never_crossed_proves_no_new_vertex() -> None:
     for degree in (1, 2):
         start = ev.Start(percept=first_percept(World.from_id("m2/0")))
-        told = [*decision_conclusions((start, ev.Augment(0, "new", 1, degree)))]
+        told = [*decision_conclusions(FoldedTrace((start, ev.Augment(0, "new", 1, degree))))]
         assert told[0].why == "the edge was never crossed"
         assert told[0].witness is not None
         assert told[0].witness.degrees[1] != degree
@@ -173,12 +175,12 @@ def test_a_history_that_no_world_shows_is_a_finding_and_no_crash() -> None:
     at_home = first_percept(World.from_id("m4/300"))
     trace = trace_of("m4/300")
     trace = edited(trace, place(trace, ev.Move), percept=at_home)
-    assert "no world shows this history" in map_conclusion(trace).why
+    assert "no world shows this history" in map_conclusion(FoldedTrace(trace)).why
     assert "no world shows this history" in " ".join(why(trace))
 
 
 def test_without_a_map_nothing_is_proved() -> None:
-    assert "no map" in map_conclusion(trace_of("m2/0")[:-1]).why
+    assert "no map" in map_conclusion(FoldedTrace(trace_of("m2/0")[:-1])).why
 
 
 def test_large_worlds_are_asked_claim_10_only_if_strict(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,10 +12,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.checkers.example import fold_history
 from tests.helpers import EMPTY, any_world, trace_of, worlds
 from topo_verify import World
 from topo_verify.checkers import folding
-from topo_verify.checkers.entailment import fold_history
 from topo_verify.checkers.folding import Fold, Place
 from topo_verify.robot.events import Event, Move, Start
 from topo_verify.robot.percept import Percept

@@ -9,7 +9,7 @@ from tests.helpers import trace_of
 from topo_verify import World
 from topo_verify.checkers import check, decision_conclusions, entailment
 from topo_verify.checkers.darts import KnownDart
-from topo_verify.checkers.entailment import FURTHER, Conclusion
+from topo_verify.checkers.entailment import FURTHER, Conclusion, FoldedTrace
 from topo_verify.checkers.folding import Fold
 from topo_verify.checkers.map_on_fold import MapOnFold
 from topo_verify.robot.events import Augment, Event, Evidence, Move, Reject, Start, Trace
@@ -28,7 +28,7 @@ def rejecting(place: str, doors: list[int], e: int, h: int) -> Trace:
 
 def told(trace: Trace) -> Conclusion:
     """The conclusion on the only decision of a trace."""
-    (conclusion,) = decision_conclusions(trace)
+    (conclusion,) = decision_conclusions(FoldedTrace(trace))
     return conclusion
 
 
@@ -98,4 +98,4 @@ def test_what_lies_on_another_face_costs_no_folding(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(entailment, "FURTHER", 0)
     trace = trace_of("m4/50", "folding+planar")
     assert any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
-    assert not any(conclusion.why for conclusion in decision_conclusions(trace))
+    assert not any(conclusion.why for conclusion in decision_conclusions(FoldedTrace(trace)))

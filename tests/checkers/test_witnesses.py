@@ -6,12 +6,12 @@ from collections.abc import Iterator, Sequence
 
 import pytest
 
-from tests.checkers.example import LOOP, TRACE, inserted
+from tests.checkers.example import LOOP, TRACE, fold_history, inserted
 from tests.checkers.test_folding import shows
 from tests.helpers import edited, of_type, place, statuses, trace_of, worlds
 from topo_verify import World, certify
 from topo_verify.checkers import check, claims, decision_conclusions
-from topo_verify.checkers.entailment import Conclusion, fold_history, map_conclusion
+from topo_verify.checkers.entailment import Conclusion, FoldedTrace, map_conclusion
 from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
@@ -25,7 +25,7 @@ def delivering(history: Sequence[ev.Event], world: World) -> ev.Trace:
 
 def unproved(trace: ev.Trace) -> list[Conclusion]:
     """The conclusions that do not follow."""
-    return [conclusion for conclusion in decision_conclusions(trace) if conclusion.why]
+    return [conclusion for conclusion in decision_conclusions(FoldedTrace(trace)) if conclusion.why]
 
 
 # ---------------------------------------------------------------- claim 9
@@ -39,7 +39,9 @@ def test_while_a_dart_is_open_neither_of_the_two_worlds_is_proved() -> None:
             history = trace[:length]
             fold, _ = fold_history(history)
             for hang in (1, 2):
-                when, why, witness, _ = map_conclusion(delivering(history, fold.world(hang)))
+                when, why, witness, _ = map_conclusion(
+                    FoldedTrace(delivering(history, fold.world(hang)))
+                )
                 assert (when, why) == (length, f"darts never crossed: {fold.open_darts()}")
                 assert witness is not None
                 assert witness.code == fold.world(3 - hang).code
@@ -49,20 +51,20 @@ def test_while_a_dart_is_open_neither_of_the_two_worlds_is_proved() -> None:
 def test_the_witness_against_another_map_than_the_proved_one_is_the_proved_one() -> None:
     world, other = World.from_id("m3/14"), World.from_id("m3/15")
     history = trace_of(world)[:-1]
-    when, why, witness, _ = map_conclusion(delivering(history, other))
+    when, why, witness, _ = map_conclusion(FoldedTrace(delivering(history, other)))
     assert (when, why) == (len(history), "the history proves another map")
     assert witness is not None
     assert witness.is_isomorphic(world)
-    assert map_conclusion(delivering(history, world)) == Conclusion(len(history), "")
+    assert map_conclusion(FoldedTrace(delivering(history, world))) == Conclusion(len(history), "")
 
 
 def test_what_is_no_map_and_a_history_of_no_world_are_named_at_their_event() -> None:
     trace = trace_of("m3/14")
-    assert map_conclusion(trace[:-1]) == Conclusion(0, "no map was delivered")
-    when, why, *_ = map_conclusion(edited(trace, -1, map=ev.MapData((), (), None)))
+    assert map_conclusion(FoldedTrace(trace[:-1])) == Conclusion(0, "no map was delivered")
+    when, why, *_ = map_conclusion(FoldedTrace(edited(trace, -1, map=ev.MapData((), (), None))))
     assert (when, why[:32]) == (len(trace) - 1, "the delivered value is not a map")
     third = place(trace, ev.Move, 2)
-    when, why, *_ = map_conclusion(edited(trace, third, door=99))
+    when, why, *_ = map_conclusion(FoldedTrace(edited(trace, third, door=99)))
     assert (when, why[:28]) == (third, "no world shows this history:")
 
 
@@ -74,7 +76,7 @@ def test_at_the_start_nothing_is_seen_but_the_marker_at_door_0(
 ) -> None:
     start = ev.Start(percept=Percept(*percept))
     assert fold_history([start])[1] is not None
-    (conclusion,) = decision_conclusions([start, ev.Augment(0, "new", 2, 2)])
+    (conclusion,) = decision_conclusions(FoldedTrace([start, ev.Augment(0, "new", 2, 2)]))
     assert (conclusion.when, conclusion.why[:28]) == (0, "no world shows this history:")
     (finding,) = certify([start]).findings
     assert finding.event == 0
@@ -211,7 +213,7 @@ def test_a_loop_of_s_is_no_new_vertex_in_any_world(rule: ev.RuleName | None) -> 
     lie = edited(trace, loop, kind="new", dart=4)
     if rule is not None:
         lie = inserted(lie, loop + 1, *rejections(ev.Pose(1, (3,)), rule))
-    (*_, (when, why, witness, _)) = decision_conclusions(lie)
+    (*_, (when, why, witness, _)) = decision_conclusions(FoldedTrace(lie))
     assert (when, why) == (loop, "the edge leads to another vertex")
     assert witness is not None
     assert witness.is_isomorphic(World.from_id("m2/8")) or shows(witness, lie[:loop])
@@ -219,7 +221,7 @@ def test_a_loop_of_s_is_no_new_vertex_in_any_world(rule: ev.RuleName | None) -> 
 
 def test_a_vertex_of_s_is_no_new_vertex_where_s_has_others_too() -> None:
     lie = edited(TRACE, LOOP, kind="new", dart=8)
-    (*_, last) = decision_conclusions(lie)
+    (*_, last) = decision_conclusions(FoldedTrace(lie))
     assert (last.when, last.why) == (LOOP, "the edge leads to another vertex")
 
 
@@ -228,7 +230,7 @@ def test_behind_an_edge_that_was_never_crossed_stands_the_least_that_was_not_cla
     degree: int, witness: str
 ) -> None:
     start = ev.Start(percept=first_percept(World.from_id("m1/0")))
-    (told,) = decision_conclusions([start, ev.Augment(0, "new", 1, degree)])
+    (told,) = decision_conclusions(FoldedTrace([start, ev.Augment(0, "new", 1, degree)]))
     assert (told.when, told.why) == (1, "the edge was never crossed")
     assert told.witness is not None
     assert told.witness.code == World.from_id(witness).code
@@ -246,7 +248,7 @@ def test_an_edge_that_s_has_is_not_explored_again() -> None:
                 *rejections(ev.Pose(event.edge, (event.dart,)), "motion"),
             )
             for again in repetitions:
-                (*_, last) = decision_conclusions(inserted(trace, after, again))
+                (*_, last) = decision_conclusions(FoldedTrace(inserted(trace, after, again)))
                 assert last.when == after
                 assert "is not an unexplored dart of S" in last.why
                 repeated += 1
@@ -256,7 +258,7 @@ def test_an_edge_that_s_has_is_not_explored_again() -> None:
 def test_after_an_augmentation_that_does_not_follow_nothing_is_judged() -> None:
     trace = trace_of("m4/300")
     for when in (i for i, event in enumerate(trace) if isinstance(event, ev.Augment)):
-        (*before, last) = decision_conclusions(edited(trace, when, degree=9))
+        (*before, last) = decision_conclusions(FoldedTrace(edited(trace, when, degree=9)))
         assert last.when == when
         assert last.why in (
             "the edge leads to another vertex",

@@ -9,7 +9,6 @@ from unittest.mock import Mock
 import pytest
 
 from tests.cli.conftest import Call, Refused, Results
-from topo_verify.cli import arena_game
 from topo_verify.studies.game import values
 from topo_verify.studies.game.values import game_values
 
@@ -55,7 +54,7 @@ def test_three_tables(call: Call) -> None:
 def test_a_search_that_is_cut_short_is_incomplete(
     call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(arena_game.game, "game_values", partial(game_values, most_states=3))
+    monkeypatch.setattr(values, "game_values", partial(game_values, most_states=3))
     text = played(call, 2, "basic", code=3)
     assert "| 2 | basic | any | 3 | ≥ 3 | 2.30 | ≥ 2.20 | ≤ 4.5 % |" in text
     assert "| 2 | 10 any | 3 | ≥ 3 | 2.20 | ≥ 2.20 | ≥ 0.0 % |" in text

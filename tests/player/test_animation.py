@@ -132,8 +132,8 @@ def test_solid_is_just_what_s_has() -> None:
     playback, _, film = played()
     drawn, edges = playback.map, {d: k for k, edge in enumerate(WORLD.edges) for d in edge}
     for moment, at in frames(playback):
-        known = [d for d, born in drawn.born.items() if born <= moment.number]
-        explored = [d for d, when in drawn.joined.items() if when <= moment.number]
+        known = [d for d in drawn.phi if drawn.born[d] <= moment.number]
+        explored = [d for d in drawn.phi if drawn.joined[d] <= moment.number]
         assert solid(film, "place", at) == {WORLD.vertex_of[drawn.phi[d]] for d in known}
         assert solid(film, "road", at) == {edges[drawn.phi[d]] for d in explored}
 

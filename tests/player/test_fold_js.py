@@ -14,8 +14,8 @@ import pytest
 from tests.helpers import SURE, worlds
 from tests.player.node import answers, script
 from topo_verify import World, explore
-from topo_verify.checkers import Fold, decision_conclusions
-from topo_verify.checkers.entailment import followed
+from topo_verify.checkers import decision_conclusions
+from topo_verify.checkers.entailment import FoldedTrace
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
 from topo_verify.programs.loader import Mapper
@@ -56,10 +56,11 @@ def in_python(trace: Trace) -> dict[str, Any]:
     """What checkers/folding and checkers/entailment make of a trace, in the same shape."""
     start = trace[0]
     assert isinstance(start, Start)
-    fold, counts = Fold(start.percept), list[tuple[int, int]]()
-    doubts = [(c.when, c.why, c.witness) for c in decision_conclusions(trace)]
+    folded, counts = FoldedTrace(trace), list[tuple[int, int]]()
+    fold = folded.fold
+    doubts = [(c.when, c.why, c.witness) for c in decision_conclusions(FoldedTrace(trace))]
     for when, event in enumerate(trace):
-        if followed(fold, event):
+        if folded.read_to(when + 1):
             return {"counts": counts, "doubts": doubts[:-1], "broken": when}
         if not isinstance(event, Move):
             counts.append((fold.open_darts(), sum(map(fold.degree, fold.roots()))))

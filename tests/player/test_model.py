@@ -13,6 +13,7 @@ import pytest
 from tests.browser import Open
 from tests.player.played import played
 from topo_verify import CATALOGUE, Percept, World, families
+from topo_verify.checkers.map_in_world import NEVER
 from topo_verify.faults import FAULTS
 from topo_verify.player.narrator import Narrator
 from topo_verify.player.page import player_page
@@ -88,10 +89,10 @@ def compare(told: dict[str, Any], run: PlayedRun, playback: Playback) -> None:
     drawn = replayed.map
     for dart, image in drawn.phi.items():
         if drawn.born[dart] < end:
-            joined = drawn.joined.get(dart)
+            joined = drawn.joined[dart]
             told_joined = told["darts"][dart][2]
             assert told["darts"][dart][:2] == [image, drawn.born[dart]]
-            assert joined in (told_joined, None), f"{run.name}, dart {dart}"
+            assert joined in (told_joined, NEVER), f"{run.name}, dart {dart}"
 
 
 def compare_all(show: Open, world: World, runs: Sequence[PlayedRun]) -> None:

@@ -13,6 +13,7 @@ from tests.helpers import worlds
 from tests.player.node import answers, script
 from topo_verify import World, explore, families
 from topo_verify.checkers import decision_conclusions
+from topo_verify.checkers.entailment import FoldedTrace
 from topo_verify.faults import FAULTS
 from topo_verify.player.scenes import Playback
 from topo_verify.programs.loader import Mapper
@@ -85,7 +86,7 @@ def walked(cases: Sequence[tuple[World, Mapper | str]]) -> list[tuple[Playback, 
 
 def fates(run: Playback) -> list[str]:
     """What the checkers say of each augmentation, up to the first that is wrong."""
-    why = {found.when: found.why for found in decision_conclusions(run.trace)}
+    why = {found.when: found.why for found in decision_conclusions(FoldedTrace(run.trace))}
     told: list[str] = []
     for when, event in enumerate(run.trace):
         if isinstance(event, Augment):

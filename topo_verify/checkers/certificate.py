@@ -17,13 +17,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from topo_verify.checkers import entailment
+from topo_verify.checkers import entailment as ent
 from topo_verify.checkers.claims import check, unproved
 from topo_verify.checkers.findings import Finding
 from topo_verify.checkers.folding import Fold
-from topo_verify.checkers.replayed_trace import ReplayedTrace, require_order
+from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.errors import InputError, InternalError
-from topo_verify.robot.events import Event, Finish, Move, Start
+from topo_verify.robot.events import Event, Finish, Move, Start, require_order
 from topo_verify.world.rooted_map import World
 
 MOST_DARTS = 2**20
@@ -45,7 +45,7 @@ class JudgedLog(NamedTuple):
     fold: Fold
     broken: tuple[int, str] | None
     map: World | None
-    conclusions: tuple[entailment.Conclusion, ...]
+    conclusions: tuple[ent.Conclusion, ...]
     findings: tuple[Finding, ...]
 
 
@@ -58,20 +58,21 @@ def judge_log(trace: Sequence[Event]) -> JudgedLog:
     Complexity: nearly linear for a plain log; claim 10 looks at every open dart once a decision.
     """
     require_order(trace)
-    fold, broken = entailment.fold_history(trace)
+    folded = ent.FoldedTrace(trace)
+    fold, broken = folded.fold, folded.read_to(len(trace))
     most = max(MOST_DARTS, 16 * len(trace))  # a long patrol has many places, none of them wide
     if (darts := sum(map(fold.degree, fold.roots()))) > most:
         told = f"the places of this log have {darts} doors together: expected at most {most}"
         raise InputError(f"{told}; is a degree wrong?")
-    decides = any(isinstance(event, entailment.Concluded) for event in trace)
-    conclusions = tuple(entailment.decision_conclusions(trace)) if decides else ()
+    decides = any(isinstance(event, ent.CONCLUDED) for event in trace)
+    conclusions = tuple(ent.decision_conclusions(ent.FoldedTrace(trace))) if decides else ()
     if broken is not None:
         when, why = broken
         message = f"no world shows this history: {why}"
         finding = Finding("map-entailed", when, "percepts that some world shows", why, message)
         return JudgedLog(fold, broken, None, conclusions, (finding,))
     if fold.open_darts():
-        delivered = [entailment.map_conclusion(trace)] if isinstance(trace[-1], Finish) else []
+        delivered = [ent.map_conclusion(folded)] if isinstance(trace[-1], Finish) else []
         doubts = *unproved("decisions-entailed", conclusions), *unproved("map-entailed", delivered)
         return JudgedLog(fold, None, None, conclusions, doubts)
     world = showing(fold.world(), trace)

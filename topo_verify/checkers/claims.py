@@ -15,7 +15,7 @@ from functools import partial
 import msgspec
 
 from topo_verify.checkers.coverage import coverage
-from topo_verify.checkers.darts import KnownDart
+from topo_verify.checkers.darts import KnownDart, WorldDart
 from topo_verify.checkers.entailment import Conclusion, delivered_code, map_conclusion
 from topo_verify.checkers.excursions import Word
 from topo_verify.checkers.findings import Finding, Judgement, Status
@@ -46,27 +46,25 @@ def check(
     """
     run = ReplayedTrace(world, trace, stopped)
     shares = coverage(run)
-    return [_judgement(run, name, *shares[name], strict=strict) for name in CLAIMS]
+    # Backwards: claim 9 goes on with the fold of claim 10.
+    judged = [_judgement(run, name, *shares[name], strict=strict) for name in reversed(CLAIMS)]
+    return judged[::-1]
 
 
 def _judgement(run: ReplayedTrace, name: str, judged: int, of: int, *, strict: bool) -> Judgement:
     """The judgement of one claim."""
     claim, speaks_of = CLAIMS[name]
-    if speaks_of and run.world.alpha and run.kinds.isdisjoint(speaks_of):
+    if speaks_of and run.world.alpha and run.kinds.keys().isdisjoint(speaks_of):
         return Judgement(name, "not-declared", 0, of)
     if claim is decisions_entailed and len(run.world.edges) > LARGE and not strict:
         return Judgement(name, "not-asked", 0, of)
-    if findings := tuple(msgspec.structs.replace(wrong, claim=name) for wrong in claim(run)):
+    if findings := tuple(map(partial(msgspec.structs.replace, claim=name), claim(run))):
         return Judgement(name, "failed", judged, of, findings)
-    if claim is decisions_entailed and (left := _undecided(run)):
-        return Judgement(name, "undecided", judged - left, of)
+    conclusions = run.conclusions.values() if claim is decisions_entailed else ()
+    if number := sum(conclusion.undecided for conclusion in conclusions):
+        return Judgement(name, "undecided", judged - number, of)
     status: Status = "ok" if judged == of else "partial" if judged else "not-declared"
     return Judgement(name, status, judged, of)
-
-
-def _undecided(run: ReplayedTrace) -> int:
-    """The number of decisions that claim 10 leaves undecided."""
-    return sum(conclusion.undecided for conclusion in run.conclusions.values())
 
 
 # ---------------------------------------------------------------- the claims
@@ -85,37 +83,37 @@ def percepts_true(run: ReplayedTrace) -> Iterator[Finding]:
 
 def true_hypothesis_posed(run: ReplayedTrace) -> Iterator[Finding]:
     """2. If e leads to a known vertex, its dart is in H; S grows along edges that were posed."""
-    for when, event, pose, _, _ in run.rounds:
+    for decision in run.rounds:
+        event = decision.event
         if isinstance(event, ev.Pose):
-            yield from _wrongly_posed(run, when, event)
-        elif isinstance(event, ev.Augment) and pose is None:
+            yield from _wrongly_posed(run, decision, event)
+        elif isinstance(event, ev.Augment) and decision.pose is None:
             message = f"S grows along dart {event.edge}, which was not posed"
-            yield Wrong(when, event.edge, None, message)
+            yield Wrong(decision.when, event.edge, None, message)
 
 
-def _wrongly_posed(run: ReplayedTrace, when: int, pose: ev.Pose) -> Iterator[Finding]:
+def _wrongly_posed(run: ReplayedTrace, decision: Round, pose: ev.Pose) -> Iterator[Finding]:
     """What is wrong with one set of hypotheses."""
-    edge, hypotheses = pose.edge, pose.hypotheses
-    if not run.map.is_open(edge, when) or not all(run.map.is_open(h, when) for h in hypotheses):
+    edge, hypotheses, (when, *_, end, truth) = pose.edge, pose.hypotheses, decision
+    if end is None or not all(run.map.is_open(h, when) for h in hypotheses):
         message = f"edge {edge} or one of its hypotheses is not an unexplored dart of S"
         yield Wrong(when, "unexplored darts", [edge, *hypotheses], message)
-    elif run.crossings.get(run.crossing(run.map.end(edge)), when) >= when:
+    elif run.crossings.get(run.crossing(end), when) >= when:
         yield Wrong(when, edge, None, f"dart {edge} is posed before the robot crossed it")
-    elif (truth := run.map.truth(edge, when)) not in (None, *hypotheses):
+    elif truth not in (None, *hypotheses):
         message = f"edge {edge} leads to dart {truth}, which is not among the hypotheses"
         yield Wrong(when, truth, hypotheses, message)
 
 
 def true_hypothesis_kept(run: ReplayedTrace) -> Iterator[Finding]:
     """3. No rule and no motion rejects the true hypothesis, and none is dropped in silence."""
-    for when, event, _, _, _ in run.rounds:
-        truth = run.map.truth(event.edge, when)
+    for when, event, _, _, _, _, truth in run.rounds:
+        edge = event.edge
         if isinstance(event, ev.Reject) and truth == event.hypothesis:
-            does = f"edge {event.edge} does lead to dart {truth}"
-            message = f"{does}, which rule {event.rule!r} rejects"
+            message = f"edge {edge} does lead to dart {truth}, which rule {event.rule!r} rejects"
             yield Wrong(when, "kept", "rejected", message)
         elif isinstance(event, ev.Augment) and event.kind == "new" and truth is not None:
-            message = f"edge {event.edge} leads to dart {truth}, but S grows by a new vertex"
+            message = f"edge {edge} leads to dart {truth}, but S grows by a new vertex"
             yield Wrong(when, truth, "new", message)
     for when, event, left in run.fates.values():
         if isinstance(event, ev.Augment) and left:
@@ -125,19 +123,19 @@ def true_hypothesis_kept(run: ReplayedTrace) -> Iterator[Finding]:
 
 def no_false_confirm(run: ReplayedTrace) -> Iterator[Finding]:
     """4. A confirmed hypothesis is the true one."""
-    for when, event, _, _, _ in run.rounds:
-        if isinstance(event, ev.Confirm) and event.hypothesis != run.map.truth(event.edge, when):
-            edge, hypothesis, leads = event.edge, event.hypothesis, _end(run, event.edge, when)
+    for decision in run.rounds:
+        event = decision.event
+        if isinstance(event, ev.Confirm) and event.hypothesis != decision.truth:
+            edge, hypothesis, leads = event.edge, event.hypothesis, _leads(run, decision)
             message = f"edge {edge} leads to {leads}, but dart {hypothesis} is confirmed"
-            yield Wrong(when, leads, hypothesis, message)
+            yield Wrong(decision.when, leads, hypothesis, message)
 
 
 def map_isomorphic(run: ReplayedTrace) -> Iterator[Finding]:
     """5. The map at the end is the world, and every declared S on the way is a part of it."""
     if run.spoiled is not None:
-        event = run.trace[run.spoiled]
+        event, leads = run.rounds[-1].event, _leads(run, run.rounds[-1])
         assert isinstance(event, ev.Augment)
-        leads = _end(run, event.edge, run.spoiled)
         grows = f"S grows by {event.kind} dart {event.dart} with degree {event.degree}"
         message = f"{grows}, but edge {event.edge} leads to {leads}"
         yield Wrong(run.spoiled, leads, event, message)
@@ -151,8 +149,8 @@ def map_isomorphic(run: ReplayedTrace) -> Iterator[Finding]:
 
 def _wrong_map(run: ReplayedTrace, finish: ev.Finish) -> Iterator[Finding]:
     """What is wrong with the map that is delivered, and with the moment when it is."""
-    last, left = len(run.trace) - 1, len(run.map.phi) - len(run.map.joined)
-    if run.spoiled is run.illegal is None and run.map.joined and left:
+    last, left = len(run.trace) - 1, len(run.map.phi) - len(run.map.alpha)
+    if run.spoiled is run.illegal is None and run.map.alpha and left:
         yield Wrong(last, 0, left, f"the map is delivered while {left} darts of S are unexplored")
     code = delivered_code(finish.map)
     if isinstance(code, str):
@@ -203,7 +201,7 @@ UNTRUE = Wrong(None, "true percepts", None, "the percepts are not true and prove
 
 def map_entailed(run: ReplayedTrace) -> Iterator[Finding]:
     """9. The history alone proves the map: no other world fits it."""
-    yield from unproved("map-entailed", [map_conclusion(run.trace)]) if run.is_history else [UNTRUE]
+    yield from unproved("map-entailed", [map_conclusion(run.fold)]) if run.is_history else [UNTRUE]
 
 
 def decisions_entailed(run: ReplayedTrace) -> Iterator[Finding]:
@@ -212,21 +210,16 @@ def decisions_entailed(run: ReplayedTrace) -> Iterator[Finding]:
     yield from unproved("decisions-entailed", conclusions) if run.is_history else [UNTRUE]
 
 
-UNPROVED = {
-    "map-entailed": ("a map that is proved", "the history proves no such map"),
-    "decisions-entailed": ("a proved decision", "the decision does not follow"),
-}
-"""What is expected where a conclusion does not follow, and the message that begins so."""
-
-
 def unproved(claim: str, conclusions: Iterable[Conclusion]) -> Iterator[Finding]:
     """A finding for each of these conclusions that does not follow; none where it is undecided."""
-    expected, message = UNPROVED[claim]
+    expected, but = "a proved decision", "the decision does not follow"
+    if claim == "map-entailed":
+        expected, but = "a map that is proved", "the history proves no such map"
     for conclusion in conclusions:
         when, why, witness, _ = conclusion
         if why and not conclusion.undecided:
             text = witness.text if witness else None
-            yield Finding(claim, when, expected, why, f"{message}: {why}", text)
+            yield Finding(claim, when, expected, why, f"{but}: {why}", text)
 
 
 # ---------------------------------------------------------------- what justifies a rejection
@@ -234,18 +227,17 @@ def unproved(claim: str, conclusions: Iterable[Conclusion]) -> Iterator[Finding]
 
 def _unjustified(run: ReplayedTrace, decision: Round, event: ev.Reject) -> str:
     """What is wrong with a rejection; "" if it is justified."""
-    when, _, pose, _, _ = decision
-    e, h = event.edge, event.hypothesis
+    h, (when, _, pose, *_, end, _) = event.hypothesis, decision
     if pose is None or h not in pose.hypotheses:
         return "no such hypothesis was posed"
-    if not run.map.is_open(e, when) or not run.map.is_open(h, when):
+    if end is None or not run.map.is_open(h, when):
         return "the two are not unexplored darts of S"
     if event.rule in ("folding", "planar"):
-        ends = run.map.seen_at(run.map.phi[h]), run.map.seen_at(run.map.end(e))
+        ends = run.map.seen_at(run.map.phi[h]), run.map.seen_at(end)
         return _unmet(run, when, event.evidence, ends)
     if event.evidence.contradiction is not None:
         return f"rule {event.rule!r} rests on two percepts, and cites a contradiction"
-    return _percepts_agree(run, decision, event, e, h)
+    return _percepts_agree(run, decision, event, end, h)
 
 
 def _unmet(run: ReplayedTrace, when: int, cited: ev.Evidence, ends: tuple[Percept, Percept]) -> str:
@@ -262,13 +254,13 @@ def _unmet(run: ReplayedTrace, when: int, cited: ev.Evidence, ends: tuple[Percep
 
 
 def _percepts_agree(
-    run: ReplayedTrace, decision: Round, event: ev.Reject, e: KnownDart, h: KnownDart
+    run: ReplayedTrace, decision: Round, event: ev.Reject, end: WorldDart, h: KnownDart
 ) -> str:
     """Why the two percepts that are cited do not disagree as they are said to; "" if they do."""
     cited, word = event.evidence, _executed(decision, event)
     if word is None:
         return f"step {cited.step} of sequence {cited.sequence} was not executed"
-    observed = word[-1].percept if word else run.map.seen_at(run.map.end(e))
+    observed = word[-1].percept if word else run.map.seen_at(end)
     if cited.observed != observed:
         return f"observed is {observed}, not {cited.observed}"
     at, rest = run.records.trace(h, word, decision.when)
@@ -298,11 +290,11 @@ def _executed(decision: Round, event: ev.Reject) -> Word | None:
 # ---------------------------------------------------------------- words for messages
 
 
-def _end(run: ReplayedTrace, edge: int, when: int) -> str:
-    """Where an edge really leads."""
-    if not run.map.is_open(edge, when):
+def _leads(run: ReplayedTrace, decision: Round) -> str:
+    """Where the edge of a decision really leads."""
+    if (end := decision.end) is None:
         return "nowhere (it is not an unexplored dart of S)"
-    truth, degree = run.map.truth(edge, when), run.map.seen_at(run.map.end(edge)).degree
+    degree, truth = run.map.seen_at(end).degree, decision.truth
     return f"a new vertex of degree {degree}" if truth is None else f"dart {truth}"
 
 

@@ -34,7 +34,7 @@ Share = tuple[int, int]
 def coverage(run: ReplayedTrace) -> dict[str, Share]:
     """How much of a run each claim judges; of claim 10, how much there is to judge."""
     events = [decision.event for decision in run.rounds]
-    declared, followed = Counter(map(type, events)), Counter(map(type, run.followed))
+    declared = Counter(map(type, events))
     rejections, confirmations = declared[Reject], declared[Confirm]
     posed = sum(len(event.hypotheses) for event in events if isinstance(event, Pose))
     ends = {edge: fate.event for edge, fate in run.fates.items() if isinstance(fate.event, Augment)}
@@ -42,12 +42,13 @@ def coverage(run: ReplayedTrace) -> dict[str, Share]:
     unsettled = len(run.crossings.keys() - ends.keys())
     left = sum(len(fate.left) for fate in run.fates.values())
     missing = sum(len(fate.left) for edge, fate in run.fates.items() if edge in ends)
-    grown = {run.crossing(run.map.phi[dart]) for dart in run.map.joined}
+    grown = {run.crossing(run.map.phi[dart]) for dart in run.map.alpha}
     decisions = rejections + confirmations + declared[Augment]
-    maps = sum(isinstance(event, Finish) for event in run.trace)
+    percepts = sum(isinstance(event, (Start, Move)) for event in run.followed)
+    maps = run.kinds[Finish]
     costs = int(getattr(run.trace[-1], "cost", None) is not None)
     return {
-        "percepts-true": (followed[Start] + followed[Move], 1 + run.cost),
+        "percepts-true": (percepts, 1 + run.cost),
         "true-hypothesis-posed": (len(run.crossings.keys() & run.fates), len(run.crossings)),
         "true-hypothesis-kept": (posed - left, posed + unsettled),
         "no-false-confirm": (confirmations, max(confirmations, loops) + unsettled),

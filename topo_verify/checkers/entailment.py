@@ -33,8 +33,9 @@ from topo_verify.robot.events import Augment, Confirm, Event, Finish, MapData, M
 from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import Code, World
 
+CONCLUDED = Reject, Confirm, Augment
 Concluded = Reject | Confirm | Augment
-"""A decision that says where an edge leads, or where it does not."""
+"""A decision that says where an edge leads, or where it does not. (Quicker to ask of the tuple.)"""
 
 Tries = Iterator[int] | None
 """The foldings that may still be tried; None without the planar prior: no world needs be planar."""
@@ -59,31 +60,41 @@ class Conclusion(NamedTuple):
 
 
 FURTHER = 300
-"""So many foldings are tried in one run, to find planar worlds that refute its decisions."""
+"""The most foldings tried in one run to find planar worlds that refute its decisions."""
 
 
-def fold_history(trace: Sequence[Event]) -> tuple[Fold, tuple[int, str] | None]:
-    """The fold of a trace; and the first event with which no world shows it, and why, or None."""
-    assert isinstance(trace[0], Start)
-    fold = Fold(trace[0].percept)
-    for when, event in enumerate(trace):
-        if why := followed(fold, event):
-            return fold, (when, why)
-    return fold, None
+class FoldedTrace:
+    """A trace, and the fold of the events that were read.
+
+    Attributes:
+        read: the number of events that were read.
+        broken: the first event with which no world shows the history, and why; or None.
+    """
+
+    def __init__(self, trace: Sequence[Event], fold: Fold | None = None) -> None:
+        assert isinstance(trace[0], Start)
+        self.trace, self.fold, self.read = trace, fold or Fold(trace[0].percept), 0
+        self.broken: tuple[int, str] | None = None
+
+    def read_to(self, end: int) -> tuple[int, str] | None:
+        """Read on up to event number `end`, which is not read, and return `broken`."""
+        while self.read < end and self.broken is None:
+            event, why = self.trace[self.read], ""
+            if isinstance(event, Move):
+                try:
+                    self.fold.move(event.door, event.percept)
+                except Contradiction as contradiction:
+                    why = str(contradiction)
+            elif isinstance(event, Start) and not _may_start(event.percept):
+                why = f"the robot starts on the marked dart and cannot see {event.percept}"
+            self.broken = (self.read, why) if why else None
+            self.read += 1
+        return self.broken
 
 
-def followed(fold: Fold, event: Event) -> str:
-    """Let the fold grow by an event. Returns why no world shows the history now, or ""."""
-    if isinstance(event, Move):
-        try:
-            fold.move(event.door, event.percept)
-        except Contradiction as contradiction:
-            return str(contradiction)
-    elif isinstance(event, Start):
-        seen = event.percept
-        if not seen.marker == 0 < seen.degree and seen != Percept(0, None):
-            return f"the robot starts on the marked dart and cannot see {seen}"
-    return ""
+def _may_start(seen: Percept) -> bool:
+    """Whether some world shows this to a robot on the marked dart."""
+    return seen.marker == 0 < seen.degree or seen == Percept(0, None)
 
 
 @lru_cache(maxsize=16)
@@ -95,41 +106,43 @@ def delivered_code(delivered: MapData) -> Code | str:
         return f"the delivered value is not a map: {error}"
 
 
-def map_conclusion(trace: Sequence[Event]) -> Conclusion:
-    """Whether the history alone proves the map that was delivered (claim 9).
+def map_conclusion(folded: FoldedTrace) -> Conclusion:
+    """Whether the history alone proves the map that was delivered (claim 9). Reads the whole trace.
 
     If a dart of the fold is open, two worlds show the history; the map is at most one of them.
     """
-    finish, last = trace[-1], len(trace) - 1
+    fold, finish, last = folded.fold, folded.trace[-1], len(folded.trace) - 1
     if not isinstance(finish, Finish):
         return Conclusion(0, "no map was delivered")
-    fold, broken = fold_history(trace)
-    if broken is not None:
+    if broken := folded.read_to(last):
         return Conclusion(broken[0], f"no world shows this history: {broken[1]}")
     code = delivered_code(finish.map)
     if isinstance(code, str):
         return Conclusion(last, code)
     left = fold.open_darts()
     why = f"darts never crossed: {left}" if left else "the history proves another map"
-    for witness in (fold.world(1), fold.world(2)) if left else (fold.world(),):
-        if witness.code != code:
-            return Conclusion(last, why, witness)
-    return Conclusion(last, "")
+    if not left and fold.table() == code:
+        return Conclusion(last, "")
+    witness = fold.world(1)
+    return Conclusion(last, why, fold.world(2) if witness.code == code else witness)
 
 
-def decision_conclusions(trace: Sequence[Event]) -> Iterator[Conclusion]:
-    """Every declared reject, confirm and augmentation, up to the first that draws a wrong S."""
-    assert isinstance(trace[0], Start)
-    on_fold = MapOnFold(Fold(trace[0].percept))
+def decision_conclusions(folded: FoldedTrace) -> Iterator[Conclusion]:
+    """Every declared reject, confirm and augmentation, up to the first that draws a wrong S.
+
+    Args:
+        folded: the trace, of which nothing was read.
+    """
+    trace = folded.trace
+    on_fold = MapOnFold(folded.fold)
     planar = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
     tries = iter(range(FURTHER)) if planar else None
     refuted: set[tuple[int, int]] = set()  # for ever: S and the history only grow
     for when, event in enumerate(trace):
-        if not isinstance(event, Concluded):
-            if why := followed(on_fold.fold, event):
-                yield Conclusion(when, f"no world shows this history: {why}")
-                return
+        if not isinstance(event, CONCLUDED):
             continue
+        if folded.read_to(when):
+            break
         if why := _unknown_dart(on_fold, event):
             yield Conclusion(when, why)
             return
@@ -141,6 +154,8 @@ def decision_conclusions(trace: Sequence[Event]) -> Iterator[Conclusion]:
             on_fold.grow(event)
         elif not why:
             refuted.add((event.edge, event.hypothesis))
+    if broken := folded.read_to(len(trace)):
+        yield Conclusion(broken[0], f"no world shows this history: {broken[1]}")
 
 
 Doubt = tuple[str, World | None]
@@ -237,8 +252,7 @@ def _may_be_apart(on_fold: MapOnFold, e: KnownDart, h: KnownDart, degree: int | 
 
 def _may_be_known(on_fold: MapOnFold, e: KnownDart, degree: int) -> Doubt | None:
     """The edge e must have been crossed, to a place of this degree that is no vertex of S."""
-    fold = on_fold.fold
-    entry = fold.partner(on_fold.place(e))
+    fold, entry = on_fold.fold, on_fold.fold.partner(on_fold.place(e))
     if entry is None:  # a leaf may be behind e, and if a leaf is claimed, a vertex of degree 2
         return "the edge was never crossed", fold.world(2 if degree == 1 else 1)
     if fold.degree(entry[0]) != degree or on_fold.is_known(entry[0]):

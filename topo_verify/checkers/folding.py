@@ -31,7 +31,7 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from topo_verify.robot.percept import Door, Percept
-from topo_verify.world.rooted_map import World
+from topo_verify.world.rooted_map import Code, World
 
 Place = tuple[int, int]
 """A dart of the fold: a node and one of its doors. Different places may be one dart."""
@@ -110,7 +110,7 @@ class Fold:
 
     def __init__(self, percept: Percept) -> None:
         self._seen: list[Percept] = []
-        # Dart d of a node is dart d + offset of its parent; as many nodes as its size are one.
+        # Dart d of a node is dart d + offset of its parent; `_size` counts the nodes that are one.
         self._parent, self._offset, self._size = array("i"), array("i"), array("i")
         self._ends = Ends()
         self.at: Place = (self._visit(percept), 0)
@@ -131,16 +131,13 @@ class Fold:
             raise Contradiction(f"door {door} of {self._seen[here].degree} cannot be crossed")
         if marker is not None and not 0 <= marker < percept.degree:
             raise Contradiction(f"the marker cannot point at door {marker} of {percept.degree}")
-        left = self.find((here, dart + door))
-        if known := self._ends.get(*left):
-            self.at = self.find(known)
-            self._require_alike(self._seen[self.at[0]], percept)
-        else:
-            self.at = self._visit(percept), 0
-            self._ends.put(*left, self.at)
-            self._ends.put(*self.at, left)
-        if marker is not None:
-            self.identify((self.at[0], self.at[1] + marker), (0, 0))
+        exit_place = self.find((here, dart + door))
+        known = self.partner(exit_place)
+        # Where the marker is seen is v0, whose dart 0 is the marked one.
+        self.at = (known or (self._visit(percept), 0)) if marker is None else (0, -marker)
+        self._require_alike(self._seen[self.find(self.at)[0]], percept)
+        if self.at != known:
+            self.join(exit_place, self.at)
 
     def find(self, place: Place) -> Place:
         """The one place that stands for all that are the same dart."""
@@ -155,47 +152,48 @@ class Fold:
         return None if end is None else self.find(end)
 
     def join(self, one: Place, other: Place) -> None:
-        """Make the two, of which nothing contradicts, the ends of one edge; draw what follows."""
-        for place, end in ((one, other), (other, one)):
-            if known := self.partner(place):
-                self.identify(known, end)
+        """Make the two the ends of one edge, and draw what follows. Raises Contradiction."""
+        self._draw([(one, other), (other, one)])
+
+    def identify(self, one: Place, other: Place) -> None:
+        """Make the two one dart, and draw what follows. Raises Contradiction."""
+        self._draw(self._merged(self.find(one), self.find(other)))
+
+    def _draw(self, edges: list[Pair]) -> None:
+        """Put these ends of edges; two ends of one dart are one dart. Raises Contradiction."""
+        while edges:
+            one, other = map(self.find, edges.pop())
+            if one == other:
+                raise Contradiction(OWN_END)
+            if known := self.partner(one):
+                edges += self._merged(known, other)
             else:
-                self._ends.put(*self.find(place), end)
+                self._ends.put(*one, other)
+
+    def _merged(self, one: Place, other: Place) -> list[Pair]:
+        """Make two nodes one. Returns the edges of one of them, which are to be drawn again."""
+        (a, i), (b, j) = one, other
+        if a == b:
+            if i != j:
+                raise Contradiction(TURNED)
+            return []
+        if self._size[a] > self._size[b]:  # so paths stay logarithmic
+            (a, i), (b, j) = other, one
+        self._require_alike(self._seen[a], self._seen[b])
+        self._parent[a], self._offset[a] = b, j - i
+        self._size[b] += self._size[a]
+        return [((a, dart), end) for dart, end in self._ends.of(a, self.degree(a))]
 
     def _require_alike(self, one: Percept, other: Percept) -> None:
         """Raise Contradiction unless two percepts may be of one place."""
         if not one.is_like(other):
             raise Contradiction(f"{UNLIKE}: {other} and {one}")
 
-    def identify(self, one: Place, other: Place) -> None:
-        """Make the two one dart, and draw what follows. Raises Contradiction."""
-        pairs = [(one, other)]
-        while pairs:
-            (a, i), (b, j) = map(self.find, pairs.pop())
-            if a == b:
-                if i != j:
-                    raise Contradiction(TURNED)
-                continue
-            if self._size[a] > self._size[b]:
-                (a, i), (b, j) = (b, j), (a, i)
-            self._require_alike(self._seen[a], self._seen[b])
-            # Unions by size keep the paths logarithmic.
-            self._parent[a], self._offset[a] = b, j - i
-            self._size[b] += self._size[a]
-            for dart, beyond in self._ends.of(a, self.degree(a)):
-                place, end = self.find((a, dart)), self.find(beyond)
-                if place == end:
-                    raise Contradiction(OWN_END)
-                if known := self._ends.get(*place):
-                    pairs.append((known, end))
-                else:
-                    self._ends.put(*place, end)
-
     def _behind(self, place: Place, drawn: dict[Place, Looks]) -> Looks:
         """The other ends of a dart: those drawn so far, or the one of the fold, if it has one."""
         if place not in drawn:
             end = self._ends.get(*place)
-            drawn[place] = {} if end is None else {self._seen[end[0]].signature: self.find(end)}
+            drawn[place] = {} if end is None else {self.look(end): self.find(end)}
         return drawn[place]
 
     def contradictions(self, one: Place, other: Place, apart: Sequence[Place]) -> Iterator[Met]:
@@ -241,6 +239,10 @@ class Fold:
             if self._seen[one].is_like(self._seen[other]):
                 yield from (((one, 0), (other, door)) for door in range(self.degree(one)))
 
+    def look(self, place: Place) -> tuple[int, bool]:
+        """The signature that is seen at a place."""
+        return self._seen[place[0]].signature
+
     def degree(self, node: int) -> int:
         """The degree of a node."""
         return self._seen[node].degree
@@ -253,22 +255,33 @@ class Fold:
         """One node for each place of the fold."""
         return [node for node, parent in enumerate(self._parent) if node == parent]
 
+    def table(self, pendant_length: int = 1) -> Code:
+        """The degrees, vertex by vertex from v0 on, and the other end of each dart.
+
+        A path of this many vertices hangs on every open dart. If no dart is open, this is the
+        canonical code of the one world that shows the history.
+        """
+        if not self.degree(0):
+            return (0,), ()
+        number, degrees, entries = dict[Place, int](), list[int](), [self.find((0, 0))]
+        ends: list[Place | None] = []
+        for node, first in entries:  # grows as it goes: a queue
+            if (node, first) not in number:
+                degree = self.degree(node)
+                places = [(node, (first + door) % degree) for door in range(degree)]
+                number |= zip(places, range(len(number), len(number) + degree), strict=True)
+                degrees.append(degree)
+                ends += map(self.partner, places)
+                entries += filter(None, ends[-degree:])
+        alpha = [-1 if end is None else number[end] for end in ends]
+        for end in [dart for dart, other in enumerate(alpha) if other < 0]:
+            for degree in [2] * (pendant_length - 1) + [1]:
+                alpha[end] = len(alpha)
+                alpha += [end, -1][:degree]
+                degrees.append(degree)
+                end = len(alpha) - 1  # noqa: PLW2901  where the path goes on
+        return tuple(degrees), tuple(alpha)
+
     def world(self, pendant_length: int = 1) -> World:
-        """The fold as a world, with a path of so many vertices hung on every open dart."""
-        number, vertices = dict[Place, int](), list[tuple[int, ...]]()
-        for node in self.roots():
-            darts = range(len(number), len(number) + self.degree(node))
-            vertices.append(tuple(darts))
-            number |= {(node, door): dart for door, dart in enumerate(darts)}
-        count, edges = len(number), list[tuple[int, int]]()
-        for place, here in number.items():
-            end = self.partner(place)
-            if end is None:
-                path = range(count, count + 2 * pendant_length - 1)  # two darts a vertex, then one
-                vertices += [*zip(path[:-1:2], path[1::2], strict=True), (path[-1],)]
-                edges += zip((here, *path[1::2]), path[::2], strict=True)
-                count = path.stop
-            elif here < number[end]:  # an edge is met at both its ends
-                edges.append((here, number[end]))
-        # The robot starts at v0, its reference dart the marked one; the least world has no dart.
-        return World.from_rotations(vertices, edges, number[self.find((0, 0))] if count else None)
+        """The fold as a world, with a path of this many vertices hung on every open dart."""
+        return World.from_code(self.table(pendant_length))

@@ -6,13 +6,14 @@ Trusted. S is drawn from the declared augmentations, and only as far as they are
     number   world -> S: the inverse of phi
     alpha    S -> S: the other end of each explored edge
     born     the event at which a dart of S appeared     (S at event i: the darts born before i)
-    joined   the event at which it was explored          (explored at event i: joined before i)
+    joined   the event at which it was explored, or NEVER (explored at event i: joined before i)
 
 S only grows, so one drawing is S at every moment: what is asked of it is asked at an event.
 """
 
 from __future__ import annotations
 
+import sys
 from typing import TypeGuard, cast
 
 from topo_verify.checkers.darts import KnownDart, WorldDart
@@ -20,6 +21,9 @@ from topo_verify.robot.events import Augment
 from topo_verify.robot.percept import Door, Percept
 from topo_verify.robot.simulator import exit_dart, first_percept, percepts
 from topo_verify.world.rooted_map import World
+
+NEVER = sys.maxsize
+"""The event at which a dart is explored that never is."""
 
 
 class MapInWorld:
@@ -29,12 +33,11 @@ class MapInWorld:
         self.world = world
         self._percepts = percepts(world) or (first_percept(world),)
         self._across = cast("tuple[WorldDart, ...]", world.alpha)
-        self._rotation: dict[KnownDart, tuple[KnownDart, ...]] = {}
         self.phi: dict[KnownDart, WorldDart] = {}
         self.number: dict[WorldDart, KnownDart] = {}
         self.alpha: dict[KnownDart, KnownDart] = {}
-        self.born: dict[KnownDart, int] = {}
-        self.joined: dict[KnownDart, int] = {}
+        self.born: list[int] = []
+        self.joined: list[int] = []
         if world.root is not None:
             self._add_vertex(WorldDart(world.root), 0)
 
@@ -72,21 +75,19 @@ class MapInWorld:
 
     def _add_vertex(self, entry: WorldDart, when: int) -> None:
         first, degree = len(self.phi), self.seen_at(entry).degree
-        rotation = tuple(map(KnownDart, range(first, first + degree)))
-        for door, dart in enumerate(rotation):
-            image = WorldDart(exit_dart(self.world, entry, door))
+        for dart in map(KnownDart, range(first, first + degree)):
+            image = WorldDart(exit_dart(self.world, entry, dart - first))
             self.phi[dart], self.number[image] = image, dart
-            self.born[dart], self._rotation[dart] = when, rotation
+        self.born += [when] * degree
+        self.joined += [NEVER] * degree
 
     def is_open(self, dart: int, when: int) -> TypeGuard[KnownDart]:
         """Whether this is a dart of S, and unexplored, when event `when` happens."""
-        number = KnownDart(dart)
-        return self.born.get(number, when) < when <= self.joined.get(number, when)
+        return 0 <= dart < len(self.born) and self.born[dart] < when <= self.joined[dart]
 
     def turn(self, dart: KnownDart, door: Door) -> KnownDart:
         """The dart of S that a door means to a robot whose reference dart on S is `dart`."""
-        rotation = self._rotation[dart]
-        return rotation[(dart - rotation[0] + door) % len(rotation)]
+        return self.number[WorldDart(exit_dart(self.world, self.phi[dart], door))]
 
     def truth(self, e: int, when: int) -> KnownDart | None:
         """The other end of the unexplored dart e of S, if its vertex is known at event `when`."""

@@ -15,7 +15,7 @@ turning; whether two places are one is for the fold to say.
 
 from __future__ import annotations
 
-from typing import TypeGuard
+from typing import TypeGuard, cast
 
 from topo_verify.checkers.darts import KnownDart
 from topo_verify.checkers.folding import Fold, Place
@@ -35,8 +35,9 @@ class MapOnFold:
         self.fold = fold
         self.size = 0
         self.entries: list[Place] = []
-        self._places: dict[KnownDart, Place] = {}
-        self._after: dict[KnownDart, KnownDart] = {}  # on the face; an open dart turns back
+        self._places: list[Place] = []
+        self._clockwise: list[KnownDart] = []  # the next dart at the same vertex
+        self._alpha: dict[KnownDart, KnownDart] = {}
         self._open: set[KnownDart] = set()
         self._add_vertex((0, 0))
 
@@ -59,27 +60,26 @@ class MapOnFold:
     def face(self, e: KnownDart) -> list[KnownDart]:
         """The darts of S on the face of e; where a dart is open, the boundary turns back."""
         face = [e]
-        while (dart := self._after[face[-1]]) != e:
+        while (dart := self._clockwise[self._alpha.get(face[-1], face[-1])]) != e:
             face.append(dart)
         return face
 
     def grow(self, event: Augment) -> None:
         """Let S grow by a right augmentation, whose edge was crossed."""
         if event.kind == "new":
-            entry = self.fold.partner(self._places[KnownDart(event.edge)])
+            entry = self.fold.partner(self._places[event.edge])
             assert entry is not None, "an edge is crossed before S grows along it"
             self._add_vertex(entry)
-        self._open -= {event.edge, event.dart}
-        after, e, other = self._after, KnownDart(event.edge), KnownDart(event.dart)
-        after[e], after[other] = after[other], after[e]  # each goes on beyond the other
+        e, other = KnownDart(event.edge), KnownDart(event.dart)
+        self._open -= {e, other}
+        self._alpha |= {e: other, other: e}
 
     def _add_vertex(self, entry: Place) -> None:
         node, first = entry
-        self.entries.append(entry)
-        degree, size = self.fold.degree(node), self.size
-        for door in range(degree):
-            dart = KnownDart(size + door)
-            self._places[dart] = node, first + door
-            self._after[dart] = KnownDart(size + (door + 1) % degree)
-            self._open.add(dart)
+        degree = self.fold.degree(node)
+        darts = cast("list[KnownDart]", [*range(self.size, self.size + degree)])
         self.size += degree
+        self.entries.append(entry)
+        self._places += [(node, first + door) for door in range(degree)]
+        self._clockwise += [*darts[1:], *darts[:1]]
+        self._open.update(darts)

@@ -8,15 +8,15 @@ false augmentation on (`spoiled`) S is no map of this world. Later decisions are
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import NamedTuple
 
 from topo_verify.checkers.darts import KnownDart, WorldDart
-from topo_verify.checkers.entailment import Conclusion, decision_conclusions
+from topo_verify.checkers.entailment import Conclusion, FoldedTrace, decision_conclusions
 from topo_verify.checkers.excursions import Excursion, Records, Word
 from topo_verify.checkers.map_in_world import MapInWorld
-from topo_verify.errors import InputError
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import World
@@ -29,6 +29,9 @@ class Round(NamedTuple):
 
     Attributes:
         pose: the last one so far, if it was of this edge and S did not grow since.
+        end: the other end of its edge in the world; None if the edge is not an unexplored dart
+            of S.
+        truth: that end as a dart of S, if its vertex is known.
     """
 
     when: int
@@ -36,6 +39,8 @@ class Round(NamedTuple):
     pose: ev.Pose | None
     word: Word
     sequences: tuple[Word, ...]
+    end: WorldDart | None
+    truth: KnownDart | None
 
 
 class Fate(NamedTuple):
@@ -51,15 +56,6 @@ class Fate(NamedTuple):
     left: set[int]
 
 
-def require_order(trace: Sequence[ev.Event]) -> None:
-    """Raise InputError unless the trace begins with its only `start` and ends with any `finish`."""
-    for when, event in enumerate(trace or (None,)):
-        ends = isinstance(event, ev.Finish) and when + 1 < len(trace)
-        if isinstance(event, ev.Start) != (when == 0) or ends:
-            rule = "a trace begins with its only 'start' and does not go on after 'finish'"
-            raise InputError(f"event {when} of the trace is out of order: {rule}")
-
-
 class ReplayedTrace:
     """A world and a trace, replayed once; what the claims are asked about.
 
@@ -69,7 +65,8 @@ class ReplayedTrace:
         stopped: why the mapper ended without a map, if it did.
     Attributes:
         cost: the number of moves.
-        kinds: the types of its events.
+        fold: its fold, as far as it was read; claim 9 reads on where claim 10 ends.
+        kinds: the number of its events of each type.
         map: S, drawn on the world.
         positions: the reference dart in the world after each event, up to an illegal move.
         followed: the events up to an illegal move.
@@ -82,10 +79,11 @@ class ReplayedTrace:
     """
 
     def __init__(self, world: World, trace: Sequence[ev.Event], stopped: str | None = None) -> None:
-        require_order(trace)
+        ev.require_order(trace)
         self.world, self.trace, self.stopped = world, trace, stopped
-        self.cost = sum(isinstance(event, ev.Move) for event in trace)
-        self.kinds = {*map(type, trace)}
+        self.fold = FoldedTrace(trace)
+        self.kinds = Counter(map(type, trace))
+        self.cost = self.kinds[ev.Move]
         self.map = MapInWorld(world)
         self.records = Records(self.map)
         self.illegal: int | None = None
@@ -99,17 +97,19 @@ class ReplayedTrace:
     def _walk(self) -> None:
         """Follow the doors up to the first that is not there, and draw S on the way."""
         at = WorldDart(self.world.root or 0)
+        seen = self.map.seen_at(at)
         for when, event in enumerate(self.trace):
             if isinstance(event, ev.Move):
-                if not 0 <= event.door < self.map.seen_at(at).degree:
+                if not 0 <= event.door < seen.degree:
                     self.illegal = when
                     return
                 at = self.map.beyond(at, event.door)
+                seen = self.map.seen_at(at)
                 self.crossings.setdefault(self.crossing(at), when)
             elif isinstance(event, ev.Augment) and self.spoiled is None:
                 self.spoiled = None if self.map.grow(when, event) else when
-            if isinstance(event, (ev.Start, ev.Move)) and event.percept != self.map.seen_at(at):
-                self.false_percepts.append((when, event.percept, self.map.seen_at(at)))
+            if (told := getattr(event, "percept", seen)) != seen:
+                self.false_percepts.append((when, told, seen))
             self.positions.append(at)
 
     @property
@@ -123,30 +123,27 @@ class ReplayedTrace:
         return tuple(self._rounds())
 
     def _rounds(self) -> Iterator[Round]:
-        pose: ev.Pose | None = None
+        poses: dict[int, ev.Pose] = {}  # the last pose, if S did not grow since, by its edge
         behind = Excursion()
         for when, event in enumerate(self.followed):
             if isinstance(event, ev.Move):
-                left, entered = map(self.map.seen_at, self.positions[when - 1 : when + 1])
-                behind.move(event.door, left.degree, entered)
-            elif isinstance(event, ev.Pose):
-                pose, behind = event, Excursion(is_late=not self._is_behind(when, event.edge))
-                yield Round(when, event, pose, (), ())
-            elif isinstance(event, (ev.Reject, ev.Confirm, ev.Augment)):
-                of_edge = pose if pose and pose.edge == event.edge else None
-                yield Round(when, event, of_edge, tuple(behind.word), behind.sequences)
+                before, seen = map(self.map.seen_at, self.positions[when - 1 : when + 1])
+                behind.move(event.door, before.degree, seen)
+            elif not isinstance(event, (ev.Start, ev.Finish)):
+                edge = event.edge
+                end = self.map.end(edge) if self.map.is_open(edge, when) else None
+                if isinstance(event, ev.Pose):
+                    poses, behind = {edge: event}, Excursion(is_late=end != self.positions[when])
+                pose, word, truth = poses.get(edge), tuple(behind.word), self.map.truth(edge, when)
+                yield Round(when, event, pose, word, behind.sequences, end, truth)
                 if isinstance(event, ev.Augment):
                     if when == self.spoiled:
                         return
-                    if of_edge:  # it is true, so S has its dart
+                    if pose:  # it is true, so S has its dart
                         self.records.add(when, KnownDart(event.dart), behind.sequences)
-                    pose, behind.sequences = None, ()
-                elif isinstance(event, ev.Reject) and event.rule == "motion" and behind.word:
-                    behind.sequences = (*behind.sequences, tuple(behind.word))
-
-    def _is_behind(self, when: int, e: int) -> bool:
-        """Whether the robot stands behind the unexplored dart e of S, come in by its other end."""
-        return self.map.is_open(e, when) and self.positions[when] == self.map.end(e)
+                    poses, behind.sequences = {}, ()
+                elif isinstance(event, ev.Reject) and event.rule == "motion" and word:
+                    behind.sequences = (*behind.sequences, word)
 
     def crossing(self, dart: WorldDart) -> int:
         """The edge of the world that has this dart, by the lesser of its two."""
@@ -156,10 +153,10 @@ class ReplayedTrace:
     def fates(self) -> dict[int, Fate]:
         """What became of each edge of the world that was posed, in the order of the poses."""
         fates: dict[int, Fate] = {}
-        for when, event, pose, _, _ in self.rounds:
-            if not self.map.is_open(event.edge, when):
+        for when, event, pose, _, _, end, _ in self.rounds:
+            if end is None:
                 continue
-            edge = self.crossing(self.map.end(event.edge))
+            edge = self.crossing(end)
             left: set[int] = fates[edge].left if edge in fates else set()
             if isinstance(event, ev.Pose):
                 fates[edge] = Fate(when, event, left.union(event.hypotheses))
@@ -176,5 +173,6 @@ class ReplayedTrace:
 
         Of a history that the world does not show, none: it proves nothing.
         """
-        found = decision_conclusions(self.trace) if self.is_history else ()
+        folded = FoldedTrace(self.trace) if self.fold.read else self.fold
+        found = decision_conclusions(folded) if self.is_history else ()
         return {conclusion.when: conclusion for conclusion in found}

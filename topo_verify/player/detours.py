@@ -103,7 +103,7 @@ def way_home(playback: Playback, dart: KnownDart, number: int) -> tuple[Door, ..
     came: dict[int, KnownDart | None] = {0: None}  # each vertex's dart towards v0
     for vertex in (queue := [0]):
         for a in playback.darts(vertex):
-            if playback.map.joined.get(a, number) < number:
+            if playback.map.joined[a] < number:
                 far = playback.map.alpha[a]
                 if playback.vertex(far) not in came:
                     came[playback.vertex(far)] = far

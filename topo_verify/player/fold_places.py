@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from topo_verify.checkers.darts import WorldDart
-from topo_verify.checkers.entailment import followed
+from topo_verify.checkers.entailment import FoldedTrace
 from topo_verify.checkers.folding import UNLIKE, Fold, Place
 from topo_verify.checkers.map_on_fold import MapOnFold
 from topo_verify.player.scenes import Moment
@@ -77,11 +77,11 @@ def fold_places(moments: Sequence[Moment]) -> FoldPlaces:
     start, first = moments[0].event, moments[0].position
     assert isinstance(start, Start)
     fold = _WatchedFold(start.percept)
-    on_fold = MapOnFold(fold)
+    folded, on_fold = FoldedTrace([moment.event for moment in moments], fold), MapOnFold(fold)
     visited = [first]
     for number, moment in enumerate(moments):
         mark = len(fold.merged)
-        if moment.position is None or followed(fold, moment.event):
+        if moment.position is None or folded.read_to(number + 1):
             break
         visited += [moment.position] * (fold.visits - len(visited))
         if nodes := fold.identified(mark):

@@ -280,7 +280,11 @@ def known_map(playback: Playback, moment: Moment) -> Iterator[str]:
         first, degree = declared.vertices[number]
         darts = range(first, first + min(degree, MOST_DARTS))
         ends = [_end(playback, dart, other.get(dart), moment.number) for dart in darts]
-        at = playback.map.phi.get(KnownDart(first)) if _is_true(playback, first, moment) else None
+        at = (
+            playback.map.phi.get(KnownDart(first))
+            if _is_known(playback, first, moment.number)
+            else None
+        )
         name = "no such vertex" if at is None else world_place(playback, at).partition(":")[0]
         more = " …" if degree > MOST_DARTS else ""
         yield f"v{number} ({name}): {'  '.join(ends) or 'no dart'}{more}"
@@ -288,13 +292,14 @@ def known_map(playback: Playback, moment: Moment) -> Iterator[str]:
         yield f"and {plural(left, 'vertex', 'vertices')} more"
 
 
-def _is_true(playback: Playback, dart: int, moment: Moment) -> bool:
-    return playback.map.born.get(KnownDart(dart), moment.number + 1) <= moment.number
+def _is_known(playback: Playback, dart: int, number: int) -> bool:
+    """Whether the true S has this dart after an event."""
+    return 0 <= dart < len(playback.map.born) and playback.map.born[dart] <= number
 
 
 def _end(playback: Playback, dart: int, says: int | None, number: int) -> str:
     words = f"{dart}-{'?' if says is None else says}"
-    if playback.map.born.get(KnownDart(dart), number + 1) > number:
+    if not _is_known(playback, dart, number):
         return words
     leads = playback.map.end(KnownDart(dart))
     known = playback.known(leads, number)

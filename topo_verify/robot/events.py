@@ -15,7 +15,7 @@ from __future__ import annotations
 import json
 from codecs import BOM_UTF8
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from io import BytesIO
 from typing import Annotated, Any, Literal, Protocol
 
@@ -255,6 +255,15 @@ def _event(line: bytes, place: str) -> Event:
     if doubled:
         raise InputError(f"{place}: the key {doubled[0]!r} stands twice: leave one of the two out")
     return event
+
+
+def require_order(trace: Sequence[Event]) -> None:
+    """Raise InputError unless the trace begins with its only `start` and ends with any `finish`."""
+    for when, event in enumerate(trace or (None,)):
+        ends = isinstance(event, Finish) and when + 1 < len(trace)
+        if isinstance(event, Start) != (when == 0) or ends:
+            rule = "a trace begins with its only 'start' and does not go on after 'finish'"
+            raise InputError(f"event {when} of the trace is out of order: {rule}")
 
 
 def _require_start(head: Event | None, name: str) -> None:

@@ -20,7 +20,7 @@ from typing import Literal
 import msgspec
 
 from topo_verify.checkers.certificate import judge_log, showing
-from topo_verify.checkers.entailment import Concluded
+from topo_verify.checkers.entailment import CONCLUDED
 from topo_verify.checkers.findings import Finding
 from topo_verify.checkers.folding import Fold
 from topo_verify.robot.events import Event, Move
@@ -87,7 +87,7 @@ def certify(trace: Sequence[Event]) -> Certificate:
         vertices=len(fold.roots()) + open_darts if shown else 0,
         edges=(sum(map(fold.degree, fold.roots())) + open_darts) // 2 if shown else 0,
         entailed=sum(not conclusion.why for conclusion in judged.conclusions),
-        decisions=sum(isinstance(event, Concluded) for event in trace),
+        decisions=sum(isinstance(event, CONCLUDED) for event in trace),
         findings=judged.findings,
         log=trace,
         fold=fold if shown else None,

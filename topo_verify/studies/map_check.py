@@ -22,7 +22,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from topo_verify.checkers.entailment import fold_history
+from topo_verify.checkers.entailment import FoldedTrace
 from topo_verify.checkers.folding import Fold, Place
 from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.errors import InternalError
@@ -71,8 +71,9 @@ def check_map(world: World, log: Sequence[Event]) -> MapCheck:
     if not replayed.is_history:
         return _refutation(replayed)
     history = [event for event in log if isinstance(event, Start | Move)]
-    fold, broken = fold_history(history)
-    if broken is not None:
+    folded = FoldedTrace(history)
+    fold = folded.fold
+    if broken := folded.read_to(len(history)):
         raise InternalError(f"a world shows a log whose fold contradicts: {broken[1]}")
     if not fold.open_darts():
         return MapCheck("PROVED")
@@ -129,7 +130,9 @@ class _Planner:
         self.tree = BreadthFirstTree(world.code)
         self.canonical = World.from_code(world.code)
         self.darts = _numbering(world, self.tree)
-        self.fold, _ = fold_history(history)
+        folded = FoldedTrace(history)
+        folded.read_to(len(history))
+        self.fold = folded.fold
         self.at = 0 if at is None else self.darts.index(at)
 
     def go(self, darts: Sequence[Dart]) -> None:

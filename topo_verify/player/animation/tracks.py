@@ -118,7 +118,7 @@ class Tracks:
         if any(isinstance(moment.event, ev.Augment) for moment in self.moments):
             for known, dart in drawn.phi.items():
                 vertices[self.world.vertex_of[dart]] = drawn.born[known]
-                edges[self.edge_of[dart]] = drawn.joined.get(known, end)
+                edges[self.edge_of[dart]] = min(drawn.joined[known], end)
             return vertices, edges
         for moment in reversed(self.moments):
             if moment.left_by is not None and moment.position is not None:
@@ -150,7 +150,9 @@ class Tracks:
     def _image(self, dart: int, when: int) -> WorldDart | None:
         drawn = self.playback.map
         known = KnownDart(dart)
-        return drawn.phi[known] if drawn.born.get(known, when) < when else None
+        return (
+            drawn.phi[known] if 0 <= known < len(drawn.born) and drawn.born[known] < when else None
+        )
 
     # ------------------------------------------------------------ hypotheses
 

@@ -25,7 +25,6 @@ from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from topo_verify.checkers.replayed_trace import require_order
 from topo_verify.errors import InputError
 from topo_verify.proofs.mechanised import certificate_format, toolchain
 from topo_verify.proofs.mechanised.certificate_format import (
@@ -40,7 +39,7 @@ from topo_verify.proofs.mechanised.evidence import (
     evidence_for_decisions,
     fold_log,
 )
-from topo_verify.robot.events import Event, Finish, MapData, Move, Start
+from topo_verify.robot.events import Event, Finish, MapData, Move, Start, require_order
 from topo_verify.robot.percept import Percept
 
 LIBRARY = "Certificate"

@@ -26,6 +26,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from topo_verify.checkers import decision_conclusions
+from topo_verify.checkers.entailment import FoldedTrace
 from topo_verify.errors import InternalError
 from topo_verify.robot.events import Augment, Confirm, Event, Move, Reject, Start
 from topo_verify.robot.percept import Door, Percept
@@ -370,7 +371,7 @@ def following(trace: Sequence[Event]) -> Iterator[tuple[int, DeclaredDecision]]:
     """Yield the index and event of each decision that follows."""
     if not any(isinstance(event, DeclaredDecision) for event in trace):
         return
-    for conclusion in decision_conclusions(trace):
+    for conclusion in decision_conclusions(FoldedTrace(trace)):
         event = trace[conclusion.when]
         if not conclusion.why and isinstance(event, DeclaredDecision):
             yield conclusion.when, event

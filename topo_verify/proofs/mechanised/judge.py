@@ -19,7 +19,6 @@ from tempfile import TemporaryDirectory
 from typing import get_args
 
 from topo_verify.checkers import CLAIMS, Judgement, Status
-from topo_verify.checkers.replayed_trace import require_order
 from topo_verify.errors import InputError
 from topo_verify.proofs.mechanised import toolchain
 from topo_verify.robot import events as ev
@@ -143,7 +142,7 @@ def numbers(world: World, trace: Sequence[ev.Event]) -> list[int]:
     Raises:
         InputError: the trace is out of order, or has a number below 0 or above 2^60.
     """
-    require_order(trace)
+    ev.require_order(trace)
     start, finish = trace[0], trace[-1]
     assert isinstance(start, ev.Start)
     delivered = isinstance(finish, ev.Finish)

@@ -29,7 +29,7 @@ from types import CodeType, FrameType
 from typing import Any
 
 from topo_verify.checkers.darts import KnownDart
-from topo_verify.checkers.entailment import fold_history
+from topo_verify.checkers.entailment import FoldedTrace
 from topo_verify.checkers.folding import Fold, Place
 from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.errors import InputError
@@ -115,8 +115,8 @@ def _judged(world: World, trace: Sequence[Event]) -> Hashable | None:
     run = ReplayedTrace(world, trace)
     if run.illegal is not None or run.spoiled is not None:
         return None
-    fold, broken = fold_history(trace)
-    assert broken is None, "the world shows what the robot saw"
+    folded = FoldedTrace(trace)
+    assert folded.read_to(len(trace)) is None, "the world shows what the robot saw"
     planar = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
     drawn = tuple(run.map.phi.values()), tuple(sorted(run.map.alpha))
     waiting = tuple(
@@ -124,7 +124,8 @@ def _judged(world: World, trace: Sequence[Event]) -> Hashable | None:
         for edge, fate in run.fates.items()
         if isinstance(fate.event, Pose)
     )
-    return run.cost, drawn, waiting, _behind(run), _records(run), tuple(_places(fold)), planar
+    places = tuple(_places(folded.fold))
+    return run.cost, drawn, waiting, _behind(run), _records(run), places, planar
 
 
 def _behind(run: ReplayedTrace) -> Hashable:
@@ -143,7 +144,7 @@ def _records(run: ReplayedTrace) -> Hashable:
     """What earlier sequences showed behind darts that are unexplored now."""
     rests = (
         run.records.trace(KnownDart(event.dart), sequence, when + 1)
-        for when, event, pose, _, sequences in run.rounds
+        for when, event, pose, _, sequences, _, _ in run.rounds
         if isinstance(event, Augment) and pose
         for sequence in sequences
     )
