@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Callable
 from typing import Any
 
 import pytest
 
-from topo_verify import CATALOGUE, Percept, Robot, World
+from topo_verify import CATALOGUE, Percept, Robot, World, examine
 from topo_verify.campaign.targets import targets
 from topo_verify.compiled import available
 from topo_verify.programs.loader import Target
@@ -138,6 +139,21 @@ def test_a_part_counts_all_failing_worlds_but_keeps_few_findings() -> None:
     assert (part.verdict, part.failing, part.checked) == ("REFUTED", 12, 12)
     assert [finding.world for finding in part.findings] == ["m1/0", "m1/1", "m2/0"]
     assert part.summary == "12 of 12 worlds: 12 of them refute map-isomorphic, first m1/0"
+
+
+def test_each_claim_that_a_part_names_fails_in_the_world_named() -> None:
+    def guesses(robot: Robot) -> object:
+        """That two doors at the start are a loop: true by luck in the loop."""
+        loop = {"vertices": [[0, 1]], "edges": [[0, 1]], "marker": 0}
+        return loop if robot.percept.degree == 2 else basic(robot)
+
+    part = done(guesses)
+    named = dict(re.findall(r"([a-z-]+) \(first (m\d/\d+)\)", part.summary))
+    assert list(named) == ["map-isomorphic", "cost-within-bound", "map-entailed"]
+    assert named["map-entailed"] != named["map-isomorphic"]
+    for claim, world in named.items():
+        report = examine(guesses, World.from_id(world))
+        assert report.claims[claim] == "failed"
 
 
 def test_a_part_stops_after_a_few_failing_worlds_where_that_is_asked_for() -> None:

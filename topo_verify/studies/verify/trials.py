@@ -131,7 +131,7 @@ class Trials:
         tally = self.tally
         mappers = f" × {len(self.targets)} mappers" if len(self.targets) > 1 else ""
         words = f"{self.checked} of {plural(self.total, 'world')}{self.about}{mappers}: "
-        words += self._failures(claims) if tally.failing else claims_in_words(claims)
+        words += self._failures() if tally.failing else claims_in_words(claims)
         words += self._cut_off()
         if interrupted:
             words += "; interrupted"
@@ -145,10 +145,17 @@ class Trials:
         late = self.tally.late
         return f"; {plural(late, 'run')} out of time" if late else ""
 
-    def _failures(self, claims: dict[str, dict[str, int]]) -> str:
-        failed = ", ".join(name for name, runs in claims.items() if runs["failed"])
-        worlds = plural(self.tally.failing, "of them", "of them")
-        words = f"{worlds} refute {failed}, first {self.failing[0].world}"
+    def _failures(self) -> str:
+        first: dict[str, str] = {}  # the first failing world of each claim
+        for row in self.failing:
+            for claim in row.failed:
+                first.setdefault(claim, row.world)
+        claims = [claim for claim in CLAIMS if claim in first]
+        words = f"{plural(self.tally.failing, 'of them', 'of them')} refute "
+        if len({*first.values()}) == 1:
+            words += f"{', '.join(claims)}, first {first[claims[0]]}"
+        else:
+            words += ", ".join(f"{claim} (first {first[claim]})" for claim in claims)
         mappers = ", ".join(dict.fromkeys(row.mapper for row in self.failing))
         return words + (f" ({mappers})" if len(self.targets) > 1 else "")
 
