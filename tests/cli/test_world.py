@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
@@ -297,7 +298,13 @@ def test_a_name_with_another_ending_is_refused(refused: Refused, name: str) -> N
 def test_a_twin_is_shown_and_drawn_beside_the_world(call: Call, results: Results) -> None:
     text = call("world show m2/7 --twin undirected -o both.svg").stdout
     assert "m2/7 has a twin without the marker's direction, m2/8, of genus 1" in text
-    assert Path("both.svg").read_text().count("<svg ") == 3
+    picture = Path("both.svg").read_text()
+    assert picture.count("<svg ") == 3
+    assert re.findall("<text[^>]*>(m.*?)</text>", picture) == ["m2/7, genus 0", "m2/8, genus 1"]
+    view, card = re.search('viewBox="0 0 ([^"]+)"', picture), picture.partition("<rect ")[2]
+    assert view is not None
+    width, height = view[1].split()
+    assert f'width="{width}" height="{height}"' in card[:80], "the card lies under both"
     (entry,) = results("world show m6/18704 --twin undirected")["results"]
     twin = entry["twin"]
     assert (twin["id"], twin["genus"], twin["why"], twin["file"]) == ("m6/18705", 0, "", None)

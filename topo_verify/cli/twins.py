@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import msgspec
 
+from topo_verify.errors import plural, shown
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
@@ -40,7 +41,7 @@ def twin_entry(world: World, model: MarkerModel, file: str | None) -> TwinEntry:
     if other is None:
         return TwinEntry(model, None, None, why, (), (), None)
     if file is not None:
-        files.write(file, _side_by_side(world.draw(), other.draw()))
+        files.write(file, _side_by_side(world, other))
     return TwinEntry(
         model,
         other.id if len(other.edges) <= MAX_ID_EDGES else None,
@@ -52,15 +53,33 @@ def twin_entry(world: World, model: MarkerModel, file: str | None) -> TwinEntry:
     )
 
 
-def _side_by_side(*pictures: str) -> str:
+def _side_by_side(*worlds: World) -> str:
+    """The pictures of the worlds on one card, with id and genus below each."""
+    pictures = [world.draw() for world in worlds]
+    sizes = [re.search(r'width="([0-9.]+)" height="([0-9.]+)"', picture) for picture in pictures]
+    columns = [(float(size[1]), float(size[2])) for size in sizes if size is not None]
+    font = max(9.0, sum(width for width, _ in columns) / 70)
+    top = max(height for _, height in columns)
     parts: list[str] = []
-    x = height = 0.0
-    for picture in pictures:
-        size = re.search(r'width="([0-9.]+)" height="([0-9.]+)"', picture)
-        assert size is not None, "a drawing states its size"
-        parts.append(picture.replace("<svg ", f'<svg x="{x:g}" ', 1))
-        x, height = x + float(size[1]), max(height, float(size[2]))
-    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {x:g} {height:g}">'
+    x = 0.0
+    for world, picture, (width, height) in zip(worlds, pictures, columns, strict=True):
+        name = world.id if len(world.edges) <= MAX_ID_EDGES else plural(len(world.edges), "edge")
+        words = f"{shown(name, limit=24)}, genus {world.genus}"
+        column = max(width, 0.65 * font * len(words))
+        at = f'x="{x + (column - width) / 2:g}" y="{(top - height) / 2:g}"'
+        # Without its style, which some browsers take for a height of 100 %.
+        bare = picture.replace(' style="max-width:100%;height:auto"', "", 1)
+        parts.append(bare.replace("<svg ", f"<svg {at} ", 1))
+        parts.append(
+            f'<text class="tv-name" x="{x + column / 2:g}" y="{top + font:g}" font-size="{font:g}"'
+            f' font-family="sans-serif" text-anchor="middle">{words}</text>'
+        )
+        x += column
+    across, down = f"{x:g}", f"{top + 2 * font:g}"
+    head = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {across} {down}">\n'
+        f'<rect class="tv-card" fill="#fdfcf9" width="{across}" height="{down}"/>'
+    )
     return "\n".join([head, *parts, "</svg>\n"])
 
 
