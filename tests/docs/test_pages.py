@@ -188,5 +188,5 @@ def test_links_are_found_in_running_text_alone() -> None:
 def test_the_help_names_pages_that_are_there() -> None:
     sources = "".join(path.read_text() for path in (ROOT / "topo_verify" / "cli").glob("*.py"))
     named = set(re.findall(r"docs/([\w/-]+\.md)", sources))
-    assert "oracle.md" in named
+    assert "semantics.md" in named
     assert not {name for name in named if not (DOCS / name).exists()}
