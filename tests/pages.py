@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Literal
 
 ROOT = Path(__file__).resolve().parents[1]
-_COMMAND = r"^    \.venv/bin/topo-verify ([^\n]*)\n\n```\n(.*?)```$"
 _BLOCK = re.compile(
     r"^```(?P<language>[\w{}]*)\n(?P<body>.*?)^```$|^    (?P<line>\S[^\n]*)$",
     re.MULTILINE | re.DOTALL,
@@ -35,12 +34,6 @@ class Step:
     text: str
     name: str = ""
     shown: str | None = None
-
-
-def commands_on(page: str) -> list[tuple[str, str]]:
-    """The command lines on a page of docs/, without the program's name, and what each prints."""
-    text = (ROOT / "docs" / page).read_text()
-    return re.findall(_COMMAND, text, re.MULTILINE | re.DOTALL)
 
 
 def agrees(shown: str, printed: str) -> bool:

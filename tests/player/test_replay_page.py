@@ -1,23 +1,25 @@
-"""docs/replay.md: each walk on the page shows the mistake; tests/docs/test_pages.py runs them."""
+"""The walk that `replay` prints says the mistake of each mapper in examples/wrong_mappers.py."""
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
-from tests.pages import commands_on
+from tests.python import python
 
-SHOWN = dict(commands_on("replay.md"))
+WRONG = Path(__file__).resolve().parents[2] / "examples" / "wrong_mappers.py"
 
 
 @pytest.mark.parametrize(
-    ("mapper", "mistake"),
+    ("mapper", "world", "mistake"),
     [
-        ("a", "it came here by v1:4 and back by v1:2, so door 1 is door 3"),
-        ("b", "the way home from v1:3 is by door 1; the robot took no door"),
-        ("c", "who comes in by v0:1 sees (3, marker 2); the robot saw (3, marker 1)"),
-        ("astray", "asked for door 4 at a vertex with 4 doors"),
+        ("a", "m3/5", "it came here by v1:4 and back by v1:2, so door 1 is door 3"),
+        ("b", "m2/1", "the way home from v1:3 is by door 1; the robot took no door"),
+        ("c", "m2/5", "who comes in by v0:1 sees (3, marker 2); the robot saw (3, marker 1)"),
+        ("astray", "m3/5", "asked for door 4 at a vertex with 4 doors"),
     ],
 )
-def test_the_walk_says_the_mistake(mapper: str, mistake: str) -> None:
-    (text,) = [text for line, text in SHOWN.items() if line.endswith(f":{mapper}")]
-    assert mistake in " ".join(text.split())
+def test_the_walk_says_the_mistake(mapper: str, world: str, mistake: str) -> None:
+    done = python("-m", "topo_verify", "replay", world, "--target", f"{WRONG}:{mapper}")
+    assert mistake in " ".join(done.stdout.split()), done.stderr

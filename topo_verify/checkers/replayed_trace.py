@@ -129,7 +129,7 @@ class ReplayedTrace:
             if isinstance(event, ev.Move):
                 before, seen = map(self.map.seen_at, self.positions[when - 1 : when + 1])
                 behind.move(event.door, before.degree, seen)
-            elif not isinstance(event, (ev.Start, ev.Finish)):
+            elif isinstance(event, (ev.Pose, ev.Reject, ev.Confirm, ev.Augment)):
                 edge = event.edge
                 end = self.map.end(edge) if self.map.is_open(edge, when) else None
                 if isinstance(event, ev.Pose):
