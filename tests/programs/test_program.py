@@ -1,5 +1,7 @@
 """A program behind protocol 1: one process for many worlds, judged as any mapper."""
 
+# pyright: reportPrivateUsage=false
+
 from __future__ import annotations
 
 import os

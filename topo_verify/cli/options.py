@@ -242,13 +242,17 @@ MAX_EDGES = 1000
 """Most edges of a world that is counted or drawn at random: more take minutes."""
 
 
+def _joined(_context: click.Context, _option: click.Parameter, values: tuple[str, ...]) -> str:
+    return ",".join(values)
+
+
 world_class = click.option(
     "--class",
     "kind",
     multiple=True,
     default=["any"],
     show_default=True,
-    callback=lambda _context, _option, values: ",".join(values),
+    callback=_joined,
     metavar="CLASS",
     help="any, planar, genus:G, genus<=G, simple, loopless, max-degree:D; several with commas.",
 )

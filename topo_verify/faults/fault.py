@@ -92,9 +92,10 @@ def planted(
         wrong = mistake
         if replaced == "robot":
 
-            def wrong(robot: Robot) -> Survey:
+            def wrapped(robot: Robot) -> Survey:
                 return CATALOGUE[base](mistake(robot))
 
+            wrong = wrapped
         elif base:
             wrong = mapper(base, **{replaced: mistake}, **others)
         return Fault(

@@ -1,5 +1,8 @@
 """Mistakes in the complete rule: what it identifies, and what it keeps."""
 
+# A decorator hides that these classes are subclasses.
+# pyright: reportPrivateUsage=false
+
 from __future__ import annotations
 
 from collections.abc import Sequence

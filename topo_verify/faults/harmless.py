@@ -3,6 +3,9 @@
 A check that reports one asks for the reference's behaviour, not for a correct one.
 """
 
+# A decorator hides that these classes are subclasses.
+# pyright: reportPrivateUsage=false
+
 from __future__ import annotations
 
 from collections.abc import Sequence

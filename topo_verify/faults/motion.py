@@ -1,5 +1,8 @@
 """Mistakes in walking: on a hypothesis' way home, back to vu, to the next edge."""
 
+# A decorator hides that these classes are subclasses.
+# pyright: reportPrivateUsage=false
+
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -1,5 +1,8 @@
 """Mistakes in Enhancement III: what is recorded behind unexplored darts."""
 
+# A decorator hides that these classes are subclasses.
+# pyright: reportPrivateUsage=false
+
 from __future__ import annotations
 
 from functools import partial

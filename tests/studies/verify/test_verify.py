@@ -6,6 +6,7 @@ import re
 import time
 from collections.abc import Callable
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 
@@ -54,7 +55,7 @@ def test_the_whole_campaign_exhausts_what_it_says(monkeypatch: pytest.MonkeyPatc
     # All theorems are proved in test_proofs.py; here, how many there are, and those that are quick.
     assert len(choose(kinds=QUICK)) == 169
 
-    monkeypatch.setattr(campaign, "ProofsBeside", lambda _beside: Proofs(quick=True))
+    monkeypatch.setattr(campaign, "ProofsBeside", Mock(return_value=Proofs(quick=True)))
     monkeypatch.setattr(campaign, "TASKS", ("engine", "drawing"))
     parts = list(verify(targets("enhancement-ii"), seed=1))
     small = 119364 if available() else 8954  # one size more with the compiled engine

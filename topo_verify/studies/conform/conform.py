@@ -356,8 +356,9 @@ class Conform:
             asked=tuple(asked),
         )
         self.corpus, self.asked, self.again = corpus, asked, again
-        levels = [level for level in LEVELS if asked.like or level != "decisions"]
-        self._states = {level: Counter[LevelState]() for level in levels}
+        levels: list[Level] = [level for level in LEVELS if asked.like or level != "decisions"]
+        states: dict[Level, Counter[LevelState]] = {level: Counter() for level in levels}
+        self._states = states
         self._kinds = {level: Counter[str]() for level in levels}
         self._findings = {level: list[WorldFinding]() for level in levels}
         self._whys: list[str] = []
@@ -413,7 +414,7 @@ class Conform:
             claims = {
                 claim: runs
                 for claim, runs in tally.statuses.items()
-                if level in ("result", "claims") and (claim in RESULT) == (level == "result")
+                if level == ("result" if claim in RESULT else "claims")
             }
             yield LevelResult(
                 target=self.target,

@@ -20,6 +20,14 @@ from topo_verify.proofs.first_order.obligations import *
 from topo_verify.proofs.first_order.scenes import SceneReplay
 from topo_verify.proofs.first_order.terms import *
 
+# What the modules of this folder import whole.
+# fmt: off
+__all__ = [
+    "AWAY", "BEHIND", "FALSE", "HOMEWARD", "TRUE", "RuleMutant", "at_h", "b", "i", "k",
+    "own", "x",
+]
+# fmt: on
+
 x, k, b, own, i = t.x, t.k, t.b, t.own, t.i
 
 

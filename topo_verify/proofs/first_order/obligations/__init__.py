@@ -11,6 +11,14 @@ from dataclasses import dataclass, field
 from topo_verify.proofs.first_order.terms import BOOL, Symbol, Term, constant, neg
 from topo_verify.proofs.first_order.theory import AXIOMS, TRUE_RECORDS
 
+# What the modules of this folder import whole.
+# fmt: off
+__all__ = [
+    "CONFIRMED", "ENTAILED", "KEPT", "MAPPED", "OWN", "POSED", "WORD", "A", "B", "D", "E",
+    "H", "J", "K", "Obligation", "R", "X", "Y", "old", "phi2",
+]
+# fmt: on
+
 KEPT = ("true-hypothesis-kept",)
 CONFIRMED = ("no-false-confirm",)
 MAPPED = ("map-isomorphic",)
