@@ -67,7 +67,7 @@ def searched(text: str = "mine.py:explore", *, workers: int = 0, depends: Any = 
 @pytest.mark.parametrize(
     ("file", "words"),
     [
-        ("mine.py", "the source of the mapper, or of topo-verify, has changed since"),
+        ("mine.py", "the source of the mapper has changed since"),
         ("elsewhere/aside.py", r"elsewhere/aside\.py, which the mapper read, has changed; name an"),
         ("data.txt", r"data\.txt, which the mapper read, has changed; name another file, or remov"),
     ],

@@ -265,6 +265,55 @@ def test_a_file_holds_several_campaigns_each_under_its_name() -> None:
             store.campaign(campaign.identity("hash"), Loaded(), name="one")
 
 
+def test_a_campaign_of_a_changed_mapper_begins_anew_and_the_others_stay() -> None:
+    world = ((("m1/0", ((1, 1), (1, 0))),), "m1/0")
+    shard, more = Shard(0, 0, 1, world[0]), Shard(0, 1, 2, (("m1/1", world[0][0][1]),))
+    campaign = planned()
+
+    def campaigns_of(store: Store, *sources: str, **options: Any) -> list[StoredCampaign]:
+        return [
+            store.campaign(campaign.identity(source), Loaded(), name=name, **options)
+            for name, source in zip(("one", "other"), sources, strict=True)
+        ]
+
+    changes: list[str] = []
+    with Store("runs.db") as store:
+        for known in campaigns_of(store, "then", "same"):
+            known.put(shard, ShardResult(Tally(worlds=5)))
+            known.put(more, ShardResult(Tally(worlds=5)))
+    with Store("runs.db") as store:
+        one, other = campaigns_of(store, "now", "same", renew=changes.append)
+        assert changes == [
+            "making 2 runs of one in runs.db again: the source of the mapper has changed since"
+        ]
+        assert (one.get(shard), one.get(more), one.since) == (None, None, None)
+        assert other.get(shard) is not None
+        one.put(shard, ShardResult(Tally(worlds=7)))
+    with Store("runs.db") as store:
+        one, other = campaigns_of(store, "now", "same", renew=changes.append)
+        result = one.get(shard)
+        assert result is not None
+        assert result.tally.worlds == 7
+        assert one.get(more) is None, "it was of the mapper before"
+        assert other.get(more) is not None
+        assert len(changes) == 1
+        limited = msgspec.structs.replace(campaign, limits=Limits(9))
+        with pytest.raises(InputError, match="holds another campaign of one: its limits is"):
+            store.campaign(limited.identity("now"), Loaded(), name="one", renew=changes.append)
+        with pytest.raises(InputError, match="of one: the source of the mapper has changed since"):
+            store.campaign(campaign.identity("then"), Loaded(), name="one")
+
+
+def test_another_source_of_the_tool_is_refused_and_begins_nothing_anew(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    with opened():
+        pass
+    monkeypatch.setattr(stores, "own_hash", lambda: "another")
+    with Store("search.db") as store, pytest.raises(InputError, match="source of topo-verify has"):
+        store.campaign(BASIC.identity("other"), Loaded(), renew=pytest.fail)
+
+
 def test_the_catalogue_runs_in_this_process_whatever_is_asked() -> None:
     once = searched(SMALL)
     assert searched(msgspec.structs.replace(SMALL, in_process=False)) == once
@@ -275,7 +324,7 @@ def test_a_changed_source_is_refused(here: Path) -> None:
     searched(campaign)
     with (here / "mappers.py").open("a") as file:
         file.write("changed = True\n")
-    with pytest.raises(InputError, match="the source of the mapper, or of topo-verify, has change"):
+    with pytest.raises(InputError, match="the source of the mapper has changed since"):
         searched(campaign)
 
 

@@ -141,12 +141,58 @@ def test_the_seed_of_drawn_worlds_is_out_of_reach(call: Call) -> None:
     assert call(line).exit_code == 0
 
 
-def test_a_mapper_that_has_changed_is_refused(call: Call, refused: Refused) -> None:
-    line = "arena mappers.py:silent --suite triangle --workers 0 --out here"
+RIGHT = """
+import helper
+from topo_verify import CATALOGUE
+
+def maps(robot):
+    return CATALOGUE["basic"](robot)
+"""
+
+
+@pytest.mark.parametrize(
+    ("file", "content", "change"),
+    [
+        ("mine.py", RIGHT.replace("(robot)\n", "(robot)\n\nmaps = dict\n"), "source of the mapper"),
+        ("helper.py", "import topo_verify\ntopo_verify.CATALOGUE = {'basic': dict}\n", "helper.py"),
+    ],
+)
+def test_a_changed_mapper_costs_its_own_runs_alone(
+    call: Call, file: str, content: str, change: str
+) -> None:
+    line = "arena basic mine.py:maps mappers.py:silent --suite small --workers 0 --out here"
+    Path("mine.py").write_text(RIGHT)
+    Path("helper.py").write_text("")
     assert call(line).exit_code == 0
-    assert call(line).exit_code == 0
-    Path("mappers.py").write_text(Path("mappers.py").read_text() + "\n# another\n")
-    refused(line, "campaign of mappers.py:silent", "changed")
+    first = files("here")
+    right = Path(file).read_text()
+    Path(file).write_text(content)
+    wrong = call(line)
+    assert wrong.exit_code == 1, "the runs of the right mapper are not taken for those of this one"
+    assert "8 of 12 runs are in here/runs.db" in wrong.stderr
+    (words,) = (text for text in wrong.stderr.splitlines() if "making" in text)
+    assert words.startswith("topo-verify: making 4 runs of mine.py:maps in here/runs.db again: ")
+    assert change in words
+    Path(file).write_text(right)
+    again = call(line)
+    assert again.exit_code == 0
+    assert "making 1 run of mine.py:maps in here/runs.db again: " in again.stderr
+    assert files("here") == first
+    assert "12 of 12 runs" in (last := call(line)).stderr
+    assert "making" not in last.stderr
+
+
+def test_a_report_says_which_runs_of_the_store_it_does_not_show(call: Call) -> None:
+    assert "not shown" not in call(f"{LINE} --out here".replace("small", "small,triangle")).stdout
+    words = "In here/runs.db and not shown: 1 run of basic, 5 runs of folding. To show"
+    done = call("arena basic --suite small --workers 0 --out here")
+    for text in (
+        done.stdout,
+        Path("here/table.md").read_text(),
+        Path("here/report.html").read_text(),
+    ):
+        assert words in text
+    assert "not shown" not in call(f"{LINE} --out here".replace("small", "small,triangle")).stdout
 
 
 def test_a_folder_has_the_page_a_player_and_the_counterexample(call: Call) -> None:

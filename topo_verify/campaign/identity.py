@@ -180,24 +180,34 @@ def require_equal(here: Loaded, there: Loaded, where: str) -> None:
 # ---------------------------------------------------------------- before it goes on
 
 
+class MapperChanged(InputError):
+    """What a mapper rests on has changed since its results were kept.
+
+    Attributes:
+        change: what has changed.
+    """
+
+    def __init__(self, where: str, change: str) -> None:
+        super().__init__(f"{where}: {change}; name another file, or remove this one to start anew")
+        self.change = change
+
+
 def require_unchanged(then: Loaded, now: Loaded, where: str) -> None:
-    """Raise an InputError, which begins with `where`, unless files and values are unchanged."""
-    again = "name another file, or remove this one to search anew"
+    """Raise MapperChanged, which begins with `where`, unless files and values are unchanged."""
     if then.values and now.values and then.values != now.values:
-        raise InputError(
-            f"{where}: the mapper was made with other values (arguments of a partial, a closure,"
-            f" defaults); {again}"
+        raise MapperChanged(
+            where,
+            "the mapper was made with other values (arguments of a partial, a closure, defaults)",
         )
     for path, made in then.files.items():
         if loaded.file_hash(path) != made:
             what = "has changed" if os.path.exists(path) else "is gone"  # noqa: PTH110
-            raise InputError(f"{where}: {shown(path)}, which the mapper read, {what}; {again}")
+            raise MapperChanged(where, f"{shown(path)}, which the mapper read, {what}")
     for name, version in then.distributions.items():
         installed = _version(name)
         if installed != version:
-            raise InputError(
-                f"{where}: the mapper used {name} {version}, installed is {installed or 'none'};"
-                f" {again}"
+            raise MapperChanged(
+                where, f"the mapper used {name} {version}, installed is {installed or 'none'}"
             )
 
 

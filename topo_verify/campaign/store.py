@@ -5,7 +5,8 @@
         for shard, result in results(campaign, backend, store=memory): ...
 
 `meta` holds versions, the identity of each campaign, and what its mappers loaded, so that only
-results of the same campaign are added up. `shards` has a line for each finished shard, `rows` the
+results of the same campaign are added up. A campaign whose mapper has changed may begin anew: its
+shards before number `begun` count no more. `shards` has a line for each finished shard, `rows` the
 rows kept of it.
 
 A shard is written in one transaction. The file is locked while it is open, by a lock of the
@@ -19,7 +20,7 @@ accidents, not against forgery.
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from hashlib import sha256
@@ -30,10 +31,17 @@ from typing import Any, Self
 import msgspec
 
 from topo_verify.campaign.campaign import Campaign, Shard, ShardResult
-from topo_verify.campaign.identity import Identity, merged, require_unchanged, source_hash
+from topo_verify.campaign.identity import (
+    Identity,
+    MapperChanged,
+    merged,
+    own_hash,
+    require_unchanged,
+    source_hash,
+)
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import Tally, notable
-from topo_verify.errors import InputError, shown
+from topo_verify.errors import InputError, plural, shown
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
 
@@ -67,6 +75,9 @@ _FIELDS = "name, edges, start, stop, key, tally, written"
 
 _LOADED = "loaded"
 """The key under which a campaign says what its mappers have loaded; it grows."""
+
+_BEGUN = "begun"
+"""The key of the first shard that counts, after a change of the mappers."""
 
 
 class Store:
@@ -109,6 +120,7 @@ class Store:
         *,
         name: str = "",
         all_rows: bool = False,
+        renew: Callable[[str], None] | None = None,
     ) -> StoredCampaign:
         """A campaign with the sources and files of its mappers; see `campaign`.
 
@@ -117,43 +129,71 @@ class Store:
             depends: further files that they depend on.
         """
         identity, now = campaign.identity(source_hash(mappers)), Identity(mappers, depends).loaded()
-        return self.campaign(identity, now, name=name, all_rows=all_rows)
+        return self.campaign(identity, now, name=name, all_rows=all_rows, renew=renew)
 
     def campaign(
-        self, identity: Mapping[str, str], now: Loaded, *, name: str = "", all_rows: bool = False
+        self,
+        identity: Mapping[str, str],
+        now: Loaded,
+        *,
+        name: str = "",
+        all_rows: bool = False,
+        renew: Callable[[str], None] | None = None,
     ) -> StoredCampaign:
         """The campaign of this name, which is begun if the file does not have it.
 
         Args:
             now: what the mappers have loaded until now.
             all_rows: keep every row, not only the notable ones.
+            renew: if only the mappers have changed, begin the campaign anew and call this with a
+                sentence that says so.
         Raises:
             InputError: the file has another campaign of this name.
         """
-        identity = {**identity, "tool": metadata.version("topo-verify")}
+        own = {"tool": metadata.version("topo-verify"), "toolkit": own_hash()}
+        identity = {**own, **identity}
         whose = f" of {name}" if name else ""
         known = {key: value for (other, key), value in self.meta.items() if other == name}
-        if _LOADED in known:
-            self._require_same(known, identity, whose)
-            loaded = msgspec.json.decode(known[_LOADED], type=Loaded)
-            require_unchanged(loaded, now, f"store {self.path}{whose}")
-        else:
-            loaded = Loaded()
+        loaded = Loaded()
+        if _LOADED not in known:
             self.write(name, identity, loaded)
+        else:
+            try:
+                self._require_same(known, identity, whose)
+                kept = msgspec.json.decode(known[_LOADED], type=Loaded)
+                require_unchanged(kept, now, f"store {self.path}{whose}")
+                loaded = kept
+            except MapperChanged as error:
+                if renew is None:
+                    raise
+                if shards := self._begin_anew(name, identity):
+                    words = f"making {plural(shards, 'run')}{whose} in {self.path} again"
+                    renew(f"{words}: {error.change}")
         return StoredCampaign(self, name, loaded, now, all_rows=all_rows)
 
     def _require_same(
         self, known: Mapping[str, str], identity: Mapping[str, str], whose: str
     ) -> None:
+        where = f"store {self.path} holds another campaign{whose}"
         for key, value in identity.items():
-            if known.get(key) != value:
+            if key != "hash" and known.get(key) != value:
                 change = f"its {key} is {known.get(key)}, now it is {value}"
-                if key == "hash":
-                    change = "the source of the mapper, or of topo-verify, has changed since"
+                if key == "toolkit":
+                    change = "the source of topo-verify has changed since"
                 raise InputError(
-                    f"store {self.path} holds another campaign{whose}: {change}; name another file,"
-                    " or remove this one to start anew"
+                    f"{where}: {change}; name another file, or remove this one to start anew"
                 )
+        if known.get("hash") != identity.get("hash"):
+            raise MapperChanged(where, "the source of the mapper has changed since")
+
+    def _begin_anew(self, name: str, identity: Mapping[str, str]) -> int:
+        """Let the shards of a campaign count no more; their number."""
+        old = [place for place in self.places if place[0] == name]
+        for place in old:
+            del self.places[place]
+        self.written.pop(name, None)
+        self.write(name, {**identity, _BEGUN: str(len(self.sums))}, Loaded())
+        return len(old)
 
     def require_file(self) -> None:
         """Raise an InputError if the file was removed or replaced since it was opened."""
@@ -221,6 +261,8 @@ class Store:
 
     def _note(self, number: int, fields: Sequence[Any]) -> None:
         name, _, _, _, key, _, written = fields
+        if number < int(self.meta.get((name, _BEGUN), 0)):
+            return
         self.places[name, key] = number
         first, _ = self.written.get(name, (written, written))
         self.written[name] = (first, written)

@@ -28,7 +28,7 @@ from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, PictureBlock, Text
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.arena.league import League, LeagueEntry
-from topo_verify.studies.arena.match import matches, measure
+from topo_verify.studies.arena.match import matches, measure, not_shown
 from topo_verify.studies.arena.suites import DEFAULT, SUITES, chosen_suites
 
 
@@ -191,7 +191,9 @@ def _play(output: Output, league: League, folder: Path | None, workers: int) -> 
             if not league.plays(mapper, suite):
                 output.note(f"{mapper.text} assumes planar worlds: left out of {suite.name}")
     with options.open_store(output, folder) as store:
-        campaigns = matches(league, store)
+        campaigns = matches(league, store, output.note)
+        if store is not None and (others := not_shown(campaigns, store)):
+            league.remarks.append(others)
         for row in options.stored_rows(output, campaigns, workers, store):
             league.rows[row.mapper, row.world] = row
         measure(league, store, output.progress)
@@ -227,6 +229,9 @@ def _show(
         if number:
             yield Text("")
         yield files.standings(suite, table, league.seed, memory)
+    for remark in league.remarks:
+        yield Text("")
+        yield Text(remark)
     if memory is not None and any(entry.place is not None for entry in table):
         yield Text("")
         yield Text(files.VARYING)

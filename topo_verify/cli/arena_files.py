@@ -295,6 +295,7 @@ def _table(
 ) -> str:
     parts = ["# The arena\n"]
     parts.append(markdown(standings(suite, table, league.seed, None) for suite in league.suites))
+    parts += [markdown([Text(remark)]) for remark in league.remarks]
     for suite in league.suites:
         parts.append(f"## {suite.name}\n")
         parts.append(markdown(suite_blocks(suite, table)))

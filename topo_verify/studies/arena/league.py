@@ -149,6 +149,7 @@ class League:
 
     Attributes:
         peaks: the most kibibytes of a mapper; None: unknown.
+        remarks: sentences that the report shows below the standings.
     """
 
     mappers: tuple[Target, ...]
@@ -159,6 +160,7 @@ class League:
     peaks: dict[tuple[str, str], int | None] = field(
         default_factory=dict[tuple[str, str], int | None], repr=False
     )
+    remarks: list[str] = field(default_factory=list[str], repr=False)
 
     def plays(self, mapper: Target, suite: Suite) -> bool:
         """Whether a mapper plays a suite: one that assumes planar worlds plays no others."""

@@ -11,6 +11,8 @@ finding still tells of its world.
 from __future__ import annotations
 
 import re
+from collections import Counter
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from hashlib import sha256
@@ -25,19 +27,31 @@ from topo_verify.campaign.backend import MapperCampaign, here
 from topo_verify.campaign.identity import runs_here
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.store import Store
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.programs import serve
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program
 from topo_verify.studies.arena.league import League
 from topo_verify.world.resolve import resolve_world
 
+Tell = Callable[[str], None]
 
-def matches(league: League, store: Store | None) -> list[MapperCampaign]:
+
+def _silent(_sentence: str) -> None:
+    pass
+
+
+MEMORY = "memory of "
+"""The beginning of the name of a campaign that measures memory."""
+
+
+def matches(league: League, store: Store | None, tell: Tell = _silent) -> list[MapperCampaign]:
     """The campaign of each mapper.
 
+    Args:
+        tell: called with a sentence about each mapper that has changed; its runs are made again.
     Raises:
-        InputError: the store's runs were made with other options or sources.
+        InputError: the store's runs were made with other options, or another topo-verify.
     """
     every = {name for mapper in league.mappers for name in league.worlds_of(mapper)}
     worlds = {name: resolve_world(name) for name in every}
@@ -51,18 +65,43 @@ def matches(league: League, store: Store | None) -> list[MapperCampaign]:
             in_process=runs_here(mapper),
             stop=c.Stop(failing=1),
         )
-        kept = _kept(league, store, campaign, mapper)
+        kept = _kept(league, store, campaign, mapper, tell)
         campaigns.append(MapperCampaign(campaign, [(name, worlds[name]) for name in names], kept))
     return campaigns
 
 
 def _kept(
-    league: League, store: Store | None, campaign: c.Campaign, mapper: Target, prefix: str = ""
-) -> c.ShardMemory | None:
+    league: League,
+    store: Store | None,
+    campaign: c.Campaign,
+    mapper: Target,
+    tell: Tell,
+    prefix: str = "",
+) -> _Hidden | None:
     if store is None:
         return None
     name = f"{prefix}{mapper.text}"
-    return _Hidden(store.resumed(campaign, [mapper], name=name, all_rows=True), league.seed)
+    kept = store.resumed(campaign, [mapper], name=name, all_rows=True, renew=tell)
+    return _Hidden(kept, league.seed)
+
+
+def not_shown(campaigns: Sequence[MapperCampaign], store: Store) -> str:
+    """A sentence about the runs in the store that are of none of these campaigns; "": of none."""
+    planned: set[tuple[str, str]] = set()
+    for campaign in campaigns:
+        assert isinstance(campaign.store, _Hidden), "it was made by `matches`"
+        shards = map(campaign.store.hidden, c.listed_shards(campaign.worlds))
+        planned |= {(campaign.campaign.mappers[0], shard.key) for shard in shards}
+    others = Counter(name for name, _ in store.places.keys() - planned)
+    runs = [
+        f"{plural(number, 'run')} of {name}"
+        for name, number in sorted(others.items())
+        if not name.startswith(MEMORY)
+    ]
+    words = (
+        f"In {store.path} and not shown: {', '.join(runs)}. To show them, name every mapper, suite"
+    )
+    return f"{words} and the seed." if runs else ""
 
 
 # ---------------------------------------------------------------- hidden worlds
@@ -83,7 +122,7 @@ class _Hidden:
         return self.memory.known()
 
     def get(self, shard: c.Shard) -> c.ShardResult | None:
-        result = self.memory.get(self._hidden(shard))
+        result = self.memory.get(self.hidden(shard))
         if result is None:
             return None
         name = shard.listed[0][0]
@@ -97,9 +136,10 @@ class _Hidden:
             tally = msgspec.structs.replace(result.tally, digest="")  # it covers the name
             bare = msgspec.structs.replace(result, tally=tally, rows=rows)
             result = _renamed(bare, name, mark)
-        self.memory.put(self._hidden(shard), result)
+        self.memory.put(self.hidden(shard), result)
 
-    def _hidden(self, shard: c.Shard) -> c.Shard:
+    def hidden(self, shard: c.Shard) -> c.Shard:
+        """The shard under the name of its world in the store."""
         ((name, code),) = shard.listed
         mark = self._mark(name)
         listed = ((mark, code if mark == name else ((), ())),)
@@ -132,7 +172,7 @@ def measure(league: League, store: Store | None, tell: Progress) -> None:
         campaign = c.Campaign(
             worlds=c.ListedWorlds(1), mappers=(alone,), limits=league.limits, in_process=False
         )
-        kept = _kept(league, store, campaign, mapper, "memory of ")
+        kept = _kept(league, store, campaign, mapper, _silent, MEMORY)
         worlds = [(name, resolve_world(name))]
         with suppress(InputError):
             for _, result in c.results(campaign, here(look=_peak), worlds, store=kept):
