@@ -34,7 +34,7 @@ TheoremProgress = Callable[[str, int, int], None]
 
 
 def no_progress(_theorem: str, _done: int, _total: int) -> None:
-    """Does nothing."""
+    """The progress callback for callers who want none."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

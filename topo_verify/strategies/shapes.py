@@ -42,7 +42,7 @@ LARGEST = 2000
 """The greatest max_edges: half of Hypothesis's 8 KiB of choices an example."""
 
 MANY = 10**9
-"""No bound."""
+"""Stands for a number without a bound."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)

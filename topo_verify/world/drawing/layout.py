@@ -81,7 +81,7 @@ LONGEST_SIDE = 2400.0
 MANY = 250
 
 MARGIN = 2.4
-"""In radii."""
+"""A length, in radii of a vertex."""
 
 
 @dataclass(frozen=True)
