@@ -8,6 +8,7 @@ from tests.cli.conftest import Refused
 
 REFUSED = [
     ("nothing", "no such command 'nothing'"),
+    ("world m3/5", "no such command 'm3/5'; to show a world: world show m3/5"),
     ("explore", "missing argument 'WORLD...'"),
     ("explore nowhere.json", "no such world: 'nowhere.json'"),
     ("explore - -", "expected '-' at most once"),

@@ -128,6 +128,8 @@ class Walker: ...
         ("empty.py:explore", "empty.py has no attribute 'explore'\n"),
         ("bassic", "no algorithm 'bassic'; did you mean 'basic'? there are basic, "),
         ("basic,foldin", "no algorithm 'foldin'; did you mean 'folding'? there are basic, "),
+        ("./m.so", "no algorithm './m.so': it is a file; to run it, --library ./m.so"),
+        ("./m", "no algorithm './m': it is a file; to run it, --cmd ./m"),
         ("a-mapper", "no algorithm 'a-mapper': there are basic, "),
     ],
 )
@@ -136,6 +138,8 @@ def test_a_wrong_target_is_told_the_right_one(
 ) -> None:
     (folder / "m.py").write_text(MODULE)
     (folder / "empty.py").write_text("a syntax error is no mapper")
+    for name in ("m", "m.so"):
+        (folder / name).write_bytes(b"compiled")
     if ":" in target:
         (folder / "empty.py").write_text("")
     refused(f"verify {target}", hint)

@@ -106,6 +106,9 @@ def unreadable(robot):
             raise KeyError("later")
     return Lazy()
 
+def degree(robot):
+    return robot.degree
+
 def looks(robot):
     names = sorted(name for name in dir(robot) if not name.startswith("_"))
     raise LookupError(f"{names} events={hasattr(robot.move.__self__, 'events')}")
@@ -166,6 +169,7 @@ def test_what_keeps_it_from_a_map_is_said_in_the_same_words(name: str) -> None:
         ("cancels", "CancelledError"),
         ("interrupts", "KeyboardInterrupt: mine"),
         ("generates", "GeneratorExit"),
+        ("degree", "AttributeError: the robot has percept, move and declare, but no 'degree'"),
     ],
 )
 def test_every_exception_is_told_with_its_line(folder: Path, name: str, error: str) -> None:

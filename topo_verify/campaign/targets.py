@@ -40,6 +40,8 @@ from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loader import Mapper, Target, close_name, load, missing_attribute
 from topo_verify.programs.program import OPTIONS, PREFIX, Program, split
 
+_LIBRARIES = (".so", ".dylib", ".dll")
+
 
 def targets(
     text: str, *, pick: str | None = None, order: str | None = None, in_process: bool = True
@@ -140,6 +142,9 @@ def _target(text: str, *, in_process: bool) -> Target:
     if text not in NAMED:
         if (hint := missing_attribute(text)) is not None:
             raise InputError(f"target {text!r}: {hint}")
+        if Path(text).is_file():
+            option = "--library" if Path(text).suffix in _LIBRARIES else "--cmd"
+            raise InputError(f"no algorithm {text!r}: it is a file; to run it, {option} {text}")
         raise InputError(
             f"no algorithm {text!r}{close_name(text, NAMED) or ':'} there are"
             f" {', '.join(NAMED)} and all; a mapper of your own is"

@@ -216,6 +216,8 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield Text("")
             yield Text(f"{entry.trace}:")
             yield Bullets(tuple(map(finding_line, entry.findings[:5])))
+            if entry.trace.endswith(".csv"):
+                yield Text("Of a CSV table, event 0 is the row below the titles.")
         if entry.advice is not None:
             yield from _show_open(entry, entry.advice)
         if entry.witnesses:
@@ -237,8 +239,8 @@ def _show_open(entry: CertifyEntry, advice: Advice) -> Iterator[Block]:
     )
     yield Bullets(
         tuple(
-            f"door {door.door} of the place reached at event {door.event}: from where the log ends,"
-            f" take {_doors(door.walk)}"
+            f"door {door.door} of {_place(door.event)}: from where the log ends, take"
+            f" {_doors(door.walk)}"
             for door in entry.open_doors[:5]
         )
     )
@@ -251,6 +253,10 @@ def _show_open(entry: CertifyEntry, advice: Advice) -> Iterator[Block]:
     else:
         yield Text("Next: go back to the marker, and certify the longer log from there.")
     yield Text(f"Back to the marker, from where the log ends: {home}.")
+
+
+def _place(event: int) -> str:
+    return f"the place reached at event {event}" if event else "the first place"
 
 
 def _doors(walk: Sequence[int]) -> str:

@@ -111,7 +111,7 @@ def conform(
             options.make_folder(transcript, "--transcript")
         # The results do not depend on the order.
         output.timing["seed"] = f"{seed}:{order_seed}"
-        output.note(f"seed {seed}:{order_seed}")
+        output.note(f"seed {seed}:{order_seed}: give it to --seed for the same order of the worlds")
         flags = dict(batch=batch, validate=validate, strict=strict, in_process=mappers.in_process)  # noqa: C408
         for one in _texts(mappers.texts[0]):
             campaign = Campaign(

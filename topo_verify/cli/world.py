@@ -38,7 +38,16 @@ FORMATS: dict[str, tuple[Callable[[World], str | bytes], str]] = {
 """The encoder of each format of `convert --to`, and the ending by which it is read again."""
 
 
-@click.group(epilog=epilog("world show nyc", "world count --edges 6 --class planar"))
+class _Commands(click.Group):
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        if args[0] not in self.commands and not args[0].startswith("-"):
+            ctx.fail(f"no such command {args[0]!r}; to show a world: world show {args[0]}")
+        return super().resolve_command(ctx, args)
+
+
+@click.group(cls=_Commands, epilog=epilog("world show nyc", "world count --edges 6 --class planar"))
 def world() -> None:
     """Show, list, convert, count, sample and draw worlds."""
 
@@ -104,7 +113,7 @@ def show(
     model: MarkerModel | None,
     file: str | None,
 ) -> int:
-    """Show a world: its size, genus, degrees and id, and its rotation as in the world file."""
+    """Show a world: its size, genus, degrees, id and rotation."""
     if file is not None and (model is None or len(worlds) > 1 or not file.endswith(".svg")):
         raise InputError(
             f"-o {file}: expected --twin MODEL, one WORLD, and a name that ends in .svg"
@@ -268,7 +277,7 @@ def _range(_context: click.Context, _option: click.Parameter, value: str) -> ran
 )
 @options.world_class
 def count(output: Output, *, edges: range, kind: str) -> int:
-    """Count the worlds with N edges: rooted maps, and unrooted ones (no marker)."""
+    """Count the rooted maps with N edges, and the unrooted ones."""
 
     def counted() -> Iterator[Result[CountEntry]]:
         worlds = WorldClass.parse(kind)
@@ -315,7 +324,7 @@ class ListEntry(msgspec.Struct, frozen=True):
     "-n", "number", least=1, most=MOST_LISTED, meaning="The first N worlds only.  [default: all]"
 )
 def list_worlds(output: Output, *, edges: int, kind: str, number: int | None) -> int:
-    """List the ids of all worlds with N edges in their order, one a line."""
+    """List the ids of all worlds with N edges, one a line."""
     worlds = WorldClass.parse(kind)
     first = _first(worlds, edges, number)
 

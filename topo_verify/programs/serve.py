@@ -18,7 +18,7 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from io import TextIOWrapper
 from operator import index
-from typing import BinaryIO, Literal, cast
+from typing import BinaryIO, Literal, NoReturn, cast
 
 import msgspec
 
@@ -58,6 +58,9 @@ class RemoteRobot:
         self.misuse: tuple[Literal["bad-door", "bad-declaration"], Misuse] | None = None
         self._over: MapperStopped | None = None
         self._is_under_way = False  # a move was begun, and its percept has not come
+
+    def __getattr__(self, name: str) -> NoReturn:
+        raise AttributeError(f"the robot has percept, move and declare, but no {name!r}")
 
     @property
     def percept(self) -> Percept:

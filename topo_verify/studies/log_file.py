@@ -7,8 +7,8 @@
 | 1 | 2 | 1 |
 
 The first row is the percept at the start; each further row is a door and the percept behind it. An
-empty `marker` is not in sight. Commas, semicolons or tabs separate the columns; other columns and
-empty rows are ignored.
+empty cell may hold `-`, as `tour` prints it. Commas, semicolons or tabs separate the columns; other
+columns and empty rows are ignored.
 """
 
 from __future__ import annotations
@@ -43,8 +43,11 @@ def read_log(path: str) -> Trace:
             if line.strip():
                 break
         whole = chain(first, lines)
-        head = first[-1].lower() if first else b""
-        is_table = b"{" not in head and any(column.encode() in head for column in COLUMNS)
+        head = first[-1].lower().strip() if first else b""
+        is_untitled = head[:1].isdigit() or head[:1] in {b",", b";"}
+        is_table = b"{" not in head and (
+            is_untitled or any(column.encode() in head for column in COLUMNS)
+        )
         return tuple(table_events(whole, name) if is_table else read_events(whole, name=name))
 
 
@@ -83,6 +86,7 @@ def table_events(lines: Iterable[bytes], name: str) -> Iterator[Event]:
 
 def _event(cells: dict[str, str], place: str, *, begun: bool) -> Event:
     door, degree, marker = (cells.get(column, "") for column in COLUMNS)
+    door, marker = ("" if text == "-" else text for text in (door, marker))
     if bool(door) != begun:
         expected = "a door, as in every row but the first" if begun else "no door: the robot starts"
         raise InputError(f"{place}: expected {expected}, got {door!r}")
