@@ -63,7 +63,9 @@ PEEPHOLES = {"__import__", "eval", "exec", "globals", "__globals__", "__closure_
 
 LATE = {
     ("world", "World._repr_svg_"): "player",
+    ("campaign", "Exploration._played"): "player",
     ("campaign", "Exploration._repr_html_"): "player",
+    ("campaign", "Exploration.save"): "player",
     ("campaign", "Report.playback"): "player",
     ("campaign", "Report.walk"): "player",
     ("campaign", "Report._repr_html_"): "player",

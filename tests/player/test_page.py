@@ -7,6 +7,7 @@ import hashlib
 import json
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -92,6 +93,12 @@ def test_a_notebook_shows_a_run_in_a_frame_that_may_run_scripts_and_nothing_else
     assert tags[1][1]["sandbox"] == "allow-scripts"
     page = page_of(run.world, "basic")
     assert tags[1][1]["srcdoc"] == page.replace("<html ", '<html class="framed" ', 1)
+
+
+def test_a_run_is_saved_as_a_page(tmp_path: Path) -> None:
+    run = explore(families.lattice(2, 2), "basic")
+    run.save(tmp_path / "run.html")
+    assert (tmp_path / "run.html").read_text(encoding="utf-8") == page_of(run.world, "basic")
 
 
 @pytest.mark.parametrize("shown", GALLERY, ids=lambda shown: shown.text)

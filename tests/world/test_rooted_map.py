@@ -284,5 +284,7 @@ def test_a_world_shows_itself_and_writes_its_picture(tmp_path: Path) -> None:
     assert world._repr_svg_() == picture  # pyright: ignore[reportPrivateUsage]
     html = str(vars(World)["_repr_html_"](world))
     assert b64encode(picture.encode()).decode() in html
+    numbered = world.draw(tmp_path / "doors.svg", doors=True, darts=True)
+    assert (tmp_path / "doors.svg").read_text() == numbered != picture
     with pytest.raises(InputError, match=r"world\.gif"):
         world.draw(tmp_path / "world.gif")

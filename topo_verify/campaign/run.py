@@ -19,7 +19,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import Literal, get_args
+from os import PathLike
+from typing import TYPE_CHECKING, Literal, get_args
 
 import msgspec
 
@@ -49,6 +50,9 @@ from topo_verify.robot.simulator import SimulatedRobot, first_percept
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.resolve import as_world
 from topo_verify.world.rooted_map import World
+
+if TYPE_CHECKING:
+    from topo_verify.player.recording import PlayedRun
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,12 +116,27 @@ class Exploration:
         """Number of hypotheses confirmed."""
         return sum(isinstance(e, Confirm) for e in self.trace)
 
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write a page (HTML) that plays this run in a browser, findings included.
+
+        Raises:
+            InputError: the file cannot be written.
+        """
+        from topo_verify.player.page import player_page
+        from topo_verify.world.formats import files
+
+        files.write(path, player_page(self.world, [self._played()], name=self.world.name))
+
     def _repr_html_(self) -> str:
         from topo_verify.player.page import framed
+
+        return framed(self.world, self._played())
+
+    def _played(self) -> PlayedRun:
         from topo_verify.player.recording import PlayedRun
 
         judgements = check(self.world, self.trace, self.stopped)
-        return framed(self.world, PlayedRun(self.algorithm, self.trace, judgements, self.stopped))
+        return PlayedRun(self.algorithm, self.trace, judgements, self.stopped)
 
 
 def explore(

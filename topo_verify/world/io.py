@@ -107,7 +107,13 @@ def notebook(world: World) -> str:
     return IN_NOTEBOOKS + image(draw(world), world.name or "a world")
 
 
-def draw(world: World, path: str | PathLike[str] | None = None) -> str:
+def draw(
+    world: World,
+    path: str | PathLike[str] | None = None,
+    *,
+    doors: bool = False,
+    darts: bool = False,
+) -> str:
     """The picture of the world as SVG; also written to the file in the format of its name.
 
     Raises:
@@ -120,8 +126,8 @@ def draw(world: World, path: str | PathLike[str] | None = None) -> str:
     kind = None if path is None else format_of(os.fspath(path))
     layout = lay_out(world)
     if kind is not None and path is not None:
-        files.write(path, document(world, layout, kind))
-    return to_svg(world, layout)
+        files.write(path, document(world, layout, kind, doors=doors, darts=darts))
+    return to_svg(world, layout, doors=doors, darts=darts)
 
 
 def twin(world: World, model: Literal["undirected", "none"]) -> World | None:

@@ -41,7 +41,7 @@ class _Formats(Protocol):
     def decode(self, cls: type[W], text: str | bytes) -> W: ...
     def encode(self, world: World) -> str: ...
     def save(self, world: World, path: str | PathLike[str]) -> None: ...
-    def draw(self, world: World, path: str | PathLike[str] | None = None) -> str: ...
+    def draw(self, world: World, path: str | PathLike[str] | None, **marks: bool) -> str: ...
     def twin(self, world: World, model: Literal["undirected", "none"]) -> World | None: ...
 
 
@@ -354,15 +354,16 @@ class World:
         size = f"{len(self.vertices)} vertices, {len(self.edges)} edges, genus {self.genus}"
         return f"<World {self.name!r}: {size}>"
 
-    def draw(self, path: str | PathLike[str] | None = None) -> str:
+    def draw(self, path: str | PathLike[str] | None = None, **marks: bool) -> str:
         """A picture as SVG, with the true order of the darts at every vertex.
 
         Args:
             path: also write it to this file: .svg, .png, .pdf or .html.
+            marks: `doors=True` numbers the doors of each vertex, `darts=True` the darts.
         Raises:
             InputError: as `io.draw`.
         """
-        return self.formats.draw(self, path)
+        return self.formats.draw(self, path, **marks)
 
     def twin(self, model: Literal["undirected", "none"] = "undirected") -> World | None:
         """Another world that looks the same without the marker's direction, or None: twins.py."""
