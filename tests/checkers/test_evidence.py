@@ -45,8 +45,8 @@ SEEN, OTHER = Percept(7, None), Percept(3, None)
         ({"observed": OTHER}, "observed is (degree 7, no marker), not (degree 3, no marker)"),
         ({"observed": Percept(1, 0)}, "observed is (degree 7, no marker)"),
         ({"sequence": 0}, "step 1 of sequence 0 was not executed"),
-        ({"at": 3}, "tracing ends at dart 0 of S"),
-        ({"record": ev.Record(3, ())}, "tracing ends at dart 0 of S"),
+        ({"at": 3}, "on S the doors end at dart 0: evidence must"),
+        ({"record": ev.Record(3, ())}, "on S the doors end at dart 0: evidence must"),
     ],
 )  # fmt: skip
 def test_false_evidence_from_motion_is_caught(changes: dict[str, Any], why: str) -> None:
@@ -87,7 +87,9 @@ def test_false_evidence_from_a_record_is_caught(changes: dict[str, Any]) -> None
 def test_a_record_that_is_not_cited_is_named_by_where_tracing_left_s() -> None:
     lie = with_evidence(TRACE, BY_RECORD, record=None)
     (message,) = said(lie, "rejection-justified")
-    assert message.endswith("tracing leaves S at dart 3 with the doors [] to go")
+    assert message.endswith(
+        "on S the doors lead to unexplored dart 3: evidence must cite its record, doors []"
+    )
 
 
 @pytest.mark.parametrize(

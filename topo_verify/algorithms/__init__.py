@@ -52,7 +52,6 @@ __all__ = [
 ]
 
 REFERENCE = Policies("nearest", "shortest")
-"""The policies of the reference costs."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -92,7 +91,6 @@ class Algorithm:
         return replace(self, policies=choices.check(policies))
 
     def __repr__(self) -> str:
-        """As code below `import topo_verify as tv`; the bare name if it is not in the catalogue."""
         if replace(self, policies=REFERENCE) != CATALOGUE.get(self.name):
             return f"<Algorithm {self.name!r}>"
         chosen = (("pick", self.policies.pick), ("order", self.policies.order))
@@ -117,7 +115,6 @@ class Steered:
         return self.run(robot)
 
     def __repr__(self) -> str:
-        """`<Steered 'homing'>`; not evaluable. Run it by its name."""
         return f"<Steered {self.name!r}>"
 
 
@@ -144,7 +141,7 @@ CATALOGUE: dict[str, Algorithm] = {
         Algorithm("folding+planar", _planar_folding, overlap, assumes="planar"),
     )
 }
-"""Every algorithm by name, from the weakest rule to the strongest."""
+"""From the weakest rule to the strongest."""
 
 STEERED: dict[str, Steered] = {
     mapper.name: mapper
@@ -155,10 +152,9 @@ STEERED: dict[str, Steered] = {
         Steered("planner+planar", planar_planner, assumes="planar"),
     )
 }
-"""The steered mappers by name. `all` leaves them out."""
+"""`all` leaves them out."""
 
 NAMED: dict[str, Algorithm | Steered] = {**CATALOGUE, **STEERED}
-"""Everything a TARGET may name."""
 
 
 def algorithm(name: str) -> Algorithm:

@@ -1,7 +1,7 @@
 """The basic algorithm (listing 1): every hypothesis is walked, none is rejected without motion.
 
-Source: listing 1; H. Wang, M. Jenkin, P. Dymond, "The relative power of immovable markers in
-topological mapping", ICRA 2011. Cost O(m²n) edge traversals.
+Source: H. Wang, M. Jenkin, P. Dymond, "The relative power of immovable markers in topological
+    mapping", ICRA 2011. Cost O(m²n) edge traversals.
 """
 
 from __future__ import annotations

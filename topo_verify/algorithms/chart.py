@@ -1,8 +1,7 @@
 """The map S that a mapper draws while it explores.
 
-The darts of a new vertex are numbered consecutively, clockwise from the dart of entry (v0: from the
-dart that the marker points at, dart 0). A vertex is an interval of darts, and turning is addition
-modulo its degree.
+The darts of a new vertex are numbered clockwise from the dart of entry (v0: from the marked dart,
+0). A vertex is an interval of darts, and turning is addition modulo its degree.
 
     letter   what it is                                              e.g.
     e, h     darts of S: the edge being validated, a hypothesis       7
@@ -35,9 +34,9 @@ class Survey(NamedTuple):
 
 
 class Tree(NamedTuple):
-    """A breadth-first tree: each vertex's distance from the root and its dart towards it.
+    """Each vertex's distance from the root of a breadth-first tree, and its dart towards it.
 
-    Vertices that were not reached (the search may stop early) have distance -1.
+    Vertices that were not reached have distance -1.
     """
 
     depth: list[int]
@@ -50,19 +49,18 @@ class Chart:
     Attributes:
         vertex: of each dart.
         alpha: the other end of each dart; None while it is unexplored.
-        percepts: what the robot senses with this dart as its reference dart.
-        first, degree: the first dart of each vertex, and its degree.
+        percepts: with each dart as the reference dart.
+        first, degree: of each vertex.
         unexplored: U, ascending.
     """
 
     def __init__(self, percept: Percept) -> None:
-        """Start with v0 alone. The first percept has marker 0, since the marked dart is dart 0."""
         self.first: list[MapDart] = []
         self.degree: list[int] = []
         self.vertex: list[Vertex] = []
         self.alpha: list[MapDart | None] = []
         self.percepts: list[Percept] = []
-        self.unexplored: dict[MapDart, None] = {}  # a dict keeps ascending order, a set does not
+        self.unexplored: dict[MapDart, None] = {}
         self.add_vertex(percept)
 
     def add_vertex(self, percept: Percept) -> MapDart:
@@ -79,7 +77,7 @@ class Chart:
         return first
 
     def join(self, e: MapDart, other: MapDart) -> None:
-        """Record that two darts are the ends of one edge."""
+        """Make two darts the ends of one edge."""
         self.alpha[e], self.alpha[other] = other, e
         self.unexplored.pop(e, None)
         self.unexplored.pop(other, None)
@@ -105,10 +103,7 @@ class Chart:
         return range(self.first[v], self.first[v] + self.degree[v])
 
     def outward(self, root: Vertex) -> Iterator[tuple[Vertex, int, MapDart | None]]:
-        """Breadth-first search on S: vertex, distance, dart towards the root.
-
-        Darts are scanned in ascending order. The caller may stop early.
-        """
+        """Breadth-first search on S, darts ascending: vertex, distance, dart towards the root."""
         reached = {root}
         queue: list[tuple[Vertex, int, MapDart | None]] = [(root, 0, None)]
         for v, distance, back in queue:
@@ -130,7 +125,7 @@ class Chart:
         return Tree(depth, parent)
 
     def survey(self, cost: int) -> Survey:
-        """The map in the form in which a mapper delivers it."""
+        """The map as a mapper delivers it."""
         rotations = tuple(tuple(self.darts(v)) for v in range(len(self.first)))
         edges = tuple((d, o) for d, o in enumerate(self.alpha) if o is not None and d < o)
         return Survey(rotations, edges, 0 if self.alpha else None, cost)

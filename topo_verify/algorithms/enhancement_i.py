@@ -23,12 +23,12 @@ class PrefixRule(NoRule):
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
-        """The first percept on the common prefix that the hypothesis does not expect, if any."""
+        """The first percept on the common prefix that the hypothesis does not expect."""
         if not sequences:
             return None
-        last = sequences[-1]  # the earlier ones were compared when they were the last
+        last = sequences[-1]
         shared = common_prefix(hypothesis.doors, last.doors)  # A2.17
-        # At step 0 all hypotheses expect the same: vu is not v0 if doors were executed.
+        # at step 0 all hypotheses expect the same
         for step in range(1, shared + 1):
             if last.percepts[step] != hypothesis.expected[step]:  # A2.18
                 evidence = Evidence(

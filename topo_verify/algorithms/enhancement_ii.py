@@ -1,8 +1,7 @@
 """Enhancement II: every sequence executed for this edge, traced on S (rule `history`).
 
-Assume the hypothesis h: the robot entered vu by dart h of S. While tracing stays on explored edges,
-each door is a known exit, and S shows the percept behind it. Tracing ends at an unexplored dart; e
-and h count as unexplored.
+Assume that the robot entered vu by dart h of S. While tracing stays on explored edges, S shows the
+percept behind each door. Tracing ends at an unexplored dart; e and h count as unexplored.
 
 Source: section III-B of the paper.
 """
@@ -24,7 +23,7 @@ class HistoryRule(NoRule):
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
     ) -> Refutation | None:
-        """The first percept that contradicts S where the sequence leads from dart h, if any.
+        """The first percept that contradicts S where the last sequence leads from h.
 
         Earlier sequences were traced when they were executed, and S has not changed since.
         """
@@ -34,7 +33,7 @@ class HistoryRule(NoRule):
         at = hypothesis.dart  # A3.10
         for step, door in enumerate(last.doors, 1):
             exit_dart = chart.turn(at, door)
-            # None also for e and h, which are joined only when h is confirmed.
+            # e and h are joined only when h is confirmed
             arrival = chart.alpha[exit_dart]
             if arrival is None:
                 return self.beyond(exit_dart, last, step, number)  # A3.13
@@ -49,5 +48,5 @@ class HistoryRule(NoRule):
     def beyond(
         self, exit_dart: MapDart, sequence: Executed, step: int, number: int
     ) -> Refutation | None:
-        """What contradicts step `step` of a sequence behind an unexplored dart. Here: nothing."""
+        """What contradicts step `step` of a sequence behind an unexplored dart; here nothing."""
         return None

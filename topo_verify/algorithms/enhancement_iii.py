@@ -2,11 +2,9 @@
 
 Once vu is known, the sequences executed for e start at a known dart of S. Where one crosses an
 unexplored dart d, the percepts behind d enter T[d]: the first alone (one-level), or all of them in
-a trie by relative doors (all-level). A later hypothesis traced across d is compared with them; e
-and h count as unexplored. Records stay true, because they are relative to a known dart and S only
-grows. T[d] is dropped when d is explored.
+a trie by relative doors (all-level). A later hypothesis traced across d is compared with them.
 
-Source: section III-C of the paper; listing 3, lines 3, 10-16, 29.
+Source: section III-C of the paper; listing 3, lines 3, 10-16, 29; docs/semantics.md, section 7.
 """
 
 from __future__ import annotations
@@ -32,7 +30,7 @@ class Seen:
 
 
 class RecordsRule(HistoryRule):
-    """Traces as `history` does, and on along T. T lives as long as the exploration.
+    """Traces as `history` does, and on along T.
 
     Args:
         levels: depth of the records in places; None: as deep as the robot went.
@@ -45,7 +43,7 @@ class RecordsRule(HistoryRule):
     def beyond(
         self, exit_dart: MapDart, sequence: Executed, step: int, number: int
     ) -> Refutation | None:
-        """The first recorded percept behind the dart that the sequence contradicts, if any."""
+        """The first recorded percept behind the dart that the sequence contradicts."""
         place = self.records.get(exit_dart)  # A3.14
         first = step
         while place is not None:
@@ -70,7 +68,6 @@ class RecordsRule(HistoryRule):
         self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
     ) -> None:
         """Record the percepts behind unexplored darts, with the sequences traced on the grown S."""
-        # Both are explored now, so neither gets a new record below.
         self.records.pop(e, None)
         self.records.pop(entry, None)
         for sequence in sequences:  # A3.29
@@ -85,7 +82,7 @@ class RecordsRule(HistoryRule):
 
     def _record(self, exit_dart: MapDart, sequence: Executed, step: int) -> None:
         place = self.records.setdefault(exit_dart, Seen(sequence.percepts[step]))
-        # The place directly behind the dart is level 1.
+        # the place behind the dart is level 1
         deepest = len(sequence.doors) if self.levels is None else step + self.levels - 1
         for deeper in range(step + 1, min(deepest, len(sequence.doors)) + 1):
             place = place.behind.setdefault(

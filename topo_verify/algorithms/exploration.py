@@ -12,9 +12,9 @@ all-level). An algorithm is this loop with a *rule*, which rejects hypotheses wi
 *motion* between hypotheses.
 
 Source: H. Wang, M. Jenkin, P. Dymond, on enhancing topological exploration with a single
-directional immovable marker, listings 1-3; after G. Dudek, M. Jenkin, E. Milios, D. Wilkes,
-"Robotic exploration as graph construction", IEEE Trans. Robotics and Automation 7(6), 1991.
-Differs: the paper leaves open which e, which path and which order; docs/semantics.md does not.
+    directional immovable marker, listings 1-3; after G. Dudek, M. Jenkin, E. Milios, D. Wilkes,
+    "Robotic exploration as graph construction", IEEE Trans. Robotics and Automation 7(6), 1991.
+    Differs: docs/semantics.md says which e, which path and which order.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Refutation(NamedTuple):
 
 
 class Rule(Protocol):
-    """Rejects hypotheses without motion. A rule lives for one run and may remember its percepts."""
+    """Rejects hypotheses without motion, for one run; may remember percepts."""
 
     def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
         """Called when the robot has crossed e and senses this percept at vu."""
@@ -61,13 +61,13 @@ class Rule(Protocol):
     ) -> Refutation | None:
         """Why the hypothesis is false by the last sequence; None if it may be true.
 
-        The loop asks for each remaining hypothesis before any motion (no sequence yet) and after
-        each mismatch, so earlier sequences have been judged already.
+        The loop asks before any motion and after each mismatch, so earlier sequences are judged
+        already.
         """
         ...
 
     def conclude(self, remaining: Sequence[Hypothesis]) -> Hypothesis | None:
-        """The hypothesis that must be true because no alternative is left; None if there is one."""
+        """The hypothesis that must be true because no alternative is left, if any."""
         ...
 
     def learn(
@@ -84,7 +84,7 @@ def explore(robot: Robot, *, rule: Rule, motion: Motion, pick: Pick, order: Orde
     at: MapDart = 0  # the robot's reference dart, on S
     while chart.unexplored:  # A1.3 A2.3 A3.4
         e = pick(chart, at)  # A1.4 A2.4 A3.5
-        # e leaves U before H is made, since no edge ends in its own dart.
+        # no edge ends in its own dart
         del chart.unexplored[e]
         at = pilot.walk(chart, at, chart.vertex[e])  # A1.5 A2.5 A3.6
         percept = pilot.cross(chart, at, e)
@@ -131,7 +131,7 @@ def validate(
     Appends to `sequences` each executed sequence that ended in a mismatch.
     """
     declare = pilot.robot.declare
-    # Before any motion: with no sequence yet, only `folding` and `planar` can reject.
+    # before any motion only `folding` and `planar` can reject
     remaining = sift(pilot, chart, e, remaining, sequences, rule=rule)
     while remaining:  # A1.7 A2.10 A2.20 A2.21 A3.8
         concluded = rule.conclude(remaining)
@@ -175,16 +175,15 @@ def sift(
 
 
 def execute(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
-    """Walk the hypothesis' way home. Returns the first step whose percept differs; None if none.
+    """Walk the hypothesis' way home. Returns the first step whose percept differs, or None.
 
     Args:
-        shared: number of doors the way shares with the last sequence. The robot goes back only
-            that far and does not walk them again.
+        shared: the doors that the way shares with the last sequence are not walked again.
     """
-    if shared < len(h.doors):  # else its whole way is executed already
+    if shared < len(h.doors):
         pilot.back(shared)  # A1.15 A2.23 A3.24
     for step, expected in enumerate(h.expected):  # A1.9 A1.10 A2.8 A2.9 A3.18 A3.19
-        # Shared doors are not walked again, but their percepts are compared.
+        # shared doors: compared, not walked
         if step > len(pilot.doors):
             pilot.forward(h.doors[step - 1])
         if pilot.percepts[step] != expected:  # A1.11 A2.11 A3.20

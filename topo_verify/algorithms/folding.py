@@ -1,24 +1,17 @@
 """Folding, the complete rule: it keeps a hypothesis exactly if some world that fits makes it true.
 
 The rule keeps every percept: the vertices of S, and **ghosts**, visited places not known to be
-vertices of S. To test a hypothesis it joins e with h and folds: a dart has one partner, so where it
-would get two, the two are one dart, and their vertices one vertex, turned against each other. The
-hypothesis is false if folding meets a contradiction: two degrees at one place; the marker at one
-and not at the other; two vertices of S identified, or one with itself turned; a dart that is its
-own partner. Otherwise hang a leaf on every open dart of the folded map: in that world the
+vertices of S. To test a hypothesis it joins e with h and folds; the hypothesis is false if folding
+meets a contradiction. Otherwise hang a leaf on every open dart of the folded map: in that world the
 hypothesis is true and every percept is the same. So no rule that is right in all worlds can reject
-more.
-
-"vu is new" is one more alternative. It is ruled out when vu folds into a vertex of S; a single
-hypothesis left then is concluded without motion.
+more. Once vu folds into a vertex of S, it is not new, and a single hypothesis that remains is
+concluded without motion.
 
 A test folds in a layer, which a contradiction drops. Otherwise the layer is kept, and the next test
-of the same hypothesis folds in only the new places: folding anew is quadratic in them. Time is
-nearly linear in the identifications (union-find by size), tens of millions in a long run, so
-`_fold` writes out its look-ups. Written apart from `checkers/folding.py`; tests compare them.
+of the same hypothesis folds in only the new places: folding anew is quadratic in them. Written
+apart from `checkers/folding.py`; tests compare them.
 
-Source: docs/semantics.md, section 11; J. R. Stallings, "Topology of finite graphs", Invent. Math.
-71 (1983).
+Source: docs/semantics.md, sections 8 and 11.
 """
 
 from __future__ import annotations
@@ -33,7 +26,7 @@ from topo_verify.robot.events import Evidence, MapDart
 from topo_verify.robot.percept import Door, Percept
 
 NodeDart = int
-"""A dart of a node, numbered from 1; 0 is none. Different numbers may be the same dart."""
+"""Numbered from 1; 0 is none. Different numbers may be the same dart."""
 
 OWN_END = "a dart would be its own other end"
 UNLIKE = "two degrees, or the marker and its absence, at one place"
@@ -48,14 +41,13 @@ class SeenPlaces:
         looks: of each dart, the signature of its node.
         leader: of each dart, 0 or a dart that it is.
         behind: of each leading dart, its other end or 0.
-        weight: of each node, how many others it stands for.
+        weight: of each node, the number of others that it stands for.
         known: the nodes that are vertices of S.
         joined: every edge, in the order of `join`.
-        merges: number of darts identified with others.
+        merges: the number of darts identified with others.
     """
 
     def __init__(self) -> None:
-        """Start with nothing."""
         self.node: list[NodeDart] = [0]
         self.around: list[tuple[NodeDart, ...]] = [()]
         self.looks: list[tuple[int, bool]] = [(0, False)]
@@ -86,9 +78,8 @@ class SeenPlaces:
 class PartialFold:
     """Nodes, their identifications, and the ends of their darts.
 
-    A fold may be a **layer** above another one, which it reads but never changes. `follow` folds in
-    what was joined below since. Methods that identify return "" or the contradiction, after which
-    the fold is useless.
+    A fold may be a **layer** above another one, which it reads but never changes. Methods that
+    identify return "" or the contradiction, after which the fold is useless.
     """
 
     def __init__(self, below: PartialFold | None = None) -> None:
@@ -123,16 +114,16 @@ class PartialFold:
         return dart
 
     def is_known(self, dart: NodeDart) -> bool:
-        """Whether the dart is one of a vertex of S."""
+        """Whether the dart is at a vertex of S."""
         return self.seen.node[self.resolve(dart)] in self.seen.known
 
     def across(self, dart: NodeDart) -> NodeDart:
-        """The other end of a dart's edge; 0 if the robot was never behind it."""
+        """The other end of a dart's edge; 0 if the dart was never crossed."""
         dart = self.resolve(dart)
         return self.behind.get(dart) or self.seen.behind[dart]
 
     def know(self, dart: NodeDart) -> None:
-        """Record that the dart is one of a vertex of S."""
+        """Make the dart's node a vertex of S."""
         self.seen.known.add(self.seen.node[self.resolve(dart)])
 
     def join(self, d: NodeDart, e: NodeDart) -> str:
@@ -160,9 +151,9 @@ class PartialFold:
         return self._drawn([(d, e)], one_partner=False)
 
     def _drawn(self, pairs: list[tuple[NodeDart, NodeDart]], *, one_partner: bool = True) -> str:
-        """Fold; in the lowest fold keep the result, or drop all of it if it clashes.
+        """Fold; in the lowest fold keep the result, or drop all of it after a contradiction.
 
-        It never clashes in a world. A partial result would lead later folds in circles.
+        A partial result would lead later folds in circles.
         """
         contradiction = self._fold(pairs, one_partner=one_partner)
         if self.below is None:
@@ -233,8 +224,8 @@ class PartialFold:
     def follow(self) -> str | None:
         """Fold in what was joined below since this layer was made or last followed.
 
-        Returns:
-            "" or the contradiction; None if places were identified below: the layer is out of date.
+        Returns: "" or the contradiction; None if places were identified below: the layer is out of
+            date.
         """
         new = self.seen.joined[self._followed :]
         self._followed += len(new)
@@ -267,7 +258,7 @@ class FoldingRule(NoRule):
         self.assumed.clear()
 
     def _cross(self, exit_place: NodeDart, percept: Percept) -> NodeDart:
-        """The dart by which the robot comes in behind an exit; adds a ghost on the first visit."""
+        """The dart of entry behind an exit; adds a ghost on the first visit."""
         beyond = self.fold.across(exit_place)
         if not beyond:
             beyond = self.fold.add(percept)
@@ -277,7 +268,7 @@ class FoldingRule(NoRule):
         return beyond
 
     def observe(self, sequence: Executed) -> None:
-        """Keep every percept of an executed sequence."""
+        """Keep every percept of the sequence."""
         at = self.vu
         for step, door in enumerate(sequence.doors, 1):
             at = self._cross(self.fold.turn(at, door), sequence.percepts[step])

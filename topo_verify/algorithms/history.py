@@ -1,23 +1,19 @@
 """The fold of a whole history, S as its settled part, and the robot in it.
 
-Each visit is a node; two visits become one node once they must be one place. Nothing is assumed, so
-the fold is true whatever doors the robot takes; once no dart of it is open, it is the world
-(docs/semantics.md, section 11). A policy that steers by a History affects only the cost.
+Nothing is assumed, so the fold is true whatever doors the robot takes; once no dart of it is open,
+it is the world. A policy that steers by a History affects only the cost.
 
     S, U         the chart: the settled part of the fold, and its unexplored darts
     e, vu        a crossed dart of U, and the place behind it
     h            a hypothesis for e: another dart of U, at a vertex that looks like vu
     ghost        a node of the fold that is not known to be a vertex of S
 
-**An edge is settled late**, wherever the robot stands: as a loop once folding makes vu a vertex of
-S, as a new vertex once folding refutes every h. The decision is declared with the contradiction of
-each h. A larger S tells the fold more (two vertices of S are never one), so one settled edge may
-settle others.
-
-**Suppositions.** For each h that is not refuted, the places as they would be if e ended in h are
+**An edge is settled** wherever the robot stands: as a loop once folding makes vu a vertex of S, as
+a new vertex once folding refutes every h. One settled edge may settle others, because two vertices
+of S are never one. For each h that is not refuted, the places as they would be if e ended in h are
 kept and follow the history.
 
-Source: docs/homing.md.
+Source: docs/homing.md; docs/semantics.md, section 11.
 """
 
 from __future__ import annotations
@@ -43,7 +39,7 @@ class Crossed:
         refuted: the hypotheses that no world allows, with the reason.
         supposed: of the others, the places if they are true.
         vertices: the number of vertices of S when they were supposed.
-        possible: the first hypothesis that some world allowed at the last check.
+        possible: the first hypothesis allowed at the last check.
     """
 
     refuted: dict[MapDart, Refutation] = field(default_factory=dict[MapDart, Refutation])
@@ -65,14 +61,12 @@ class History:
         crossed: the crossed darts of U.
         at: the robot's reference dart.
         cost: its moves so far.
-        settled: number of settled edges.
+        settled: the number of settled edges.
     """
 
     allowed: ClassVar = "world"
-    """The worlds that the mapper allows for."""
 
     def __init__(self, robot: Robot) -> None:
-        """Begin at v0."""
         self.robot = robot
         self.chart = Chart(robot.percept)  # H.1
         self.places = Places(robot.percept)
@@ -98,7 +92,7 @@ class History:
         return self.chart.turn(self.chart.first[v], places.door(places.entries[v], dart))
 
     def behind(self, e: MapDart) -> NodeDart:
-        """The dart by which the robot comes in behind a crossed dart of S."""
+        """The dart of entry behind a crossed dart of S."""
         end = self.places.across(self.node_dart(e))
         assert end is not None, f"dart {e} was never crossed"
         return end
@@ -160,10 +154,7 @@ class History:
                         queue.append((neighbour, distance + 1, end))
 
     def neighbours(self, place: PlaceNode) -> list[tuple[PlaceNode, NodeDart]]:
-        """The places next to a place, each with the dart of arrival.
-
-        Cached until the fold changes there, because most searches cross settled places.
-        """
+        """The places next to a place, each with the dart of arrival; cached."""
         places = self.places
         if place not in self._neighbours:
             ends = (places.across(dart) for dart in places.darts(place))
@@ -178,7 +169,7 @@ class History:
     def distances(self, goals: Collection[PlaceNode]) -> dict[PlaceNode, int]:
         """Distances of the goals from the robot."""
         search = ((place, far) for place, far, _ in self.outward(self.at) if place in goals)
-        return dict(islice(search, len(goals)))  # the search ends with the last of them
+        return dict(islice(search, len(goals)))
 
     def way(self, goal: NodeDart) -> list[NodeDart]:
         """The exits on a shortest way from the robot to the place of a dart."""
@@ -213,7 +204,7 @@ class History:
             beyond, contradiction = places.add(exit_dart, percept)  # H.14
             if contradiction:
                 raise self.impossible(contradiction)
-            # Identified places may turn crossed doors of a ghost into doors of S.
+            # crossed doors of a ghost may now be doors of S
             merged = places.merges != merges
             if merged:
                 self._neighbours.clear()
@@ -281,7 +272,7 @@ class History:
 
     def _may_be_known(self, e: MapDart) -> bool:
         crossed = self.crossed[e]
-        h = crossed.possible  # refutations last, so it is still the first or none
+        h = crossed.possible  # still the first, as refutations last
         if h is None or h not in self.chart.unexplored or self.suppose(e, h) is None:
             crossed.possible = next((h for h, _ in self.hypotheses(e)), None)
         return crossed.possible is not None
@@ -293,7 +284,6 @@ class History:
         self.robot.declare(Augment(e, "loop", h, self.chart.percepts[h].degree))
 
     def _settle_new(self, e: MapDart) -> None:
-        """S grows by the place behind e, with darts numbered from that of entry."""
         entry, alike = self.behind(e), self.alike(e)
         degree, _ = self.places.looks(entry)
         self.robot.declare(Pose(e, tuple(alike)))

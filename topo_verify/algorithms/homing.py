@@ -1,23 +1,16 @@
 """Homing: settle the nearest edge, by doors that tell much and lead home soon.
 
 It is sound by the fold (history.py) and ends by the loop (steering.py); this file affects the cost.
+Each hypothesis predicts the percept behind an open dart of a ghost. The next door leads towards the
+open dart with the least
 
-1. **From where the robot stands.** The basic algorithm walks each way home from vu. Here each ghost
-   behind e is a place of S if h is true, and so has a way home; the robot takes one from its ghost.
-2. **No way back.** When e is settled, the robot goes on from there.
-3. **New edges first.** The next edge is the one behind which the robot is soonest; an edge never
-   crossed wins a tie. If all vertices look alike, it lies along a face: next_edge.py.
-4. **Doors by what they tell.** Each hypothesis predicts the percept behind an open dart of a ghost.
-   The next door leads towards the open dart with the least
+    steps to it + 1 + expected way home behind it - BIT · bits that it tells about h
 
-       steps to it + 1 + expected way home behind it - BIT · bits that it tells about h
+The expectation is over the hypotheses, as if one were true: to learn that vu is new, all must be
+refuted anyway. Each is weighed by its coincidences: if h is false, the places that it identifies
+have equal degrees by chance, each with the share of that degree in S.
 
-   The expectation is over the hypotheses, as if one were true: to learn that vu is new, all must
-   be refuted anyway, soonest by the doors that would tell the true one apart. Each is weighed by
-   its coincidences: if h is false, the places that it identifies have equal degrees by chance, each
-   with the share of that degree in S.
-
-Source: docs/homing.md.
+Source: docs/homing.md, with the listing whose lines are cited as `# H.12`.
 """
 
 from __future__ import annotations
@@ -36,17 +29,17 @@ from topo_verify.algorithms.steering import HistoryOf, explore
 from topo_verify.robot.events import MapDart, Robot
 
 BIT = 1.4
-"""Value of a bit in moves; between 1 and 2 the costs hardly change."""
+"""The value of a bit in moves, not critical."""
 
 DegreeShares = Mapping[int, float]
 """Degree -> share of the darts of S at vertices of that degree."""
 
 
 Prior = Callable[[MapDart], float]
-"""Prior weight of a hypothesis, up to a common factor."""
+"""The prior weight of a hypothesis, up to a common factor."""
 
 UNSEEN = 0.005
-"""The share of a degree that no vertex of S has."""
+"""The share of a degree that is not in S."""
 
 
 class Belief(NamedTuple):
@@ -98,7 +91,7 @@ def weigh(
     depth, vertex = history.home().depth, history.chart.vertex
     weighed: list[tuple[Places, float, dict[PlaceNode, int]]] = []
     for h, places in history.hypotheses(e):
-        # A place that stays a ghost even then has its way home over vu.
+        # a place that stays a ghost: home over vu
         images = {ghost: places.vertex(ghost) for ghost in ghosts}
         over_vu = depth[vertex[h]]
         homes = {

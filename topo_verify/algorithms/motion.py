@@ -4,11 +4,6 @@ A **sequence** is what was executed for the current edge: doors from vu, and the
 (percept 0 is vu's own). Moves 0, -kt, …, -k2 (modulo each degree) undo doors k1 … kt. The robot's
 reference dart is then turned by k1, so -k1 is added to its next door. Turning costs nothing.
 
-    motion    back to            next hypothesis
-    retrace   vu, every time     the first of H
-    overlap   the end of the     the one with the longest common prefix of doors with the last
-              common prefix      sequence; ties, and while nothing is executed: the first of H
-
 Source: docs/semantics.md, sections 2, 6, 7; listing 1 lines 10-15, listing 2 lines 15-23.
 """
 
@@ -34,13 +29,13 @@ class Executed:
 
 
 class Hypothesis:
-    """The hypothesis that e ends in dart h: the way home from h, and the percepts expected on it.
+    """The hypothesis that e ends in dart h: its way home and the percepts expected on it.
 
     The way follows the breadth-first tree rooted at v0. Computed on demand: few are walked.
     """
 
     def __init__(self, dart: MapDart, chart: Chart, tree: Tree) -> None:
-        # A hypothesis is dropped before S grows, so later computations see the same S.
+        # a hypothesis is dropped before S grows
         self.dart, self._chart, self._tree = dart, chart, tree
 
     @cached_property
@@ -53,7 +48,7 @@ class Hypothesis:
 
     @cached_property
     def doors(self) -> tuple[Door, ...]:
-        """The doors to v0, relative to the entry dart h. Empty if h is v0's."""
+        """The doors to v0, relative to the entry dart h."""
         chart, row = self._chart, self.arrivals
         return tuple(chart.door(a, chart.across(b)) for a, b in pairwise(row))
 
@@ -68,7 +63,7 @@ class Pilot:
 
     Attributes:
         turned: by how many doors the reference dart is turned from the dart of entry.
-        doors: the doors from vu to where the robot stands.
+        doors: from vu to where the robot stands.
         percepts: vu's, then the one behind each of these doors.
     """
 
@@ -102,9 +97,8 @@ class Pilot:
         return percept
 
     def back(self, steps: int) -> None:
-        """Retrace until only this many doors of the excursion are left. 0: back at vu."""
+        """Retrace until this many doors of the excursion remain."""
         while len(self.doors) > steps:
-            # The dart of entry leads back, to the dart by which this door left.
             self._move(-self.turned % self.robot.percept.degree, "retrace")
             self.turned = self.doors.pop()
             self.percepts.pop()
@@ -119,7 +113,7 @@ class Pilot:
 
 
 class Choice(NamedTuple):
-    """The hypothesis to walk next, and how many doors it shares with the last sequence."""
+    """The hypothesis to walk next, and the number of doors it shares with the last sequence."""
 
     hypothesis: Hypothesis
     shared: int

@@ -1,10 +1,10 @@
-"""Which edge a steered mapper settles next: that behind which the robot can be soonest.
+"""Which edge a steered mapper settles next: the one behind which the robot can be soonest.
 
 If all vertices look alike, doors tell nothing before v0, and short closed trips are worth most. The
 shortest lead round a face, so the next edge is chosen **along a face**: nearest to the newest
 vertex of S, ties clockwise from its dart of entry.
 
-U and e as in history.py. Source: docs/homing.md.
+Source: docs/homing.md.
 """
 
 from __future__ import annotations
@@ -60,7 +60,6 @@ def least(
 
     Args:
         start: where the moves are counted from.
-        rank: of a dart, and the moves until the robot is behind it.
         slack: how far a rank may be below the moves.
     """
     best: Rank | None = None

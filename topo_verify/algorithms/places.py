@@ -17,14 +17,13 @@ PlaceNode = NodeDart
 
 
 class Places:
-    """The places of a fold or a layer. `entries` holds the first dart of each vertex of S."""
+    """The places of a fold or a layer; `entries`: the first dart of each vertex of S."""
 
     def __init__(self, percept: Percept) -> None:
-        """Begin with v0, the first vertex of S."""
         self.fold = PartialFold()
         self.seen = self.fold.seen
         self.entries: list[NodeDart] = [self.fold.add(percept, known=True)]
-        # A vertex of S leads its class, so its node never changes.
+        # its node never changes: a vertex of S leads its class
         self._vertices: dict[PlaceNode, Vertex] = {self.entries[0]: 0}
 
     def suppose(self, e: NodeDart, h: NodeDart) -> Places | str:
@@ -40,7 +39,7 @@ class Places:
 
     @property
     def merges(self) -> int:
-        """Number of darts identified with others, suppositions not counted."""
+        """The number of darts identified with others, without suppositions."""
         return self.seen.merges
 
     # ---------------------------------------------------------------- darts
@@ -50,7 +49,7 @@ class Places:
         return self.fold.resolve(dart)
 
     def across(self, dart: NodeDart) -> NodeDart | None:
-        """The other end of a dart's edge; None if the robot was never behind it."""
+        """The other end of a dart's edge; None if the dart was never crossed."""
         end = self.fold.across(dart)
         return self.fold.resolve(end) if end else None
 
@@ -59,7 +58,7 @@ class Places:
         return self.fold.resolve(self.fold.turn(dart, door))
 
     def door(self, dart: NodeDart, exit_dart: NodeDart) -> Door:
-        """How many doors clockwise `exit_dart` is from `dart`."""
+        """The number of doors from `dart` clockwise to `exit_dart`."""
         at, out = self.fold.resolve(dart), self.fold.resolve(exit_dart)
         return (out - at) % self.seen.looks[at][0]
 
@@ -74,7 +73,7 @@ class Places:
         return self.seen.clockwise(place)
 
     def looks(self, dart: NodeDart) -> tuple[int, bool]:
-        """The degree of a dart's place, and whether the marker is there."""
+        """The signature of a dart's place."""
         return self.seen.looks[dart]
 
     def vertex(self, dart: NodeDart) -> Vertex | None:

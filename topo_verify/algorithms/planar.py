@@ -1,12 +1,9 @@
 """The planar prior: in a planar world, only darts on e's own face of S can be its other end.
 
 An edge inside a face of a plane map cuts it in two; an edge between two faces needs a handle. An
-open dart counts as a dead end of its face. The prior is sound in every planar world; in others it
-rejects true hypotheses, and the checkers must find that.
-
-It comes as a rule in front of another rule, and as a `History`. Refutations last: two darts on
-different faces stay so while S grows. In a world that is not planar a history finds an edge to
-another face, or two vertices of S at one place, and raises.
+open dart counts as a dead end of its face. The prior comes as a rule in front of another rule, and
+as a `History`, which raises if an edge leads to another face or two vertices of S are at one place.
+Refutations last: two darts on different faces stay so while S grows.
 
 Source: docs/semantics.md, section 8.
 """
@@ -70,7 +67,6 @@ class PlanarHistory(History):
     allowed = "planar world"
 
     def __init__(self, robot: Robot) -> None:
-        """Begin at v0."""
         super().__init__(robot)
         self._faces: dict[MapDart, frozenset[MapDart]] = {}
 
@@ -98,12 +94,12 @@ class PlanarHistory(History):
 
 
 def planar_homing(robot: Robot) -> Survey:
-    """Map the robot's planar world, as `homing` does."""
+    """`homing` in a planar world."""
     return homing(robot, history_of=PlanarHistory)
 
 
 def planar_planner(robot: Robot) -> Survey:
-    """Map the robot's planar world, as `planner` does."""
+    """`planner` in a planar world."""
     return planner(robot, history_of=PlanarHistory)
 
 
@@ -112,7 +108,7 @@ def face(chart: Chart, e: MapDart) -> list[MapDart]:
     darts = [e]
     while True:
         across = chart.alpha[darts[-1]]
-        # sigma∘alpha, where alpha of an unexplored dart is the dart itself
+        # an unexplored dart is its own other end
         following = chart.turn(darts[-1] if across is None else across, 1)
         if following == e:
             return darts

@@ -1,16 +1,11 @@
 """Planner: `homing` that learns during a run where edges tend to end.
 
-It differs from `homing` in two policies, which affect only the cost.
+In streets and lattices an edge that closes a loop mostly ends near by, often a few steps along the
+face. A hypothesis h for e has a **kind**: the distance on S between the vertices of h and e, and
+the steps after which a walk along the face beside e passes h. The rate at which hypotheses of a
+kind came true, drawn towards the rate of all while they are few, is the prior of `homing`'s doors.
 
-1. **Where edges end.** In streets and lattices an edge that closes a loop mostly ends near by,
-   often a few steps along the face. A hypothesis h for e has a **kind**: the distance on S between
-   the vertices of h and e, and the steps after which a walk along the face beside e passes h. A
-   kind's rate is how often its hypotheses were true, drawn towards the rate of all while they are
-   few. It is the prior of `homing`'s rule 4.
-2. **Outward.** Of two edges the one further from home may be a fraction of a move further from the
-   robot, since it need not be fetched later.
-
-U, e, h as in history.py. Termination and bound: steering.py. Savings: docs/homing.md.
+Source: docs/homing.md.
 """
 
 from __future__ import annotations
@@ -46,7 +41,6 @@ class Habits:
     """How often the hypotheses of each kind were true, in one run.
 
     Attributes:
-        posed, true: hypotheses of each kind, and those that were true.
         asked: of each crossed edge not yet settled, the kinds of its hypotheses.
     """
 
@@ -63,7 +57,6 @@ class Habits:
             self.asked[e] = {h: every[h] for h, _ in history.hypotheses(e)}
             self.posed.update(self.asked[e].values())
         asked = self.asked[e]
-        # Darts of vertices added since have no kind.
         return most_telling_door(history, e, lambda h: self.rate(asked.get(h, (FAR, FAR))))
 
     def rate(self, kind: ClosureKind) -> float:

@@ -5,26 +5,24 @@ cannot make the map wrong: `History` settles only what the history proves, and t
 is empty. Two rules keep them from walking for ever:
 
 1. **Patience.** After `PATIENCE` moves behind edges with none settled, the loop settles e itself,
-   by ways home as the basic algorithm does. Each way refutes its hypothesis, or leads home and
-   makes vu a vertex of S. When no hypothesis for e is left, or vu is in S, e is settled.
+   by ways home: each refutes its hypothesis, or leads home and makes vu a vertex of S.
 2. **The bound.** Claim 7 grants each edge A = n + (2m-1)·2(n-1) moves, where the vertices and darts
    of S bound n and 2m from below. A policy chooses a door only while, after it, the grant of the
-   edges settled so far and of one more still pays for settling any edge by ways home.
+   settled edges and of one more still pays for settling any edge by ways home.
 
 **It ends.** The measure (edges not settled; patience left; hypotheses for e; steps left on the way)
-falls lexicographically with every move, except on the ways to the next edge, which are shortest
-ways and end in a policy's move or a hypothesis.
+falls lexicographically with every move, except on the shortest ways to the next edge.
 
 **It keeps the bound.** Let j edges be settled, c the cost, a the distance from the robot to S, and
 W = |U|·2(n-1). To go back to S, over S to any edge, and across takes at most a + n moves; to walk
-each hypothesis home and back takes W. So settling one more edge by ways home takes at most
-a + n + W moves, including the walk from the end of one way to the first new step of the next,
-which is no longer than that over vu: afterwards c + a has grown by no more. With one vertex W is 0
-and every crossing settles its edge. With more, at least two darts of S are explored, so
-W <= (2m-2)·2(n-1), and n + 1 + W < A.
+each hypothesis home and back takes W. So settling one more edge by ways home takes at most a + n +
+W moves, including the walk from the end of one way to the first new step of the next, which is no
+longer than that over vu; and c + a grows by no more. With one vertex W is 0 and every crossing
+settles its edge. With more, at least two darts of S are explored, so W <= (2m-2)·2(n-1), and n + 1
++ W < A.
 
 - If an edge was just settled, c + a <= j·A (below), so c + a + n + 1 + W <= (j+1)·A: the grant pays
-  for one more by ways home, with a move to spare (behind a new edge the robot is one from S).
+  for one more, with a move to spare (behind a new edge the robot is one from S).
 - If none was settled since, the loop checked this before its last move.
 
 So however an edge is settled, c + a <= (j+1)·A afterwards. At the end the cost is at most m·A.
@@ -40,17 +38,14 @@ from topo_verify.algorithms.history import History
 from topo_verify.robot.events import MapDart, Robot
 
 PATIENCE = 60
-"""Moves behind edges that may settle none. On a torus they run out now and then."""
+"""Moves behind edges that may settle none; on a torus they run out now and then."""
 
 NextEdge = Callable[[History], MapDart]
-"""The dart of U to settle next."""
 
 NextDoor = Callable[[History, MapDart], NodeDart]
-"""The dart by which the robot leaves, to find out where this crossed edge ends."""
 
 
 HistoryOf = Callable[[Robot], History]
-"""Begins the history of a run: `History`, or one with further assumptions."""
 
 
 def explore(
@@ -75,7 +70,7 @@ def explore(
 
 
 def affords(history: History) -> bool:
-    """Whether after one more move settling any edge by ways home is within the bound of claim 7."""
+    """Whether after one more move settling any edge by ways home keeps the bound."""
     chart = history.chart
     n, darts = len(chart.first), len(chart.alpha)
     grant = n + (2 * ((darts + 1) // 2) - 1) * 2 * (n - 1)
@@ -110,11 +105,11 @@ def settle_by_ways_home(history: History, e: MapDart) -> None:
 def walk_home(history: History, e: MapDart, h: MapDart) -> None:
     """Walk the way home of h until h is refuted or e settled.
 
-    As in Enhancement I, doors taken before are not walked again.
+    Doors taken before are not walked again.
     """
     chart, places = history.chart, history.places
     towards = history.home().parent
-    at, place = h, history.behind(e)  # a dart on the way home, and its place if h is true
+    at, place = h, history.behind(e)  # a dart on the way home; its place if h is true
     while e in history.crossed and history.suppose(e, h) is not None:  # H.8
         leads_home = towards[chart.vertex[at]]
         assert leads_home is not None, "at v0 the marker has told whether h is true"

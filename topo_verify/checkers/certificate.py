@@ -1,13 +1,12 @@
-"""A log judged by itself: what percepts and doors prove where nobody knows the world.
+"""A log judged by itself: what percepts and doors prove when the world is unknown.
 
-Trusted. Folded, a log has no open dart: then there is one world that shows it, and that is the map
-(PROVED). Or it has: then two different worlds show it, and no mapper could know which one it was in
-(UNKNOWN: walk on). Or no world shows it, or what it delivers or decides does not follow from it
-(REFUTED).
+Trusted. No open dart in the fold: exactly one world shows the log (PROVED). An open dart: two
+different worlds show it, and no mapper could tell them apart (UNKNOWN). If no world shows the log,
+or what it delivers or decides does not follow, it is REFUTED. Claim 7 is not asked: a log is not a
+mapper.
 
-A log is not a mapper: how long it is, or how often it walks one edge, is not judged (claim 7).
-What this does not show: that the log is what happened. Percepts that no world shows are found; a
-log of another walk is a proof about another world. For people the harness makes a `Certificate`.
+What this does not show: that the log is what happened. A log of another walk is a proof about
+another world.
 
 Source: docs/semantics.md, section 11; docs/certify.md.
 """
@@ -27,7 +26,7 @@ from topo_verify.robot.events import Event, Finish, Move, Start, require_order
 from topo_verify.world.rooted_map import World
 
 MOST_DARTS = 2**20
-"""The most doors that the places of a log may have together: a world of them takes about 2 GB."""
+"""Of all places of a log: a world of them takes about 2 GB."""
 
 
 class JudgedLog(NamedTuple):
@@ -35,7 +34,7 @@ class JudgedLog(NamedTuple):
 
     Attributes:
         fold: of the log, up to the first event with which no world shows it.
-        broken: the first event with which no world shows it, and why; or None.
+        broken: that event, and why; or None.
         map: the one world that shows the log, or None.
         conclusions: whether each declared decision follows from the log before it, up to the first
             that draws a wrong S.
@@ -55,12 +54,12 @@ def judge_log(trace: Sequence[Event]) -> JudgedLog:
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`; or
             its places have more than 2^20 doors together, and more than 16 an event.
-    Complexity: nearly linear for a plain log; claim 10 looks at every open dart once a decision.
+    Complexity: nearly linear; claim 10 looks at every open dart once a decision.
     """
     require_order(trace)
     folded = ent.FoldedTrace(trace)
     fold, broken = folded.fold, folded.read_to(len(trace))
-    most = max(MOST_DARTS, 16 * len(trace))  # a long patrol has many places, none of them wide
+    most = max(MOST_DARTS, 16 * len(trace))
     if (darts := sum(map(fold.degree, fold.roots()))) > most:
         told = f"the places of this log have {darts} doors together: expected at most {most}"
         raise InputError(f"{told}; is a degree wrong?")
@@ -82,21 +81,17 @@ def judge_log(trace: Sequence[Event]) -> JudgedLog:
 def _wrong(world: World, trace: Sequence[Event]) -> tuple[Finding, ...]:
     """What a log says that is wrong in its proved world.
 
-    A finding of no event is about the run as a whole: that it costs too much, or delivers no map. A
-    log owes neither.
+    A finding without an event is about the whole run: its cost, or a missing map. A log owes
+    neither.
     """
     if all(isinstance(event, Start | Move) for event in trace):
-        return ()  # the world shows the log, and it says no more
+        return ()
     found = (wrong for one in check(world, trace, strict=True) for wrong in one.findings)
     return tuple(finding for finding in found if finding.event is not None)
 
 
 def showing(world: World, trace: Sequence[Event]) -> World:
-    """The world, which is seen to show the log, as a proof and a witness must.
-
-    Raises:
-        InternalError: it does not.
-    """
+    """The world, after a check that it shows the log."""
     if not ReplayedTrace(world, trace).is_history:
         raise InternalError("a fold does not show the log that it is the fold of")
     return world

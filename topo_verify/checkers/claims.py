@@ -1,10 +1,10 @@
 """The claims of docs/semantics.md, section 9, one named function each, over a world and a trace.
 
-Trusted. A claim is asked of a `ReplayedTrace` and answers with what is
-wrong, which is nothing if it holds. `CLAIMS` lists them in order; `check` asks them all.
+Trusted. A claim takes a `ReplayedTrace` and yields what is wrong. `CLAIMS` lists them in order;
+`check` asks them all.
 
-What these do not show: claims 1-8 ask whether the mapper was right in THIS world. A mapper that
-guesses and is lucky passes them. Claims 9 and 10 ask about every world with the same history.
+What these do not show: claims 1-8 ask whether the mapper was right in THIS world, so a lucky guess
+passes them. Claims 9 and 10 ask about every world with the same history.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import World
 
 Wrong = partial(Finding, "")
-"""Something that is wrong, as a claim yields it; `check` adds the name of the claim."""
+"""Something that is wrong; `check` adds the name of the claim."""
 
 Claim = Callable[[ReplayedTrace], Iterator[Finding]]
 
 LARGE = 2000
-"""Beyond this many edges claim 10 is asked only with `strict`: it takes longer than the run."""
+"""With more edges claim 10 is asked only if `strict`: it takes longer than the run."""
 
 
 def check(
@@ -46,13 +46,12 @@ def check(
     """
     run = ReplayedTrace(world, trace, stopped)
     shares = coverage(run)
-    # Backwards: claim 9 goes on with the fold of claim 10.
+    # backwards: claim 9 goes on with claim 10's fold
     judged = [_judgement(run, name, *shares[name], strict=strict) for name in reversed(CLAIMS)]
     return judged[::-1]
 
 
 def _judgement(run: ReplayedTrace, name: str, judged: int, of: int, *, strict: bool) -> Judgement:
-    """The judgement of one claim."""
     claim, speaks_of = CLAIMS[name]
     if speaks_of and run.world.alpha and run.kinds.keys().isdisjoint(speaks_of):
         return Judgement(name, "not-declared", 0, of)
@@ -93,7 +92,6 @@ def true_hypothesis_posed(run: ReplayedTrace) -> Iterator[Finding]:
 
 
 def _wrongly_posed(run: ReplayedTrace, decision: Round, pose: ev.Pose) -> Iterator[Finding]:
-    """What is wrong with one set of hypotheses."""
     edge, hypotheses, (when, *_, end, truth) = pose.edge, pose.hypotheses, decision
     if end is None or not all(run.map.is_open(h, when) for h in hypotheses):
         message = f"edge {edge} or one of its hypotheses is not an unexplored dart of S"
@@ -148,7 +146,6 @@ def map_isomorphic(run: ReplayedTrace) -> Iterator[Finding]:
 
 
 def _wrong_map(run: ReplayedTrace, finish: ev.Finish) -> Iterator[Finding]:
-    """What is wrong with the map that is delivered, and with the moment when it is."""
     last, left = len(run.trace) - 1, len(run.map.phi) - len(run.map.alpha)
     if run.spoiled is run.illegal is None and run.map.alpha and left:
         yield Wrong(last, 0, left, f"the map is delivered while {left} darts of S are unexplored")
@@ -183,10 +180,10 @@ def cost_within_bound(run: ReplayedTrace) -> Iterator[Finding]:
 def rejection_justified(run: ReplayedTrace) -> Iterator[Finding]:
     """8. The evidence that a rejection cites really disagrees, recomputed.
 
-    What was observed is taken from the moves, what was expected from S; behind an unexplored dart,
-    from the sequences executed for earlier edges, traced from where they are known to have begun.
-    Rules `folding` and `planar` cite a contradiction, which must follow from the history; percepts
-    at the two ends may stand beside it.
+    The observation is taken from the moves, the expectation from S; behind an unexplored dart, from
+    the sequences executed for earlier edges, traced from where they are known to have begun. Rules
+    `folding` and `planar` cite a contradiction, which must follow from the history; percepts at the
+    two ends may stand beside it.
     """
     for decision in run.rounds:
         event = decision.event
@@ -196,7 +193,7 @@ def rejection_justified(run: ReplayedTrace) -> Iterator[Finding]:
 
 
 UNTRUE = Wrong(None, "true percepts", None, "the percepts are not true and prove nothing")
-"""Such a history is not folded: a percept that is not true may claim any number of doors."""
+"""Such a history is not folded: a false percept may claim any number of doors."""
 
 
 def map_entailed(run: ReplayedTrace) -> Iterator[Finding]:
@@ -211,7 +208,7 @@ def decisions_entailed(run: ReplayedTrace) -> Iterator[Finding]:
 
 
 def unproved(claim: str, conclusions: Iterable[Conclusion]) -> Iterator[Finding]:
-    """A finding for each of these conclusions that does not follow; none where it is undecided."""
+    """A finding for each conclusion that does not follow and is not undecided."""
     expected, but = "a proved decision", "the decision does not follow"
     if claim == "map-entailed":
         expected, but = "a map that is proved", "the history proves no such map"
@@ -226,7 +223,6 @@ def unproved(claim: str, conclusions: Iterable[Conclusion]) -> Iterator[Finding]
 
 
 def _unjustified(run: ReplayedTrace, decision: Round, event: ev.Reject) -> str:
-    """What is wrong with a rejection; "" if it is justified."""
     h, (when, _, pose, *_, end, _) = event.hypothesis, decision
     if pose is None or h not in pose.hypotheses:
         return "no such hypothesis was posed"
@@ -241,7 +237,6 @@ def _unjustified(run: ReplayedTrace, decision: Round, event: ev.Reject) -> str:
 
 
 def _unmet(run: ReplayedTrace, when: int, cited: ev.Evidence, ends: tuple[Percept, Percept]) -> str:
-    """Why the contradiction that is cited does not follow, or what else is cited wrongly; or ""."""
     for told, seen in zip((cited.expected, cited.observed), ends, strict=True):
         if told not in (None, seen):
             return f"what is seen there is {seen}, not {told}"
@@ -256,7 +251,6 @@ def _unmet(run: ReplayedTrace, when: int, cited: ev.Evidence, ends: tuple[Percep
 def _percepts_agree(
     run: ReplayedTrace, decision: Round, event: ev.Reject, end: WorldDart, h: KnownDart
 ) -> str:
-    """Why the two percepts that are cited do not disagree as they are said to; "" if they do."""
     cited, word = event.evidence, _executed(decision, event)
     if word is None:
         return f"step {cited.step} of sequence {cited.sequence} was not executed"
@@ -266,9 +260,9 @@ def _percepts_agree(
     at, rest = run.records.trace(h, word, decision.when)
     doors = tuple(step.door for step in rest[1:])
     if cited.at not in (None, at) or cited.record != (ev.Record(at, doors) if rest else None):
-        leaves = f"leaves S at dart {at} with the doors {list(doors)} to go"
-        ends = f"ends at dart {at} of S, not where the evidence says"
-        return f"tracing {leaves if rest else ends}"
+        leaves = f"lead to unexplored dart {at}: evidence must cite its record, doors {list(doors)}"
+        ends = f"end at dart {at}: evidence must cite that dart and no record"
+        return f"on S the doors {leaves if rest else ends}"
     behind = run.records.behind(at, doors, decision.when)
     expected = behind if rest else run.map.seen_at(run.map.phi[at])
     if expected is None:
@@ -279,7 +273,7 @@ def _percepts_agree(
 
 
 def _executed(decision: Round, event: ev.Reject) -> Word | None:
-    """The word that a rejection cites, up to its step; None if that was not executed."""
+    """The word that a rejection cites, up to its step; None if it was not executed."""
     number, step, words = event.evidence.sequence, event.evidence.step, decision.sequences
     if number is None:
         number, words = 0, (decision.word,) if event.rule == "motion" else ()
@@ -291,7 +285,6 @@ def _executed(decision: Round, event: ev.Reject) -> Word | None:
 
 
 def _leads(run: ReplayedTrace, decision: Round) -> str:
-    """Where the edge of a decision really leads."""
     if (end := decision.end) is None:
         return "nowhere (it is not an unexplored dart of S)"
     degree, truth = run.map.seen_at(end).degree, decision.truth
@@ -310,4 +303,4 @@ CLAIMS: dict[str, tuple[Claim, tuple[type[ev.Event], ...]]] = {
     "map-entailed": (map_entailed, (ev.Finish,)),
     "decisions-entailed": (decisions_entailed, (ev.Reject, ev.Confirm, ev.Augment)),
 }
-"""Each claim by its name, and the events that it speaks of (none: any)."""
+"""The events that each claim speaks of; none: any."""

@@ -1,23 +1,10 @@
 """How much of a run each claim judged: `judged` of `of`, counted from the moves and the decisions.
 
-Trusted. What a mapper owes follows from where it walked, not from what it says: of each edge of the
-world that the robot crossed, a decision where it leads. An edge is **settled** once it was posed
-and S grew along it. In claims 3, 4 and 8 each crossed edge that is not settled adds one to `of` and
-nothing to `judged`; in claim 10 each along which S did not grow.
+Trusted. What a mapper owes follows from where it walked: of each crossed edge of the world, a
+decision where it leads. An edge is **settled** once it was posed and S grew along it; each crossed
+edge that is not settled adds to `of` alone in claims 3, 4 and 8.
 
-| claim | `of`, beside these edges | `judged` |
-| --- | --- | --- |
-| 1 | percepts | those up to a door that is not there |
-| 2 | edges crossed | those that were posed |
-| 3 | hypotheses posed | all but those left without a fate |
-| 4 | confirmations: declared, or missing where an edge leads to a known vertex | declared |
-| 5, 9 | one map | the delivered one |
-| 6 | costs reported | the same |
-| 7 | one cost | the same |
-| 8 | rejections: declared, or missing where an edge leads to a new vertex | declared |
-| 10 | decisions declared | those up to the first that does not follow |
-
-Source: docs/semantics.md, section 9, "Coverage".
+Source: docs/semantics.md, section 9, "Coverage", with the table.
 """
 
 from __future__ import annotations
@@ -28,7 +15,6 @@ from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.robot.events import Augment, Confirm, Finish, Move, Pose, Reject, Start
 
 Share = tuple[int, int]
-"""How many things were judged, and of how many."""
 
 
 def coverage(run: ReplayedTrace) -> dict[str, Share]:

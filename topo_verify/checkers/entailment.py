@@ -1,15 +1,12 @@
 """Claims 9 and 10: what a mapper concluded must follow from its history, not from luck.
 
 Trusted. A mapper that guesses right passes every check that looks at one world. Here its history is
-folded, and each conclusion must hold in EVERY world that shows this history; where it does not, the
-answer carries a **witness**: a world with the same history in which the conclusion is false. For a
-mapper that declares the planar prior (it rejects by rule `planar`), only planar witnesses count.
+folded, and each conclusion must hold in EVERY world that shows this history. If it does not, the
+answer carries a **witness**: a world with the same history in which the conclusion is false.
 
-Under the planar prior, an edge between two faces of S is in no planar world, and no two vertices of
-S are one, for S was proved so far. Otherwise a planar world is looked for among the foldings of the
-fold: two of its vertices are taken for one, then two more, and so on. Any planar world with this
-history folds onto such a one, so if none is planar the decision follows. `FURTHER` foldings are
-tried for one run; after that it is **undecided**.
+For a mapper that declares the planar prior (it rejects by rule `planar`), only planar witnesses
+count. They are looked for among the fold and its further foldings; any planar world with this
+history folds onto one of these. After `FURTHER` foldings in a run the decision is **undecided**.
 
 What this does not show: a confirmation or a loop that follows from the prior alone fails here.
 
@@ -35,14 +32,14 @@ from topo_verify.world.rooted_map import Code, World
 
 CONCLUDED = Reject, Confirm, Augment
 Concluded = Reject | Confirm | Augment
-"""A decision that says where an edge leads, or where it does not. (Quicker to ask of the tuple.)"""
+"""A decision on where an edge leads, or does not; the tuple is quicker to ask."""
 
 Tries = Iterator[int] | None
-"""The foldings that may still be tried; None without the planar prior: no world needs be planar."""
+"""The foldings that may still be tried; None without the planar prior."""
 
 
 class Conclusion(NamedTuple):
-    """Why what was concluded at event `when` does not follow ("": it does), and a witness.
+    """Why what was concluded at event `when` does not follow ("" if it does), and a witness.
 
     Attributes:
         met: of a rejection by rule `folding` or `planar`: the contradiction that it cites follows.
@@ -55,19 +52,19 @@ class Conclusion(NamedTuple):
 
     @property
     def undecided(self) -> bool:
-        """Whether it may follow or not: the search for a witness was given up."""
+        """Whether the search for a witness was given up."""
         return self.why == UNDECIDED[0]
 
 
 FURTHER = 300
-"""The most foldings tried in one run to find planar worlds that refute its decisions."""
+"""The most foldings tried in one run."""
 
 
 class FoldedTrace:
-    """A trace, and the fold of the events that were read.
+    """A trace, and the fold of the events read so far.
 
     Attributes:
-        read: the number of events that were read.
+        read: the number of events read.
         broken: the first event with which no world shows the history, and why; or None.
     """
 
@@ -77,7 +74,7 @@ class FoldedTrace:
         self.broken: tuple[int, str] | None = None
 
     def read_to(self, end: int) -> tuple[int, str] | None:
-        """Read on up to event number `end`, which is not read, and return `broken`."""
+        """Read on up to event number `end`, excluded, and return `broken`."""
         while self.read < end and self.broken is None:
             event, why = self.trace[self.read], ""
             if isinstance(event, Move):
@@ -93,13 +90,12 @@ class FoldedTrace:
 
 
 def _may_start(seen: Percept) -> bool:
-    """Whether some world shows this to a robot on the marked dart."""
     return seen.marker == 0 < seen.degree or seen == Percept(0, None)
 
 
 @lru_cache(maxsize=16)
 def delivered_code(delivered: MapData) -> Code | str:
-    """The canonical code of a delivered map, which claims 5 and 9 ask for; or why it is none."""
+    """The canonical code of a delivered map, or why it is not a map."""
     try:
         return World.from_rotations(delivered.vertices, delivered.edges, delivered.marker).code
     except InputError as error:
@@ -107,7 +103,7 @@ def delivered_code(delivered: MapData) -> Code | str:
 
 
 def map_conclusion(folded: FoldedTrace) -> Conclusion:
-    """Whether the history alone proves the map that was delivered (claim 9). Reads the whole trace.
+    """Whether the history alone proves the delivered map (claim 9).
 
     If a dart of the fold is open, two worlds show the history; the map is at most one of them.
     """
@@ -128,16 +124,12 @@ def map_conclusion(folded: FoldedTrace) -> Conclusion:
 
 
 def decision_conclusions(folded: FoldedTrace) -> Iterator[Conclusion]:
-    """Every declared reject, confirm and augmentation, up to the first that draws a wrong S.
-
-    Args:
-        folded: the trace, of which nothing was read.
-    """
+    """Every declared reject, confirm and augmentation, up to the first that draws a wrong S."""
     trace = folded.trace
     on_fold = MapOnFold(folded.fold)
     planar = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
     tries = iter(range(FURTHER)) if planar else None
-    refuted: set[tuple[int, int]] = set()  # for ever: S and the history only grow
+    refuted: set[tuple[int, int]] = set()  # for good: S and the history only grow
     for when, event in enumerate(trace):
         if not isinstance(event, CONCLUDED):
             continue
@@ -159,16 +151,13 @@ def decision_conclusions(folded: FoldedTrace) -> Iterator[Conclusion]:
 
 
 Doubt = tuple[str, World | None]
-"""Why a decision does not follow, and a world with the same history in which it is false."""
 
 FOLLOWS: Doubt = ("", None)
-"""There is no such world."""
 
 UNDECIDED: Doubt = ("no planar world was found in which it is false, nor that there is none", None)
 
 
 def _is_met(on_fold: MapOnFold, event: Event) -> bool:
-    """Whether the contradiction that a rejection cites follows from the history."""
     if not isinstance(event, Reject) or event.rule not in ("folding", "planar"):
         return False
     e, h, cited = KnownDart(event.edge), KnownDart(event.hypothesis), event.evidence.contradiction
@@ -179,7 +168,6 @@ def _is_met(on_fold: MapOnFold, event: Event) -> bool:
 
 
 def _unknown_dart(on_fold: MapOnFold, event: Concluded) -> str:
-    """Which dart that a decision names is not the one that it must be; "" if all are."""
     other = event.dart if isinstance(event, Augment) else event.hypothesis
     is_new = isinstance(event, Augment) and event.kind == "new"
     is_right = other == on_fold.size if is_new else on_fold.is_open(other)
@@ -190,10 +178,6 @@ def _unknown_dart(on_fold: MapOnFold, event: Concluded) -> str:
 def _doubt(
     on_fold: MapOnFold, event: Concluded, refuted: Container[tuple[int, int]], tries: Tries
 ) -> Doubt:
-    """Why a decision does not follow from the history; `FOLLOWS` if it does.
-
-    Its darts are unexplored darts of S. `tries`: only a planar world counts as a witness.
-    """
     e = KnownDart(event.edge)
     if isinstance(event, Reject):
         return _may_lead_to(on_fold, e, [KnownDart(event.hypothesis)], tries)
@@ -208,7 +192,7 @@ def _doubt(
 def _may_lead_to(on_fold: MapOnFold, e: KnownDart, ends: list[KnownDart], tries: Tries) -> Doubt:
     """Folding with e joined to each of these must contradict; else the fold shows an end of e."""
     fold, doubt = on_fold.fold, FOLLOWS
-    # With the prior, S was proved for planar worlds alone: the fold itself may not tell them apart.
+    # with the prior, the fold may not tell vertices of S apart
     face, apart = (ends, ()) if tries is None else (on_fold.face(e), on_fold.entries)
     for places in ((on_fold.place(e), on_fold.place(end)) for end in ends if end in face):
         if any(fold.contradictions(*places, apart)):
@@ -241,7 +225,7 @@ def _planar_folding(fold: Fold, pairs: Sequence[Pair], tries: Iterator[int]) -> 
 
 
 def _may_be_apart(on_fold: MapOnFold, e: KnownDart, h: KnownDart, degree: int | None) -> Doubt:
-    """Folding must make e and h partners, at a vertex of this degree, if one is stated."""
+    """Folding must make e and h partners, at a vertex of the stated degree, if any."""
     fold = on_fold.fold
     if fold.partner(on_fold.place(e)) != fold.find(on_fold.place(h)):
         return f"darts {e} and {h} may well belong to different edges", fold.world()
@@ -251,9 +235,9 @@ def _may_be_apart(on_fold: MapOnFold, e: KnownDart, h: KnownDart, degree: int | 
 
 
 def _may_be_known(on_fold: MapOnFold, e: KnownDart, degree: int) -> Doubt | None:
-    """The edge e must have been crossed, to a place of this degree that is no vertex of S."""
+    """The edge e must have been crossed, to a place of this degree that is not a vertex of S."""
     fold, entry = on_fold.fold, on_fold.fold.partner(on_fold.place(e))
-    if entry is None:  # a leaf may be behind e, and if a leaf is claimed, a vertex of degree 2
+    if entry is None:  # if a leaf is claimed, a vertex of degree 2 may be there, else a leaf
         return "the edge was never crossed", fold.world(2 if degree == 1 else 1)
     if fold.degree(entry[0]) != degree or on_fold.is_known(entry[0]):
         return "the edge leads to another vertex", fold.world()

@@ -1,11 +1,10 @@
 """What a robot does behind an edge, as words of doors; and what these words show later.
 
-Trusted. **Excursions.** Behind an edge the robot walks out and back. Its moves are reduced to the
-word of doors from vu to where it stands: a move through the dart by which it came cancels the last
-door, every other move adds one. A *sequence* is the word at a mismatch in motion.
+Trusted. **Excursions.** The moves behind an edge are reduced to the word of doors from vu to where
+the robot stands. A *sequence* is the word at a mismatch in motion.
 
-**Records.** Once it is known where the edge leads, its sequences show what lies behind unexplored
-darts of S: each is traced on S up to the first of them, and what remains of it is kept there.
+**Records.** Once it is known where the edge leads, each sequence is traced on S up to the first
+unexplored dart; what remains of it is kept there, for it shows what lies behind.
 
 Source: docs/semantics.md, section 9, "Moves become words"; section 7, "Records".
 """
@@ -21,7 +20,7 @@ from topo_verify.robot.percept import Door, Percept
 
 
 class Step(NamedTuple):
-    """One door of a word, and what the world shows behind it to a robot that comes in there."""
+    """One door of a word, and the percept behind it on entry."""
 
     door: Door
     percept: Percept
@@ -34,7 +33,7 @@ class Excursion:
     """The moves behind one posed edge, reduced. Begins with the pose; ends with the next.
 
     Args:
-        is_late: the pose was not made behind the edge, so no move is, and the word stays empty.
+        is_late: the pose was not made behind the edge, so the word stays empty.
     Attributes:
         word: the steps from vu to where the robot stands.
         sequences: the words at the mismatches so far.
@@ -44,12 +43,11 @@ class Excursion:
         self._is_late = is_late
         self.word: list[Step] = []
         self.sequences: tuple[Word, ...] = ()
-        # A robot that came back by a door k has its reference dart turned by k, compared with the
-        # reference dart that it had when it first was there: its next door is meant k further on.
+        # After coming back by door k the next door counts k further on.
         self._turned: Door = 0
 
     def move(self, door: Door, degree: int, behind: Percept) -> None:
-        """Leave a vertex of this degree by a door; `behind` is seen there."""
+        """Leave a vertex of this degree by a door; `behind` is sensed there."""
         door = (door + self._turned) % degree
         if door == 0 and self.word:
             self._turned = self.word.pop().door
@@ -59,7 +57,7 @@ class Excursion:
 
 
 class Records:
-    """What was seen behind unexplored darts of S, and since which event it is known."""
+    """What was sensed behind unexplored darts of S, and since which event it is known."""
 
     def __init__(self, drawn: MapInWorld) -> None:
         self._map = drawn
@@ -68,17 +66,16 @@ class Records:
     def add(self, when: int, start: KnownDart, sequences: Iterable[Word]) -> None:
         """Keep what sequences from a dart of S show, each behind the first unexplored dart."""
         for sequence in sequences:
-            # The edge that event `when` explores is explored here: so S is asked one event later.
+            # explored only at `when`
             at, rest = self.trace(start, sequence, when + 1)
             if rest:
                 self._words.setdefault(at, []).append((when, rest))
 
     def trace(self, at: KnownDart, word: Word, when: int) -> tuple[KnownDart, Word]:
-        """Where a word from a dart of S leads on S as it is at event `when`.
+        """Where a word from a dart of S leads on S at event `when`.
 
-        Returns:
-            The first unexplored dart that it leaves by, and the word from there on; or the dart of
-            S by which it comes in at its end, and no word.
+        Returns: the first unexplored dart that it leaves by, and the word from there on; or the
+            dart of arrival at its end, and no word.
         """
         for place, step in enumerate(word):
             exit_at = self._map.turn(at, step.door)

@@ -7,14 +7,14 @@ from typing import Any, Literal
 import msgspec
 
 Verdict = Literal["PROVED", "EXHAUSTED", "SAMPLED", "UNKNOWN", "REFUTED"]
-"""A conclusion about worlds of any size, about every world of a finite class, about some worlds,
-about none, or a counterexample (docs/semantics.md, section 16)."""
+"""About worlds of any size, every world of a finite class, some worlds, none; a counterexample."""
 
 Status = Literal["ok", "failed", "partial", "not-declared", "not-asked", "undecided"]
-"""`ok`: all that there was to judge was judged, and nothing is wrong. `partial`: the mapper
-declared some of the decisions that the claim speaks of; `not-declared`: none. `not-asked`: the
-world is too large for this claim unless `strict` is asked for. `undecided`: a decision was neither
-proved nor refuted. Only `ok` says that the claim holds."""
+"""`ok`: all was judged, and nothing is wrong; only this says that the claim holds.
+`partial`: the mapper declared some of the decisions that the claim speaks of; `not-declared`: none.
+`not-asked`: the world is too large for this claim unless `strict`. `undecided`: a decision was
+neither proved nor refuted.
+"""
 
 
 class Finding(msgspec.Struct, frozen=True):
@@ -41,7 +41,7 @@ class Finding(msgspec.Struct, frozen=True):
 
 
 class Judgement(msgspec.Struct, frozen=True):
-    """The status of one claim in one run, how much of the run it rests on, and its findings.
+    """The status of one claim in one run, and its findings.
 
     Attributes:
         judged, of: how many things were judged, of how many (docs/semantics.md, section 9).

@@ -1,27 +1,25 @@
 """The fold of a history: what percepts and doors alone prove, with no world at hand.
 
-**Folding** (Stallings). One node a visit, its dart 0 the reference dart of that visit. The move by
-door k joins the earlier node's dart k with the later node's dart 0. (A move through a door that was
-crossed before leads to a known place: it must look as it did, and no node is added. So a long
-patrol takes no more memory than the places it saw.) Every visit that saw the marker is v0, turned
-by the marker's direction. A dart has one partner: where it would get two, these are
-one dart, so their vertices are one vertex, turned by an offset; and so on until nothing changes
+**Folding** (Stallings). Each visit is a node whose dart 0 is the reference dart of that visit. The
+move by door k joins the earlier node's dart k with the later node's dart 0. Every visit that saw
+the marker is v0, turned by the marker's direction. If a dart would get two partners, these are one
+dart, so their vertices are one vertex, turned by an offset; and so on until nothing changes
 (union-find with offsets, nearly linear). Each step identifies only what is one dart in every world
-that shows this history; so the result maps into all of them, dart by dart.
+that shows this history. A move through a known door adds no node: a long patrol takes little
+memory.
 
-- No dart left open: the fold is a covering in which v0 has one copy, hence it IS the world.
-- A dart left open: a leaf hung on every open dart, or a path of two, makes two different worlds
-  with this same history. Nothing is proved; these are its **witness worlds**.
+- No open dart: the fold is a covering in which v0 has one copy, hence it IS the world.
+- An open dart: a leaf hung on every open dart, or a path of two, makes two **witness worlds** with
+  this history. Nothing is proved.
 - A **contradiction** (two degrees at one place, the marker seen at one and not at the other, a
-  vertex turned against itself, a dart its own partner, a door that is not there) says that no world
-  shows this history; and under an assumption, that it is false in every world that does. The first
-  one refutes; `contradictions` folds on past it, and tells of every kind that follows.
+  vertex turned against itself, a dart its own partner, a door that is not there): no world shows
+  this history, or an assumption is false in every world that does.
 
 What this does not show: that the percepts are true (claim 1 does), or anything for a mapper that
-may assume more than "some connected embedded graph", as that it is planar.
+may assume more, as that the world is planar.
 
 Source: docs/semantics.md, section 11; J. R. Stallings, "Topology of finite graphs", Invent. Math.
-71 (1983).
+    71 (1983).
 """
 
 from __future__ import annotations
@@ -37,7 +35,6 @@ Place = tuple[int, int]
 """A dart of the fold: a node and one of its doors. Different places may be one dart."""
 
 Pair = tuple[Place, Place]
-"""Two places that are, or may be, one dart."""
 
 UNLIKE = "two degrees, or the marker and its absence, at one place"
 TURNED = "a vertex would be itself, turned"
@@ -45,26 +42,23 @@ OWN_END = "a dart would be its own other end"
 TWO_OF_S = "two vertices of S would be one"
 
 NARROW = 64
-"""A node of at most so many doors has room for the other end of each; a wider one has a table.
-
-A table of two takes about as much memory as the room for so many.
-"""
+"""A node with more doors has a table, not room, for their other ends."""
 
 
 class Ends:
-    """The other end of each dart of each node, as it was put; None where the dart is open.
+    """The other end of each dart of each node; None where the dart is open.
 
-    A long patrol has many nodes, so a narrow one takes eight bytes a door and no more; and a wide
-    one takes memory only for what was crossed, however many doors a percept tells of.
+    A narrow node takes eight bytes a door; a wide one takes memory only for crossed doors, however
+    many a percept claims.
     """
 
     def __init__(self) -> None:
-        self._first = array("q")  # of each narrow node: where its darts begin in `_narrow`
-        self._narrow = array("q")  # the node of the other end in the upper 32 bits, its dart; or -1
+        self._first = array("q")  # the first dart of each narrow node in `_narrow`
+        self._narrow = array("q")  # node << 32 | dart; or -1
         self._wide: dict[int, dict[int, Place]] = {}
 
     def add(self, degree: int) -> None:
-        """Let there be one more node, all its darts open."""
+        """Add a node, all its darts open."""
         if degree > NARROW:
             self._wide[len(self._first)] = {}
         self._first.append(len(self._narrow))
@@ -78,23 +72,22 @@ class Ends:
         return None if end < 0 else (end >> 32, end & 0xFFFFFFFF)
 
     def put(self, node: int, dart: int, end: Place) -> None:
-        """Note the other end of a dart."""
+        """Set the other end of a dart."""
         if node in self._wide:
             self._wide[node][dart] = end
         else:
             self._narrow[self._first[node] + dart] = end[0] << 32 | end[1]
 
     def of(self, node: int, degree: int) -> list[tuple[int, Place]]:
-        """The darts of a node of this degree that are not open, each with its other end."""
+        """The darts of a node that are not open, each with its other end."""
         darts = self._wide.get(node, range(degree))
         return [(dart, end) for dart in darts if (end := self.get(node, dart)) is not None]
 
 
 Looks = dict[tuple[int, bool], Place]
-"""What may be behind a dart: for each signature that is seen there, one place."""
+"""What may be behind a dart: one place for each signature."""
 
 Met = tuple[str, Sequence[Place]]
-"""A contradiction, and the places at which it is met."""
 
 
 class Contradiction(Exception):
@@ -110,7 +103,7 @@ class Fold:
 
     def __init__(self, percept: Percept) -> None:
         self._seen: list[Percept] = []
-        # Dart d of a node is dart d + offset of its parent; `_size` counts the nodes that are one.
+        # dart d of a node is dart d + offset of its parent
         self._parent, self._offset, self._size = array("i"), array("i"), array("i")
         self._ends = Ends()
         self.at: Place = (self._visit(percept), 0)
@@ -125,7 +118,7 @@ class Fold:
         return node
 
     def move(self, door: Door, percept: Percept) -> None:
-        """Let the robot leave by a door and see this behind it. Raises Contradiction."""
+        """Let the robot leave by a door and sense this behind it. Raises Contradiction."""
         (here, dart), marker = self.at, percept.marker
         if not 0 <= door < self._seen[here].degree or percept.degree < 1:
             raise Contradiction(f"door {door} of {self._seen[here].degree} doors cannot be crossed")
@@ -133,34 +126,34 @@ class Fold:
             raise Contradiction(f"the marker cannot point at door {marker} of {percept.degree}")
         exit_place = self.find((here, dart + door))
         known = self.partner(exit_place)
-        # Where the marker is seen is v0, whose dart 0 is the marked one.
+        # the marker is at v0, whose dart 0 is marked
         self.at = (known or (self._visit(percept), 0)) if marker is None else (0, -marker)
         self._require_alike(self._seen[self.find(self.at)[0]], percept)
         if self.at != known:
             self.join(exit_place, self.at)
 
     def find(self, place: Place) -> Place:
-        """The one place that stands for all that are the same dart."""
+        """The place that stands for all places that are the same dart."""
         node, dart = place
         while (parent := self._parent[node]) != node:
             node, dart = parent, dart + self._offset[node]
         return node, dart % self._seen[node].degree
 
     def partner(self, place: Place) -> Place | None:
-        """The other end of a dart's edge, or None: the dart is open."""
+        """The other end of a dart's edge; None if the dart is open."""
         end = self._ends.get(*self.find(place))
         return None if end is None else self.find(end)
 
     def join(self, one: Place, other: Place) -> None:
-        """Make the two the ends of one edge, and draw what follows. Raises Contradiction."""
+        """Make the two the ends of one edge, and fold. Raises Contradiction."""
         self._draw([(one, other), (other, one)])
 
     def identify(self, one: Place, other: Place) -> None:
-        """Make the two one dart, and draw what follows. Raises Contradiction."""
+        """Make the two one dart, and fold. Raises Contradiction."""
         self._draw(self._merged(self.find(one), self.find(other)))
 
     def _draw(self, edges: list[Pair]) -> None:
-        """Put these ends of edges; two ends of one dart are one dart. Raises Contradiction."""
+        """Put these ends of edges; two ends of one dart are one dart."""
         while edges:
             one, other = map(self.find, edges.pop())
             if one == other:
@@ -171,7 +164,7 @@ class Fold:
                 self._ends.put(*one, other)
 
     def _merged(self, one: Place, other: Place) -> list[Pair]:
-        """Make two nodes one. Returns the edges of one of them, which are to be drawn again."""
+        """Make two nodes one. Returns the edges of one of them, to be drawn again."""
         (a, i), (b, j) = one, other
         if a == b:
             if i != j:
@@ -185,12 +178,11 @@ class Fold:
         return [((a, dart), end) for dart, end in self._ends.of(a, self.degree(a))]
 
     def _require_alike(self, one: Percept, other: Percept) -> None:
-        """Raise Contradiction unless two percepts may be of one place."""
         if not one.is_like(other):
             raise Contradiction(f"{UNLIKE}: {other} and {one}")
 
     def _behind(self, place: Place, drawn: dict[Place, Looks]) -> Looks:
-        """The other ends of a dart: those drawn so far, or the one of the fold, if it has one."""
+        """The other ends of a dart: those drawn so far, or that of the fold."""
         if place not in drawn:
             end = self._ends.get(*place)
             drawn[place] = {} if end is None else {self.look(end): self.find(end)}
@@ -199,10 +191,9 @@ class Fold:
     def contradictions(self, one: Place, other: Place, apart: Sequence[Place]) -> Iterator[Met]:
         """Those that follow if the two are ends of one edge, and no two of `apart` one vertex.
 
-        What follows is the least relation in which next ones clockwise of what is one are one, and
-        so are other ends that look alike: it does not depend on the order. The fold stays as it is.
+        They do not depend on the order of steps. The fold does not change.
         """
-        same: dict[Place, Place] = {}  # of a place that is one with another: such a one
+        same: dict[Place, Place] = {}
         ends: dict[Place, Looks] = {}
         one, other = self.find(one), self.find(other)
         waiting = [(one, other, True), (other, one, True)]  # ends of one edge; False: one dart
@@ -240,7 +231,7 @@ class Fold:
                 yield from (((one, 0), (other, door)) for door in range(self.degree(one)))
 
     def look(self, place: Place) -> tuple[int, bool]:
-        """The signature that is seen at a place."""
+        """The signature of a place."""
         return self._seen[place[0]].signature
 
     def degree(self, node: int) -> int:
@@ -248,7 +239,7 @@ class Fold:
         return self._seen[node].degree
 
     def open_darts(self) -> int:
-        """How many darts were never crossed, neither way."""
+        """The number of darts that were crossed in neither direction."""
         return sum(self.degree(v) - len(self._ends.of(v, self.degree(v))) for v in self.roots())
 
     def roots(self) -> list[int]:
@@ -258,14 +249,14 @@ class Fold:
     def table(self, pendant_length: int = 1) -> Code:
         """The degrees, vertex by vertex from v0 on, and the other end of each dart.
 
-        A path of this many vertices hangs on every open dart. If no dart is open, this is the
-        canonical code of the one world that shows the history.
+        A path of this many vertices hangs on every open dart. Without one, this is the canonical
+        code of the only world that shows the history.
         """
         if not self.degree(0):
             return (0,), ()
         number, degrees, entries = dict[Place, int](), list[int](), [self.find((0, 0))]
         ends: list[Place | None] = []
-        for node, first in entries:  # grows as it goes: a queue
+        for node, first in entries:  # grows
             if (node, first) not in number:
                 degree = self.degree(node)
                 places = [(node, (first + door) % degree) for door in range(degree)]
@@ -283,5 +274,5 @@ class Fold:
         return tuple(degrees), tuple(alpha)
 
     def world(self, pendant_length: int = 1) -> World:
-        """The fold as a world, with a path of this many vertices hung on every open dart."""
+        """The world of `table`."""
         return World.from_code(self.table(pendant_length))

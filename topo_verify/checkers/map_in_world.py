@@ -1,14 +1,13 @@
 """The map S beside the world: which dart of the world each dart of S is.
 
-Trusted. S is drawn from the declared augmentations, and only as far as they are true.
+Trusted. S is drawn from the declared augmentations, as far as they are true. It only grows, so one
+drawing is S at every moment; questions name an event.
 
     phi      S -> world: which dart of the world a dart of S is
     number   world -> S: the inverse of phi
     alpha    S -> S: the other end of each explored edge
     born     the event at which a dart of S appeared     (S at event i: the darts born before i)
-    joined   the event at which it was explored, or NEVER (explored at event i: joined before i)
-
-S only grows, so one drawing is S at every moment: what is asked of it is asked at an event.
+    joined   the event at which it was explored, or NEVER
 """
 
 from __future__ import annotations
@@ -23,7 +22,6 @@ from topo_verify.robot.simulator import exit_dart, first_percept, percepts
 from topo_verify.world.rooted_map import World
 
 NEVER = sys.maxsize
-"""The event at which a dart is explored that never is."""
 
 
 class MapInWorld:
@@ -44,7 +42,7 @@ class MapInWorld:
     # ------------------------------------------------------------ the world
 
     def seen_at(self, dart: WorldDart) -> Percept:
-        """What the world shows to a robot with this reference dart."""
+        """The percept in the world with this reference dart."""
         return self._percepts[dart]
 
     def beyond(self, dart: WorldDart, door: Door) -> WorldDart:
@@ -58,7 +56,7 @@ class MapInWorld:
     # ------------------------------------------------------------ S
 
     def grow(self, when: int, event: Augment) -> bool:
-        """Let S grow by an augmentation, and return True; or False if it is not true here."""
+        """Let S grow by an augmentation; False, and no change, if it is not true here."""
         edge = event.edge
         if not self.is_open(edge, when):
             return False
@@ -82,11 +80,11 @@ class MapInWorld:
         self.joined += [NEVER] * degree
 
     def is_open(self, dart: int, when: int) -> TypeGuard[KnownDart]:
-        """Whether this is a dart of S, and unexplored, when event `when` happens."""
+        """Whether this is an unexplored dart of S at event `when`."""
         return 0 <= dart < len(self.born) and self.born[dart] < when <= self.joined[dart]
 
     def turn(self, dart: KnownDart, door: Door) -> KnownDart:
-        """The dart of S that a door means to a robot whose reference dart on S is `dart`."""
+        """The dart of S behind a door for a robot with reference dart `dart` on S."""
         return self.number[WorldDart(exit_dart(self.world, self.phi[dart], door))]
 
     def truth(self, e: int, when: int) -> KnownDart | None:

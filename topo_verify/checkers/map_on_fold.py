@@ -1,16 +1,8 @@
 """The map S beside the fold of a history: which place of the fold each dart of S is.
 
-Trusted; no world is needed. A declared augmentation says that S grows, and here it is believed: the
-caller has found it to follow from the history, or knows it to be right. The fold identifies places
-as it grows, so S is kept as one place for each vertex, and a dart of S is found from there by
-turning; whether two places are one is for the fold to say.
-
-    on_fold = MapOnFold(fold)           # S is v0
-    on_fold.is_open(e)                  # does S have a dart e, and is it unexplored?
-    fold.partner(on_fold.place(e))      # the place at the other end, if e was crossed
-    on_fold.is_known(node)              # is this node of the fold a vertex of S?
-    on_fold.grow(augment)               # S has a vertex, or an explored edge, more
-    on_fold.face(e)                     # the darts of S on the face of e
+Trusted; no world is needed. Declared augmentations are believed here: the caller has found that
+they follow from the history, or knows that they are right. The fold identifies places as it grows,
+so S is kept as one place for each vertex, from which its darts are found by turning.
 """
 
 from __future__ import annotations
@@ -26,8 +18,8 @@ class MapOnFold:
     """S, from v0 alone on. Grows by `grow`, as a trace is read.
 
     Attributes:
-        fold: the fold of the history so far; the caller lets it grow.
-        size: the number of darts of S; the next new dart has this number.
+        fold: of the history so far; the caller lets it grow.
+        size: the number of darts of S, and the next dart.
         entries: of each vertex of S, the place of its first dart.
     """
 
@@ -36,21 +28,21 @@ class MapOnFold:
         self.size = 0
         self.entries: list[Place] = []
         self._places: list[Place] = []
-        self._clockwise: list[KnownDart] = []  # the next dart at the same vertex
+        self._clockwise: list[KnownDart] = []
         self._alpha: dict[KnownDart, KnownDart] = {}
         self._open: set[KnownDart] = set()
         self._add_vertex((0, 0))
 
     def place(self, dart: KnownDart) -> Place:
-        """The place of the fold that a dart of S is."""
+        """The place of a dart of S."""
         return self._places[dart]
 
     def is_open(self, dart: int) -> TypeGuard[KnownDart]:
-        """Whether this is a dart of S, and unexplored."""
+        """Whether this is an unexplored dart of S."""
         return dart in self._open
 
     def others(self, e: KnownDart) -> list[KnownDart]:
-        """The unexplored darts of S but e, in ascending order."""
+        """The unexplored darts of S but e, ascending."""
         return sorted(self._open - {e})
 
     def is_known(self, node: int) -> bool:

@@ -1,9 +1,9 @@
 """A trace replayed in its world: where the robot stood, what its map S was, what it had walked.
 
-Trusted, and all that the claims build on. Nothing that a mapper said is believed: positions follow
-from the doors, and S is drawn from the declared augmentations only as far as they are true. From
-the first move through a door that is not there (`illegal`) the position is unknown; from the first
-false augmentation on (`spoiled`) S is no map of this world. Later decisions are not judged.
+Trusted. Nothing that a mapper said is believed: positions follow from the doors, and S is drawn
+from the declared augmentations as far as they are true. From the first move through a door that is
+not there (`illegal`) the position is unknown; from the first false augmentation on (`spoiled`) S is
+not a map of this world. Later decisions are not judged.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ class Round(NamedTuple):
 
     Attributes:
         pose: the last one so far, if it was of this edge and S did not grow since.
-        end: the other end of its edge in the world; None if the edge is not an unexplored dart
-            of S.
+        end: the other end of its edge in the world; None if the edge is not an unexplored dart of
+            S.
         truth: that end as a dart of S, if its vertex is known.
     """
 
@@ -48,7 +48,7 @@ class Fate(NamedTuple):
 
     Attributes:
         when, event: its last pose; or the augmentation, once S grew along it.
-        left: hypotheses neither rejected nor confirmed since they were posed; none after a loop.
+        left: hypotheses without a fate since they were posed; none after a loop.
     """
 
     when: int
@@ -60,8 +60,7 @@ class ReplayedTrace:
     """A world and a trace, replayed once; what the claims are asked about.
 
     Args:
-        world: where the run took place.
-        trace: what happened; begins with its only `start`, and may end with `finish`.
+        trace: begins with its only `start`, and may end with `finish`.
         stopped: why the mapper ended without a map, if it did.
     Attributes:
         cost: the number of moves.
@@ -70,10 +69,10 @@ class ReplayedTrace:
         map: S, drawn on the world.
         positions: the reference dart in the world after each event, up to an illegal move.
         followed: the events up to an illegal move.
-        illegal: the first move through a door that is not there, or None.
-        spoiled: the first augmentation that is false in this world, or None.
+        illegal: the first move through a door that is not there.
+        spoiled: the first augmentation that is false in this world.
         crossings: the edges of the world that the robot crossed, and at which event first.
-        false_percepts: each event whose percept is not what the world shows: its own, and what is.
+        false_percepts: an event, its percept, and the percept that the world shows.
     Raises:
         InputError: the events are in no such order.
     """
@@ -95,7 +94,6 @@ class ReplayedTrace:
         self.followed = trace[: len(self.positions)]
 
     def _walk(self) -> None:
-        """Follow the doors up to the first that is not there, and draw S on the way."""
         at = WorldDart(self.world.root or 0)
         seen = self.map.seen_at(at)
         for when, event in enumerate(self.trace):
@@ -114,7 +112,7 @@ class ReplayedTrace:
 
     @property
     def is_history(self) -> bool:
-        """Whether the world shows all percepts of the trace and has all its doors."""
+        """Whether the world has all doors and shows all percepts of the trace."""
         return self.illegal is None and not self.false_percepts
 
     @cached_property
@@ -123,7 +121,7 @@ class ReplayedTrace:
         return tuple(self._rounds())
 
     def _rounds(self) -> Iterator[Round]:
-        poses: dict[int, ev.Pose] = {}  # the last pose, if S did not grow since, by its edge
+        poses: dict[int, ev.Pose] = {}  # by its edge: the last pose, if S did not grow since
         behind = Excursion()
         for when, event in enumerate(self.followed):
             if isinstance(event, ev.Move):
@@ -151,7 +149,7 @@ class ReplayedTrace:
 
     @cached_property
     def fates(self) -> dict[int, Fate]:
-        """What became of each edge of the world that was posed, in the order of the poses."""
+        """What became of each posed edge of the world, in the order of the poses."""
         fates: dict[int, Fate] = {}
         for when, event, pose, _, _, end, _ in self.rounds:
             if end is None:
@@ -171,7 +169,7 @@ class ReplayedTrace:
     def conclusions(self) -> dict[int, Conclusion]:
         """By event, whether each declared reject, confirm and augmentation follows; in order.
 
-        Of a history that the world does not show, none: it proves nothing.
+        A history that the world does not show proves nothing.
         """
         folded = FoldedTrace(self.trace) if self.fold.read else self.fold
         found = decision_conclusions(folded) if self.is_history else ()

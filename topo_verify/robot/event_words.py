@@ -1,7 +1,6 @@
-"""An event in one exact sentence, as the mapper states it: no world and no replay is needed.
+"""An event in one exact sentence, as the mapper states it; no world and no replay is needed.
 
-Percepts are short: `5` is degree 5 with no marker, `5, marker 2` has the marker at door 2. Nothing
-is judged by these words.
+Percepts are short: `5` is degree 5 with no marker, `5, marker 2` has the marker at door 2.
 """
 
 from __future__ import annotations
@@ -14,15 +13,11 @@ from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Door, Percept
 
 MOST = 12
-"""Things in a list that is cut."""
+"""Items of a list; more are cut."""
 
 
 def event_words(event: ev.Event, *, brief: bool = False) -> str:  # noqa: PLR0911  one a kind
-    """The sentence of an event.
-
-    Args:
-        brief: cut a long list of hypotheses, and leave out the degree behind a loop.
-    """
+    """The sentence of an event; if `brief`, with few hypotheses and no degree behind a loop."""
     match event:
         case ev.Start(percept=percept):
             return f"starts and sees {percept_in_brackets(percept)}"
@@ -66,7 +61,6 @@ def cited_words(cited: ev.Evidence) -> str:
 
 
 def _declared_evidence(cited: ev.Evidence) -> str:
-    """The evidence of a rejection with every field that a mapper states."""
     if cited.contradiction is not None:
         return cited.contradiction
     words = f"{cited_words(cited)} at step {cited.step}"
@@ -82,7 +76,7 @@ def _declared_evidence(cited: ev.Evidence) -> str:
 
 
 def percept_words(percept: Percept | None) -> str:
-    """A percept: its degree, and the door of the marker where the marker is."""
+    """The degree, and the marker's door if the marker is here."""
     if percept is None:
         return "nothing"
     marker = "" if percept.marker is None else f", marker {percept.marker}"

@@ -1,11 +1,11 @@
 """The trace: what happened, as one stream of events, and its file format.
 
-A closed union of frozen structs; on disk JSON Lines, each line an object with a `type`. Moves come
-from the robot and are what the world showed; `pose`, `reject`, `confirm` and `augment` are what a
-mapper declares. A trace with its world is a certificate: the checkers need nothing else.
+A closed union of frozen structs; on disk JSON Lines, each line an object with a `type`. Moves are
+what the world showed; `pose`, `reject`, `confirm` and `augment` are what a mapper declares. A trace
+with its world is a certificate: the checkers need nothing else.
 
 Darts are darts of S, the mapper's own map: v0's darts are 0 … degree-1 from the marked one on, and
-each new vertex takes the next numbers, clockwise from the dart by which it was entered.
+each new vertex takes the next numbers, clockwise from the dart of entry.
 
 Source: docs/semantics.md, sections 3 and 13.
 """
@@ -25,10 +25,10 @@ from topo_verify.errors import InputError
 from topo_verify.robot.percept import Door, Percept, Purpose
 
 Number = Annotated[int, msgspec.Meta(ge=-(2**62), le=2**62)]
-"""An integer of at most 62 bits: longer ones mean nothing here, and flood a message."""
+"""An integer of at most 62 bits; longer ones would flood a message."""
 
 MapDart = Number
-"""A dart of S by its number, as a mapper declares it; the checkers find out whether S has it."""
+"""A dart of S as a mapper declares it; the checkers find out whether S has it."""
 
 RuleName = Literal["motion", "prefix", "history", "records", "folding", "planar"]
 
@@ -37,7 +37,7 @@ TRACE_VERSION = 1
 
 
 class _Event(msgspec.Struct, frozen=True, tag_field="type", tag=str.lower):
-    """Base of all events: immutable, tagged with the class name in lower case."""
+    """Base of all events; the tag is the class name in lower case."""
 
 
 class Record(msgspec.Struct, frozen=True):
@@ -48,19 +48,19 @@ class Record(msgspec.Struct, frozen=True):
 
 
 class Evidence(msgspec.Struct, frozen=True, omit_defaults=True):
-    """Why a hypothesis is rejected: at one place two percepts that would have to be equal are not.
+    """Why a hypothesis is rejected: two percepts at one place differ that would have to be equal.
 
     Attributes:
         step: how many doors behind the entered vertex (0: at that vertex itself).
         expected: what would be sensed there if the hypothesis were true.
         observed: what was sensed. Rules `folding` and `planar` may leave out both percepts.
-        sequence: without motion: the number, from 0, of the sequence executed for this edge that
-            showed it. Sequences are numbered by the mismatches met in motion.
-        at: without motion: the dart of S where tracing stood. It is the dart of arrival, or,
-            where a record gave the expectation, the unexplored dart that was crossed.
+        sequence: without motion: which sequence of this edge showed it, counted from 0 by the
+            mismatches met in motion.
+        at: without motion: the dart of S where tracing stood: the dart of arrival, or, if a record
+            gave the expectation, the unexplored dart that was crossed.
         record: the record that gave the expectation, if one did.
-        contradiction: for rules `folding` and `planar`, which need no two percepts: what is wrong,
-            in the words of docs/semantics.md, section 13.
+        contradiction: of rules `folding` and `planar`: what is wrong, in the words of
+            docs/semantics.md, section 13.
     """
 
     step: Number
@@ -97,9 +97,8 @@ class Start(_Event, frozen=True, kw_only=True):
     """The robot stands at the marker, its reference dart the marked one.
 
     Attributes:
-        world: the world's id, where it is known and has one.
-        stopped: of a run that was over when this was written: why it ended without a map. It
-            stands here, where a reader that does not know it passes over it.
+        world: the world's id, if it is known and has one.
+        stopped: why a run that was over when this was written ended without a map.
     """
 
     format: Literal["topo-verify/trace"] = TRACE_FORMAT
@@ -144,7 +143,7 @@ class Confirm(_Event, frozen=True):
 
 
 class Augment(_Event, frozen=True):
-    """The map grows: by a new vertex, `dart` its first dart; or by a loop, `dart` the other end."""
+    """The map grows by a new vertex with first dart `dart`, or by a loop with other end `dart`."""
 
     edge: MapDart
     kind: Literal["new", "loop"]
@@ -153,7 +152,7 @@ class Augment(_Event, frozen=True):
 
 
 class Finish(_Event, frozen=True):
-    """The mapper is done and delivers its map and, if it likes, its own count of the cost."""
+    """The mapper delivers its map and, optionally, its own count of the cost."""
 
     cost: Number | None
     map: MapData
@@ -169,7 +168,7 @@ class Robot(Protocol):
 
     @property
     def percept(self) -> Percept:
-        """The percept where the robot stands now."""
+        """The percept where the robot stands."""
         ...
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
@@ -186,26 +185,19 @@ _decoder: msgspec.json.Decoder[Event] = msgspec.json.Decoder(Event)
 
 
 def write_trace(trace: Iterable[Event]) -> bytes:
-    """The trace as JSON Lines, one event a line; the same bytes for the same trace."""
+    """The trace as JSON Lines; the same bytes for the same trace."""
     return _encoder.encode_lines(trace)
 
 
 def read_trace(text: bytes, *, name: str = "trace") -> Trace:
-    """The trace in these JSON Lines.
-
-    Args:
-        name: what to call the input in messages.
-    Raises:
-        InputError: as `read_events`.
-    """
+    """The trace in these JSON Lines; arguments and errors as of `read_events`."""
     return tuple(read_events(BytesIO(text), name=name))
 
 
 def read_events(lines: Iterable[bytes], *, name: str = "trace") -> Iterator[Event]:
     """The events in these lines of JSON; empty lines and a byte order mark are passed over.
 
-    Equal lines with a move give one and the same object: a robot on patrol repeats itself, and so
-    a long log takes eight bytes a move.
+    Equal moves are one object, so a long log takes eight bytes a move.
 
     Args:
         name: what to call the input in messages.
@@ -217,7 +209,7 @@ def read_events(lines: Iterable[bytes], *, name: str = "trace") -> Iterator[Even
     begun = False
     pieces = (piece for line in lines for piece in line.splitlines())
     for number, piece in enumerate(pieces, 1):
-        line = piece.removeprefix(BOM_UTF8) if number == 1 else piece  # editors on Windows put it
+        line = piece.removeprefix(BOM_UTF8) if number == 1 else piece
         event: Event | None = moves.get(line)
         if event is None:
             if not line.strip():
@@ -234,11 +226,10 @@ def read_events(lines: Iterable[bytes], *, name: str = "trace") -> Iterator[Even
 
 
 _MOST_KEPT = 2**16
-"""Of so many different lines the move is kept: more than the moves of most places."""
+"""Distinct Move lines that are shared; most logs have fewer."""
 
 
 def _event(line: bytes, place: str) -> Event:
-    """The event in a line. Raises InputError."""
     doubled: list[str] = []
 
     def see(pairs: list[tuple[str, object]]) -> None:
@@ -247,8 +238,7 @@ def _event(line: bytes, place: str) -> Event:
 
     try:
         event = _decoder.decode(line)
-        # msgspec keeps the last of two equal keys. Numbers stay text: those of unknown fields may
-        # be of any length.
+        # msgspec keeps the last of two equal keys
         json.loads(line, object_pairs_hook=see, parse_int=str, strict=False)
     except (msgspec.MsgspecError, RecursionError, ValueError) as error:
         raise InputError(f"{place}: expected an event of a trace: {error}") from error
@@ -267,7 +257,6 @@ def require_order(trace: Sequence[Event]) -> None:
 
 
 def _require_start(head: Event | None, name: str) -> None:
-    """Raise InputError unless a trace that this version reads may begin so."""
     if not isinstance(head, Start):
         raise InputError(f"{name}: a trace begins with a line of type 'start'")
     if head.version > TRACE_VERSION:

@@ -1,19 +1,13 @@
 """Limits for untrusted mappers: moves, seconds between two moves, seconds in all.
 
-A mapper that exceeds one is stopped by an exception that derives from BaseException, so that an
-`except Exception` of its own does not swallow it.
+A mapper that exceeds one is stopped by a BaseException, which its own `except Exception` does not
+swallow. What this does not do: stop a mapper that catches BaseException in a loop, or sits in C
+code that never returns, from inside its own process.
 
-What this does not do: a mapper that catches BaseException in a loop, or that sits in C code which
-never returns, cannot be stopped from inside its own process.
-
-Seconds are those of a stopwatch (robot/stopwatch.py): the wall clock's, without those in which the
-mapper waited for a processor that others had. A mapper that sleeps is stopped, one that computes is
-stopped, and a correct one is never convicted because the machine is busy, or was frozen.
-
-How: a clock ticks while the mapper runs and asks the robot for its cost. In the main thread the
-tick is SIGALRM, which also interrupts a sleep, and it raises in the mapper and in what that called,
-never in what comes before or after. In other threads (and on systems without SIGALRM) a second
-thread raises the exception asynchronously, which a pure Python loop notices at once.
+Seconds are those of robot/stopwatch.py, so a correct mapper is never convicted because the machine
+is busy or was frozen. A clock ticks while the mapper runs and asks the robot for its cost. In the
+main thread the tick is SIGALRM, which also interrupts a sleep. In other threads, and on systems
+without SIGALRM, a second thread raises the exception asynchronously.
 """
 
 from __future__ import annotations
@@ -35,11 +29,10 @@ from topo_verify.robot.stopwatch import Heard, Stopwatch, tasks_of
 T = TypeVar("T")
 
 Limit = Literal["budget", "move-timeout", "world-timeout"]
-"""What may be used up: the names of the options of the command line."""
 
 
 class MapperStopped(BaseException):
-    """The robot does not go on, and the text says why: a limit is reached, or it was misused."""
+    """The robot does not go on; the text says which limit was reached, or what was misused."""
 
     limit: Limit | None = None
 
@@ -55,19 +48,19 @@ class TimeLimitExceeded(MapperStopped):
 
 
 class MoveTimeout(TimeLimitExceeded):
-    """It took too long between two moves."""
+    """The mapper took too long between two moves."""
 
     limit = "move-timeout"
 
 
 class WorldTimeout(TimeLimitExceeded):
-    """It took too long in all, though it moved on: it may yet have been right."""
+    """The mapper took too long in all, though it moved on."""
 
     limit = "world-timeout"
 
 
 MOST_SECONDS = 10**6
-"""The longest time limit, in seconds: about eleven days."""
+"""The longest time limit, about eleven days."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +89,7 @@ class Limits:
 
     @property
     def options(self) -> tuple[str, ...]:
-        """The words of the command line that set these limits; none for those that are default."""
+        """The words of the command line that set the limits that are not default."""
         words: list[str] = []
         usual = Limits()
         if self.budget is not None:
@@ -116,11 +109,9 @@ def within(limits: Limits, cost: Callable[[], int], work: Callable[[], T]) -> T:
     """What `work()` returns; what it raises passes through.
 
     Args:
-        cost: the number of moves so far; while it grows, the mapper counts as moving.
-
+        cost: the number of moves so far.
     Raises:
-        TimeLimitExceeded: a time limit was passed before `work` was done, even if it swallowed
-            the exception that was to stop it.
+        TimeLimitExceeded: a time limit was passed, even if `work` swallowed the exception.
     """
     tick = max(TICK, min(limits.move_timeout, limits.world_timeout) / 4)
     watch = _Watch(limits, cost, tick)
@@ -139,23 +130,19 @@ def within(limits: Limits, cost: Callable[[], int], work: Callable[[], T]) -> T:
 
 
 _running = threading.local()
-"""The stopwatch of the mapper that runs in this thread: `watch`."""
+"""Per thread: `watch`, the stopwatch of the running mapper."""
 
 
 @contextmanager
 def helped_by(process: int, heard: Heard | None = None) -> Generator[None]:
-    """Time limits of this thread's mapper excuse the waits of a process that works for it, too.
-
-    Args:
-        heard: counts the answers of that process.
-    """
+    """Within the block, excuse also the waits of a process that works for this thread's mapper."""
     watch: Stopwatch | None = getattr(_running, "watch", None)
     with nullcontext() if watch is None else watch.helped_by(lambda: tasks_of(process), heard):
         yield
 
 
 class _Watch:
-    """Remembers when the mapper last moved, and if it was stopped. Lives as long as one run."""
+    """Remembers when the mapper last moved, and whether it was stopped, for one run."""
 
     def __init__(self, limits: Limits, cost: Callable[[], int], tick: float) -> None:
         self.limits, self.cost = limits, cost
@@ -194,25 +181,25 @@ def _by_alarm(watch: _Watch, tick: float, work: Callable[[], T]) -> T:
     timer = signal.setitimer(signal.ITIMER_REAL, tick, tick)
     try:
         return at_work()
-    finally:  # a tick that strikes from here on, or before `at_work`, raises nothing
+    finally:  # a tick from here on raises nothing
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, handler or signal.SIG_DFL)
-        signal.setitimer(signal.ITIMER_REAL, *timer)  # a timer of the caller's runs on
+        signal.setitimer(signal.ITIMER_REAL, *timer)
         working = None  # frame and closure hold each other
 
 
 def _called_by(frame: FrameType | None, caller: FrameType | None) -> bool:
-    """Is the frame the caller's or of something that it called, where an exception does no harm?"""
+    """Whether the frame is the caller's or one called by it, outside of hooks."""
     while frame is not None and frame is not caller and not _is_a_hook(frame):
         frame = frame.f_back
     return frame is not None and frame is caller
 
 
 def _is_a_hook(frame: FrameType) -> bool:
-    """Does the interpreter call this in the middle of other code?
+    """Whether the interpreter calls this in the middle of other code.
 
-    It swallows what a callback of the garbage collector (Hypothesis has one) or of a weak reference
-    raises, and a tracer of coverage.py that is torn out never gives back its lock.
+    It swallows exceptions of callbacks (garbage collector, weak references); a tracer of
+    coverage.py that is torn out never gives back its lock.
     """
     callbacks = [getattr(callback, "__code__", None) for callback in gc.callbacks]
     package = str(frame.f_globals.get("__name__")).partition(".")[0]

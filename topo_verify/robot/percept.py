@@ -1,9 +1,9 @@
 """What a robot senses at a vertex, and by which doors it can leave.
 
-The robot stands at a vertex with a **reference dart** `a`, the dart by which it came in (at the
-start: the dart that the marker points at). It senses the degree of the vertex and, where the
-marker lies, its direction. It leaves by a **door**: door k is the k-th exit clockwise after the
-reference dart, so door 0 goes back. Doors are relative; nothing else of the world is ever visible.
+The robot stands at a vertex with a **reference dart** `a`, by which it came in (at the start: the
+dart that the marker points at). It senses the degree of the vertex and, where the marker lies, its
+direction. It leaves by a **door**: door k is the k-th exit clockwise after the reference dart, so
+door 0 goes back. Nothing else of the world is ever visible.
 
 Source: docs/semantics.md, section 2.
 """
@@ -23,7 +23,7 @@ Purpose = Literal["walk", "cross", "validate", "retrace"]
 PURPOSES: tuple[Purpose, ...] = get_args(Purpose)
 
 MOST_DOORS = 1_000_000
-"""The highest degree that is read from a file: to fold a history takes memory for every door."""
+"""The highest degree read from a file: a fold takes memory for every door."""
 
 
 class Percept(msgspec.Struct, frozen=True, gc=False):
@@ -39,11 +39,11 @@ class Percept(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def signature(self) -> tuple[int, bool]:
-        """The degree, and whether the marker is here: equal for all reference darts of a vertex."""
+        """The degree, and whether the marker is here: equal for all reference darts."""
         return self.degree, self.marker is not None
 
     def is_like(self, other: Percept) -> bool:
-        """Whether the signatures are equal; made for each move of a long log, so without them."""
+        """Whether the signatures are equal; called for each move of a long log, so makes none."""
         return self.degree == other.degree and (self.marker is None) == (other.marker is None)
 
     def __str__(self) -> str:

@@ -1,9 +1,9 @@
 """The robot in a simulated world: hides the world, meters the cost, records what happens.
 
-Trusted. A mapper holds the `handle` of a `SimulatedRobot`, which has `percept`, `move` and
-`declare`, and nothing else. (Python hides nothing from a mapper in the same process that is
-determined to look: it finds the simulator through a method of its handle. Moves are therefore
-counted apart from the trace; and a mapper in a process of its own finds nothing.)
+Trusted. A mapper holds a `RobotHandle`, which offers `percept`, `move` and `declare`. Python hides
+nothing from a determined mapper in the same process: it can reach the simulator through a method of
+its handle. So moves are counted apart from the trace, and a mapper in another process finds
+nothing.
 
 Source: docs/semantics.md, section 2.
 """
@@ -27,11 +27,11 @@ _decision: msgspec.msgpack.Decoder[ev.Decision] = msgspec.msgpack.Decoder(ev.Dec
 
 
 EXPECTED = "expected a decision (pose, reject, confirm, augment)"
-"""What is said of a declaration that is none."""
+"""Start of the error message for a malformed declaration."""
 
 
 class Misuse(MapperStopped):
-    """The mapper asked for what a robot cannot do: a door that is not there, a malformed event."""
+    """The mapper asked for a door that is not there, or declared a malformed event."""
 
 
 @lru_cache(maxsize=64)
@@ -52,17 +52,13 @@ def first_percept(world: World) -> Percept:
 
 
 def exit_dart(world: World, dart: Dart, door: Door) -> Dart:
-    """The dart that a door means to a robot with this reference dart: sigma^door(dart)."""
+    """The dart behind a door for a robot with this reference dart: sigma^door(dart)."""
     rotation = world.vertices[world.vertex_of[dart]]
     return rotation[(world.place_of[dart] + door) % len(rotation)]
 
 
 def door_number(door: object, degree: int) -> Door:
-    """The door that a mapper asks for at a vertex of this degree.
-
-    Raises:
-        Misuse: there is no such door.
-    """
+    """The door as a plain int; Misuse if a vertex of this degree lacks it."""
     if type(door) is int and 0 <= door < degree:
         return door
     try:
@@ -76,46 +72,38 @@ def door_number(door: object, degree: int) -> Door:
 
 @lru_cache(maxsize=2**16)
 def shared_move(door: Door, percept: Percept, purpose: Purpose | None) -> ev.Move:
-    """The one `Move` with these fields, as long as it is remembered; else an equal one.
-
-    How many different moves there are depends on the degrees in a world, not on the length of the
-    run. So equal moves are one immutable object, and a trace takes eight bytes for each.
-    """
+    """The `Move` with these fields, one object for equal moves: eight bytes each in a trace."""
     return ev.Move(door, percept, purpose)
 
 
 def require_purpose(purpose: Purpose | None) -> None:
-    """Raise a Misuse unless this is what a move can be for."""
+    """Raise Misuse for an unknown purpose."""
     if purpose is not None and purpose not in PURPOSES:
         raise Misuse(f"expected a purpose of {', '.join(PURPOSES)}, got {purpose!r}")
 
 
 def plain_decision(event: ev.Decision | Mapping[str, object]) -> ev.Decision:
-    """The decision that a mapper declares: a `Pose`, `Reject`, `Confirm` or `Augment`, or its JSON.
-
-    Raises:
-        Misuse: it is none.
-    """
+    """The decision that a mapper declares, as a struct or as its JSON; Misuse if it is none."""
     try:
-        # Through plain data and back: a struct may have been built with anything inside.
+        # a struct may have been built with anything inside
         return _decision.decode(_plain.encode(event))
     except (msgspec.MsgspecError, TypeError, OverflowError) as error:
         raise Misuse(f"{EXPECTED}: {error}") from None
 
 
 class RobotHandle:
-    """What a mapper gets of a robot: `percept`, `move` and `declare`; see `Robot`."""
+    """What a mapper gets of a robot: see `Robot`."""
 
     __slots__ = ("_percept", "declare", "move")
 
     def __init__(self, robot: SimulatedRobot) -> None:
-        # The methods themselves: another layer would slow down every move.
+        # no further layer: moves are many
         self.move, self.declare = robot.move, robot.declare
         self._percept = robot.sense
 
     @property
     def percept(self) -> Percept:
-        """The percept where the robot stands now."""
+        """The percept where the robot stands."""
         return self._percept()
 
 
@@ -124,7 +112,7 @@ class SimulatedRobot:
 
     Args:
         world: where the robot is; never shown to the mapper.
-        budget: how many moves (edge traversals) are allowed.
+        budget: the number of moves (edge traversals) allowed.
     Raises (from `move` and `declare`, into the mapper):
         BudgetExceeded: one more move than the budget.
         Misuse: no such door, or no decision. Once stopped the robot never moves again.
@@ -149,16 +137,16 @@ class SimulatedRobot:
 
     @property
     def percept(self) -> Percept:
-        """The percept where the robot stands now."""
+        """The percept where the robot stands."""
         return self._percept
 
     @property
     def darts(self) -> int:
-        """How many darts the world has; not for mappers."""
+        """The number of darts of the world; not for mappers."""
         return len(self._world.alpha)
 
     def sense(self) -> Percept:
-        """The percept where the robot stands now."""
+        """The percept where the robot stands."""
         return self._percept
 
     @property
@@ -168,11 +156,11 @@ class SimulatedRobot:
 
     @property
     def stopped(self) -> MapperStopped | None:
-        """Why the robot was stopped, or None; also where the mapper swallowed the exception."""
+        """Why the robot was stopped, or None; also if the mapper swallowed the exception."""
         return self._stopped
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
-        """Leave by a door and return the percept behind it. Costs 1. See `Robot.move`."""
+        """Leave by a door and return the percept behind it: see `Robot.move`."""
         if self._stopped is not None or self._cost >= self.budget:
             self._stop(BudgetExceeded(f"the mapper asked for more than {self.budget} moves"))
         try:
@@ -187,7 +175,7 @@ class SimulatedRobot:
         return self._percept
 
     def declare(self, event: ev.Decision | Mapping[str, object]) -> None:
-        """Put a decision on record: a `Pose`, `Reject`, `Confirm` or `Augment`, or its JSON."""
+        """Put a decision on record: see `plain_decision`."""
         if self._stopped is not None:
             raise self._stopped
         try:
@@ -197,14 +185,13 @@ class SimulatedRobot:
         self.record(decision)
 
     def record(self, decision: ev.Decision) -> None:
-        """Put a decision on record that was read as one."""
+        """Put a checked decision on record."""
         self.events.append(decision)
 
     def settle(self) -> None:
-        """Take back a move that a time limit struck before it was on record, if there is one.
+        """Uncount a move that a time limit struck between its count and its record.
 
-        Such a limit strikes anywhere, also between the count and the record. The mapper has not
-        seen what was behind that door; and the trace must not look as if somebody had changed it.
+        The mapper has not seen what was behind that door, and the trace must not look forged.
         """
         recorded = sum(isinstance(event, ev.Move) for event in self.events)
         if self._cost == recorded + 1:

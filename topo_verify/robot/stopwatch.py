@@ -1,25 +1,19 @@
-"""Seconds that a mapper has used, whoever else keeps the machine busy.
+"""Seconds that a mapper has used, however busy the machine is.
 
-The stopwatch goes like the wall clock and stands still while the mapper waits in the kernel's queue
-for a processor (second field of /proc/…/schedstat; the first is what it ran). So a mapper that
-sleeps uses up seconds, one that computes uses up its processor time, and one that others keep from
-computing uses up none.
-Neither clock alone would do: processor time lets a mapper sleep for ever, and the wall clock
-convicts a correct mapper on a busy machine.
+The stopwatch is a wall clock that stands still while the mapper waits in the kernel's queue for a
+processor (second field of /proc/…/schedstat; the first is its running time). Processor time alone
+would let a mapper sleep for ever; the wall clock alone convicts a correct one on a busy machine.
 
-A thread that waits for an answer wakes up now and then to look for it, and waits for a processor
-each time. Only the last of these waits keeps the answer from it: the others are used, for in them
-it was the turn of the mapper, which may have slept.
+A thread that waits for an answer wakes up now and then to look for it, and queues each time. Only
+the last of these waits delays the answer; the earlier ones count as used.
 
-A machine may be frozen: it is suspended, a container is paused, all processes get SIGSTOP. Those
-who look at a stopwatch look at it again and again, a tick apart. If a look is missing, they did not
-run, and nor did the mapper: of that time one tick is used, and whatever a processor was at work.
+If a look at the stopwatch, due once a tick, is missing, the machine was frozen (suspended, or
+stopped by SIGSTOP): one tick and the processor time count.
 
-What this does not show: what a hypervisor takes away from the whole machine, and waiting for a disk
-or for memory; they count as used. Where the kernel keeps no such account (on systems other than
-Linux), the stopwatch is the wall clock.
+What this does not show: time that a hypervisor takes, and waits for a disk or for memory, count as
+used. Without /proc the stopwatch is the wall clock.
 
-Vocabulary: a *task* is a thread, named by its folder below /proc.
+A *task* is a thread, named by its folder below /proc.
 """
 
 from __future__ import annotations
@@ -34,10 +28,10 @@ from time import monotonic
 from typing import NamedTuple
 
 Tasks = Callable[[], Iterable[str]]
-"""Lists the tasks at work; asked at each look, because a program starts threads and children."""
+"""Lists the tasks at work: programs start threads and children."""
 
 Heard = Callable[[], int]
-"""Counts what the tasks at work have answered so far."""
+"""The number of answers so far."""
 
 
 class Stopwatch:
@@ -46,7 +40,7 @@ class Stopwatch:
     Args:
         helper: lists the tasks that work for that thread while it waits for them.
         heard: counts their answers; without it each wait of the thread is excused.
-        tick: seconds between two looks, at most, while those who look at it run.
+        tick: the most seconds between two looks.
     """
 
     def __init__(
@@ -62,18 +56,18 @@ class Stopwatch:
         """The seconds used so far."""
         now, account = monotonic(), _account(self._own)
         ran, waited = account.since(self._account)
-        # The thread and its helper take turns (one writes, the other reads): their waits add up.
+        # they take turns, so waits add up
         in_vain = 0.0
         if (helper := self._helper) is not None:
             helper_ran, helper_waited = helper.since()
             in_vain = helper.in_vain(waited)
             ran, waited = max(ran, helper_ran), waited + helper_waited
         passed = now - self._looked
-        if passed - waited > 2 * self._tick:  # a look is missing
+        if passed - waited > 2 * self._tick:
             passed = min(passed, waited + self._tick + ran)
         waited -= in_vain
-        # The kernel books a wait when it ends: the difference may be negative, the sum is right,
-        # unless both waited at the same time. What ran was used, however long the two waited.
+        # The kernel books a wait when it ends: a difference may be negative, the sum is right
+        # unless both waited at the same time. What ran was used, however long they waited.
         self._ran += min(ran, passed)
         self._used = max(self._used + passed - waited, self._ran)
         self._looked, self._account = now, account
@@ -81,11 +75,7 @@ class Stopwatch:
 
     @contextmanager
     def helped_by(self, tasks: Tasks, heard: Heard | None = None) -> Generator[None]:
-        """Make the wait of these tasks count as the thread's own, as long as the block runs.
-
-        Args:
-            heard: counts their answers; without it each wait of the thread is excused.
-        """
+        """Within the block, count the waits of these tasks as the thread's own; see `Stopwatch`."""
         self._helper = _Helper(tasks, heard)
         try:
             yield
@@ -94,13 +84,13 @@ class Stopwatch:
 
 
 class _Account(NamedTuple):
-    """What the kernel has booked for a task: seconds on a processor, and ready without one."""
+    """The kernel's account of a task: seconds on a processor, and ready without one."""
 
     ran: float
     waited: float
 
     def since(self, before: _Account) -> _Account:
-        """What was booked since then."""
+        """The difference to an earlier account."""
         return _Account(self.ran - before.ran, self.waited - before.waited)
 
 
@@ -108,21 +98,17 @@ NOTHING = _Account(0.0, 0.0)
 
 
 class _Helper:
-    """Remembers the account of each task at the last look, and what the thread waited by then."""
+    """The account of each task at the last look, and the thread's waits by then."""
 
     def __init__(self, tasks: Tasks, heard: Heard | None = None) -> None:
         self._tasks = tasks
         self._accounts = {task: _account(task) for task in tasks()}
         self._heard = heard
         self._answers = heard() if heard else 0
-        self._excused = 0.0  # of the thread's waits since the last answer: the last one
+        self._excused = 0.0  # the last unanswered wait
 
     def in_vain(self, waited: float) -> float:
-        """Seconds that were excused at the last look, though no answer has come since.
-
-        Args:
-            waited: the seconds that the thread has waited since the last look; they are excused.
-        """
+        """Seconds excused at the last look, though no answer came; `waited` is excused now."""
         if self._heard is None:
             return 0.0
         before, self._answers = self._answers, self._heard()
@@ -135,7 +121,7 @@ class _Helper:
         """The longest run and the longest wait since the last look: tasks work side by side."""
         before = self._accounts
         self._accounts = {task: _account(task) for task in self._tasks()}
-        # Of a task that is new only the wait counts: when it ran is not known.
+        # a new task's running time before the last look is unknown
         booked = [
             now.since(before.get(task, _Account(now.ran, 0.0)))
             for task, now in self._accounts.items()
@@ -144,9 +130,9 @@ class _Helper:
 
 
 def tasks_of(process: int) -> Iterator[str]:
-    """The threads of a process and of all processes that descend from it."""
+    """The threads of a process and of all its descendants."""
     todo = [str(process)]
-    for parent in todo:  # grows while it is read
+    for parent in todo:  # grows
         for folder in _entries(f"/proc/{parent}/task"):
             task = f"{parent}/task/{folder}"
             yield task
@@ -154,7 +140,6 @@ def tasks_of(process: int) -> Iterator[str]:
 
 
 def _account(task: str) -> _Account:
-    """The account of a task; nothing if it has ended, or nobody keeps one."""
     fields = _read(f"/proc/{task}/schedstat").split()
     return _Account(int(fields[0]) / 1e9, int(fields[1]) / 1e9) if fields else NOTHING
 
@@ -167,14 +152,14 @@ def _entries(folder: str) -> list[str]:
 
 
 def _read(path: str) -> str:
-    """The text of a small file of /proc; empty if there is none (any more)."""
+    """The text of a small file, or ""."""
     try:
-        file = os.open(path, os.O_RDONLY)  # read at the start of every run: `open` takes longer
+        file = os.open(path, os.O_RDONLY)  # `open` takes longer, and every run reads this
     except OSError:
         return ""
     try:
         return os.read(file, 1 << 16).decode()
-    except OSError:  # the process ended after the file was opened
+    except OSError:
         return ""
     finally:
         os.close(file)

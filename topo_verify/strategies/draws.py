@@ -1,9 +1,8 @@
-"""Draws what a grown world is made of: one byte an edge, and the place of the marker.
+"""Draws what a world is grown from: one byte an edge, and the place of the marker.
 
-Drawing costs more than growing, by the number of choices. So all edges are one string of bytes.
+Drawing costs more than growing, by the number of choices, so all edges are one string of bytes.
 Hypothesis draws short strings unless it must draw long ones, so the first choice raises the least
-length. No two choices come from the same strategy: Hypothesis likes to copy values between them,
-which here would make no new worlds.
+length. No two choices share a strategy: Hypothesis would copy values between them.
 """
 
 from __future__ import annotations
@@ -34,12 +33,12 @@ def shown_as_called(make: Callable[P, SearchStrategy[T]]) -> Callable[P, SearchS
 
     @wraps(make)
     def made(*args: P.args, **kwargs: P.kwargs) -> SearchStrategy[T]:
-        strategy = make(*args, **kwargs)  # refuses wrong arguments at once
+        strategy = make(*args, **kwargs)
 
         def call(draw: st.DrawFn, /, *_: P.args, **__: P.kwargs) -> T:
             return draw(strategy)
 
-        # Hypothesis prints a composite by its function's name and arguments
+        # how Hypothesis prints a composite
         call.__name__ = make.__name__
         vars(call)["__signature__"] = shown
         return st.composite(call)(*args, **kwargs)
@@ -48,13 +47,13 @@ def shown_as_called(make: Callable[P, SearchStrategy[T]]) -> Callable[P, SearchS
 
 
 _AT_LEAST = (0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 16)
-"""Raises of the least number of edges; one is drawn."""
+"""Raises of the least number of edges."""
 
 _FURTHER = 8
 """The least length of the second string, which is read in a circle."""
 
 AT_MOST = (0, 6, 8, 8, 10, 10, 12, 12, 14, 16, 16, 20, 20, 24, 30, 40)
-"""Bounds on the number of edges, for strategies that draw sizes; 0 is no bound."""
+"""Bounds on the number of edges; 0: none."""
 
 
 def worlds_of(
@@ -68,7 +67,7 @@ def worlds_of(
     kinds: EdgeKinds = BALANCED,
     **bounds: object,
 ) -> SearchStrategy[World]:
-    """Worlds within these bounds and those of `grown_shape`, for the strategy of this name."""
+    """Worlds within these bounds and those of `grown_shape`."""
     shape = grown_shape(strategy, marker=marker, **bounds)
     shape = replace(shape, max_cycles=max_cycles, dense=dense)
     edges = shape.edges_between(strategy, *edge_bounds(strategy, min_edges, max_edges))
@@ -82,11 +81,10 @@ def _grown(
     steps = draw_bytes(draw, least, most)
     if not steps:
         return World((), (), None)
-    # A leaf is dart 0 (growth.py). The range does not depend on the length drawn, so that shrinking
-    # the string keeps the meaning of the place.
+    # One range for all strings, so a shrunk string keeps the meaning of the place.
     place = 0 if marker == "leaf" else draw(st.integers(0, 2 * most - 1))
     further = b"\0"
-    if len(steps) > ONE_STRING:  # last, so that shrinking drops it
+    if len(steps) > ONE_STRING:  # drawn last, so that shrinking drops it
         further = draw(st.binary(min_size=_FURTHER, max_size=most))
     grown = grow(shape, kinds, steps, further)
     if grown is None:  # rare: tight bounds on degrees, loops or parallel edges
@@ -103,21 +101,20 @@ def draw_bytes(draw: st.DrawFn, least: int, most: int) -> bytes:
 
 
 def at_most(most: int, bound: int) -> int:
-    """The lesser of the two, if `bound` is set: see `AT_MOST`."""
+    """The lesser of the two; a `bound` of 0 is none."""
     return min(most, bound) if bound else most
 
 
 def one_of(row: list[int]) -> SearchStrategy[int]:
-    """One of these numbers, by a choice even if there is only one.
+    """One of these numbers.
 
-    Hypothesis takes an example with fewer choices for simpler.
+    It is a choice even if there is only one: Hypothesis takes fewer choices for simpler.
     """
     return st.sampled_from(row if len(row) > 1 else 2 * row)
 
 
 def scaled(length: int, *drawn: int) -> int:
-    """The number below `length` that these bytes stand for; it grows with them."""
-    # `length` times a fraction of 256^n, rounded down
+    """The number below `length` that these bytes, a fraction of 256^n, stand for."""
     return int.from_bytes(drawn) * length >> 8 * len(drawn)
 
 
@@ -133,9 +130,5 @@ def marked_darts(vertex: Sequence[int], marker: MarkerPlace) -> Sequence[Dart]:
 
 
 def draw_dart(draw: st.DrawFn, darts: Sequence[Dart], bound: int) -> Dart:
-    """One of these darts.
-
-    Args:
-        bound: the most darts possible: Hypothesis keeps the choice while their number changes.
-    """
+    """One of these darts; Hypothesis keeps the choice below `bound` while their number changes."""
     return darts[nth(draw(st.integers(0, bound - 1)), len(darts))]

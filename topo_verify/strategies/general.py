@@ -1,11 +1,11 @@
 """Worlds of every kind: all rooted maps, or those of given genus, degree, simplicity, density.
 
-Every world within the bounds can be drawn: `growth.py` says why. Dense worlds pose many hypotheses
-for each edge; in a tree no hypothesis is ever true.
+Every world within the bounds can be drawn (growth.py). Dense worlds pose many hypotheses for each
+edge; in a tree no hypothesis is ever true.
 
 **Uniform worlds.** Hypothesis prefers small integers, but draws bytes evenly. So a rank is drawn as
-bytes, 8 more than its own length, and scaled down: rank = ⌊bytes · number of worlds / 256^length⌋.
-The likelihoods of two worlds differ by at most one part in 2^64.
+bytes, 8 more than its own length, and scaled down. The likelihoods of two worlds differ by at most
+one part in 2^64.
 """
 
 from __future__ import annotations
@@ -110,7 +110,6 @@ def dense_worlds(  # noqa: PLR0913  bounds are optional
 
 
 _SPARE = 8
-"""Bytes beyond those of the rank."""
 
 
 @shown_as_called
@@ -120,7 +119,6 @@ def uniform_worlds(*, edges: int) -> SearchStrategy[World]:
     if edges > WIDEST:
         raise InputError(f"uniform_worlds: expected at most {WIDEST} edges, got {edges}")
     total = rank_order.count(edges)
-    # Hypothesis draws bytes of a fixed length evenly
     length = (total.bit_length() + 7) // 8 + _SPARE
 
     def world(drawn: bytes) -> World:

@@ -1,7 +1,7 @@
 """Lattices: rectangles of a grid without some nodes, like the paper's street networks.
 
-Nodes are removed, unless the rest would fall apart; then single edges if there are still too many.
-All lattices are planar and simple, with degrees of 4 at most, and carry their positions.
+A node is removed unless the rest would fall apart; then single edges if too many remain. Lattices
+are planar and simple, with degrees of 4 at most, and carry their positions.
 """
 
 from __future__ import annotations
@@ -27,13 +27,12 @@ from topo_verify.strategies.shapes import WIDEST, edge_bounds, require_marker
 from topo_verify.world.rooted_map import Dart, World
 
 LatticeMarker = Literal["any", "hub"]
-"""No "leaf": a lattice need not have a dead end."""
 
 Node = tuple[int, int]
 """Row and column."""
 
 Grid = dict[Node, list[Node]]
-"""The neighbours of each node, clockwise from the north."""
+"""The neighbours of each node, clockwise."""
 
 _HOLES = 4
 """Edges per hole, at least."""
@@ -55,12 +54,11 @@ def lattices(
 
 @st.composite
 def _lattices(draw: st.DrawFn, least: int, most: int, marker: LatticeMarker) -> World:
-    # first, so that failures shrink their size first
     bound = max(least, at_most(most, draw(st.sampled_from(AT_MOST))))
     sizes = _sizes(least, bound)
     columns = draw(sizes.columns)
     rows = draw(sizes.rows[columns])
-    # one string, which shrinks to no holes
+    # shrinks to no holes
     turn, *holes = draw(st.binary(min_size=1, max_size=1 + most // _HOLES))
     grid = _rectangle(rows, columns)
     for hole in holes:
@@ -72,10 +70,10 @@ def _lattices(draw: st.DrawFn, least: int, most: int, marker: LatticeMarker) -> 
 
 @dataclass(frozen=True, slots=True)
 class _RectangleSizes:
-    """How large a rectangle may be.
+    """Attributes of a rectangle.
 
     Attributes:
-        columns: the longer side; ascending, once for each shorter side.
+        columns: the longer side, once for each shorter side.
         rows: for each longer side, a shorter one.
     """
 
@@ -83,7 +81,6 @@ class _RectangleSizes:
     rows: dict[int, SearchStrategy[int]]
 
 
-# called for each example with few different arguments
 @lru_cache(maxsize=256)
 def _sizes(least: int, bound: int) -> _RectangleSizes:
     """The rectangles with at least `least` edges and about `bound` at most.
@@ -124,7 +121,6 @@ def _take_out(grid: Grid, node: Node, least: int) -> None:
 
 
 def _are_joined(grid: Grid, nodes: list[Node], *, without: Node) -> bool:
-    """Whether paths lead from the first of these nodes to the others, none through `without`."""
     reached = {nodes[0], without}
     queue = [nodes[0]]
     for node in queue:
@@ -139,7 +135,7 @@ def _thin(grid: Grid, bound: int, turn: int) -> None:
     spare = len(streets) - bound
     turn = scaled(len(streets), turn)
     streets = streets[turn:] + streets[:turn]
-    # an edge is a bridge in its turn iff the later edges do not join its ends
+    # an edge is a bridge in its turn iff later edges do not join its ends
     part = {node: {node} for node in grid}
     removable: list[tuple[Node, Node]] = []
     for u, v in reversed(streets):
@@ -152,7 +148,7 @@ def _thin(grid: Grid, bound: int, turn: int) -> None:
         grid[u].remove(v)
         grid[v].remove(u)
         spare -= 1
-    for _ in range(spare):  # by now a tree: take out its last dead end
+    for _ in range(spare):  # a tree by now: take out its last dead end
         _take_out(grid, next(u for u in reversed(grid) if len(grid[u]) == 1), 0)
 
 

@@ -5,23 +5,18 @@
     corner d       the place between dart d and the next one clockwise, sigma(d)        5
     newest corner  that of the highest dart                                            2k-1
 
-A byte is two bits of kind (leaf, split or cross: see `shapes.py`) and six bits of place, counted
-from the newest edge back; above 32 edges a second string adds multiples of 64. A leaf grows at that
-corner. A closing leads from the newest corner to the place's corner among those that it may reach;
-if none, from the next newest. A kind that is impossible, or after which the bounds would be, is
-replaced by the next kind.
+A byte is two bits of kind (leaf, split or cross: shapes.py) and six bits of place, counted from the
+newest edge back; above 32 edges a second string adds multiples of 64. A leaf grows at that corner.
+A closing leads from the newest corner to the place's corner among those that it may reach; if none,
+from the next newest. If a kind is impossible, or would make the bounds so, the next kind is used.
 
 Places are relative, so that a world stays similar when Hypothesis removes a byte. Zeros make a
-star, ones a path. Hypothesis tries zeros first and keeps them if the test still fails; in a star no
-hypothesis is posed, so it shrinks further. (Rejected: paths at zero. Planted faults ended in paths
-of twice the edges of their smallest worlds.)
+star, ones a path. Hypothesis tries zeros first; in a star no hypothesis is posed, so it shrinks
+further. Rejected: paths at zero, for then planted faults shrank to paths of twice the edges.
 
-Every map within the bounds is reached. Take a spanning tree and its vertices in an order that
-grows it; let each vertex grow as a leaf, then close its edges to itself and to earlier vertices in
-clockwise order from the edge by which it grew, a loop at its second end: each leads from the newest
-corner. The marker is drawn apart, or is dart 0 if it must lie at a leaf.
-
-Cost: O(m) a byte.
+Every map within the bounds is reached: let the vertices of a spanning tree grow as leaves, each
+then closing its edges to itself and to earlier vertices, clockwise from the edge by which it grew,
+a loop at its second end. Each closing leads from the newest corner. Cost: O(m) a byte.
 """
 
 from __future__ import annotations
@@ -44,7 +39,6 @@ BALANCED: EdgeKinds = ("leaf", "leaf", "split", "cross")
 CROWDED: EdgeKinds = ("leaf", "split", "split", "cross")
 
 PLACES = 64
-"""Places of one byte."""
 
 ONE_STRING = PLACES // 2
 """The most edges with places of one byte."""
@@ -64,8 +58,8 @@ class Grown:
     """A map: dart 0 leaves the first vertex, and alpha(d) is d ^ 1.
 
     Attributes:
-        vertex: the vertex of each dart, in the order of growth.
-        closings: the edges outside the tree, in the order of growth.
+        vertex: of each dart, in the order of growth.
+        closings: the edges outside the tree.
     """
 
     sigma: tuple[Dart, ...]
@@ -79,14 +73,14 @@ class Grown:
 
 
 def grow(shape: Shape, kinds: EdgeKinds, steps: bytes, further: bytes = b"\0") -> Grown | None:
-    """The map that these bytes stand for; None if they and all replacements end in a dead end.
+    """The map of len(steps) edges that these bytes stand for.
 
-    The map has len(steps) edges and keeps the bounds. None is possible only if `max_degree`,
-    `simple` or `loopless` leave hardly any map.
+    None if they and all replacements end in a dead end, which takes tight bounds on degrees, loops
+    or parallel edges.
     """
     shape = shape.at(len(steps))
-    shuffle = Random(steps)  # the same bytes give the same map
-    # trial 0 takes the bytes, trial 1 tries handles first, the others take new bytes
+    shuffle = Random(steps)
+    # trial 1: the same bytes, handles first; then new bytes
     for trial in range(_TRIALS):
         sapling = _Sapling(shape, len(steps), genus_first=trial > 0)
         grown = sapling.grow(kinds, steps, further)
@@ -106,30 +100,29 @@ class _Sapling:
         self._vertex: list[int] = []
         self._face: list[int] = []
         self._closings: list[int] = []
-        self._room = [shape.first_room]  # how many more darts each vertex may have
+        self._room = [shape.first_room]
         self._total_room = shape.first_room
-        self._joins: dict[tuple[int, int], int] = {}  # edges by their two vertices
+        self._joins: dict[tuple[int, int], int] = {}
         self._counts_joins = shape.max_parallel < MANY or shape.max_loops < MANY
         self._bounded = shape.max_degree < MANY or shape.leaf
         self._genus = 0
         self._faces = 1
-        # not `_faces`: a cross leaves a label unused
+        # a cross leaves a label unused
         self._labels = 1
 
     def grow(self, kinds: EdgeKinds, steps: bytes, further: bytes) -> Grown | None:
         for step, more in zip(steps, cycle(further), strict=False):
             place = step % PLACES + PLACES * more
             kind = kinds[step // PLACES]
-            # after a dead end handles come first, since they have least room
+            # after a dead end handles come first
             if self._genus_first and self._genus < self._shape.min_genus and kind != "leaf":
                 kind = "split" if self._faces == 1 else "cross"
-            # `any` stops at the first possible kind
             if not any(self._add(kind, place) for kind in _INSTEAD[kind]):
                 return None
         return Grown(tuple(self._sigma), tuple(self._vertex), tuple(self._closings))
 
     def _add(self, kind: EdgeKind, place: int) -> bool:
-        """Add an edge of this kind if the map can be finished then. Returns whether it did."""
+        """Add an edge of this kind if the map can be finished then."""
         # what the edge adds: vertices, faces, genus, room
         if kind == "leaf":
             possible = self._can_finish(1, 0, 0, self._shape.max_degree - 2)
@@ -142,7 +135,6 @@ class _Sapling:
         # taken back if no cross can follow, which a missing handle needs
         careful = self._genus_first and kind == "split" and self._genus < self._shape.min_genus
         for near, far in self._moves(kind, place):
-            # shallow copies: the values of lists and dicts do not change
             before = (
                 {name: copy(value) for name, value in vars(self).items() if name != "_shape"}
                 if careful
@@ -178,13 +170,12 @@ class _Sapling:
                 for far in _from_place(self._far_ends(near, across=kind == "cross"), place):
                     yield near, far
         elif self._bounded:
-            # the far end first: place 0 is the newest leaf's sister
             corners = (d ^ 1 for d in range(darts - 1, -1, -1))
             free = [d for d in corners if self._room[self._vertex[d]] > 0]
             for near in _from_place(free, place):
                 yield near, near
         else:
-            # `^` binds last: the other end of the edge that the place names
+            # `^` binds last
             near = darts - 1 - nth(place, darts) ^ 1
             yield near, near
 
@@ -196,7 +187,7 @@ class _Sapling:
             ends = [d for d in corners if face[d ^ 1] != here]
         else:
             ends = [d for d in corners if face[d ^ 1] == here]
-        if not (self._bounded or self._counts_joins):  # nothing can forbid an end
+        if not (self._bounded or self._counts_joins):
             return ends
         u = vertex[near]
         fit = [self._may_join(u, v) for v in range(len(self._room))]
@@ -246,7 +237,6 @@ class _Sapling:
         self._face += [face, face]
         self._faces += -1 if across else 1
         self._genus += across
-        # b's side of a split gets a new label
         if not across:
             face = self._labels
             self._labels += 1
@@ -258,7 +248,7 @@ class _Sapling:
         self._count_join(u, v)
 
     def _label(self, dart: Dart, face: int) -> None:
-        first = dart  # around the face
+        first = dart
         while True:
             self._face[dart] = face
             dart = self._sigma[dart ^ 1]
@@ -285,5 +275,5 @@ def nth(place: int, corners: int) -> int:
     """
     bits = (corners - 1).bit_length()
     number = place & ((1 << bits) - 1)
-    # without its top bit it is below 2^(bits-1), which is below `corners`
+    # without its top bit it is below 2^(bits-1) < corners
     return number if number < corners else number - (1 << bits >> 1)

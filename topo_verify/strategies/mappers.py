@@ -1,7 +1,7 @@
 """Draws algorithms of the catalogue with all policies that the paper leaves open, and door words.
 
-The simplest policies are the reference's, nearest and shortest; the simplest mapper is basic with
-these; the simplest door word is (). Every claim holds for every mapper drawn.
+The simplest policies are the reference's; the simplest mapper is basic with these; the simplest
+door word is (). Every claim holds for every mapper drawn.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def policies(*, random: bool = True) -> SearchStrategy[Policies]:
     return st.builds(Policies, pick=_named(PICKS, random), order=_named(ORDERS, random))
 
 
-_all_policies = policies  # `mappers` has an argument of that name
+_all_policies = policies
 
 
 @shown_as_called

@@ -6,8 +6,7 @@
         observe(run)
         assert run.map.cost == run.cost
 
-The note: `enhancement-ii (pick nearest, order shortest) in m4/17: 12 edge traversals`. Hypothesis
-writes features under `.hypothesis/observed` with `HYPOTHESIS_EXPERIMENTAL_OBSERVABILITY=1`.
+With `HYPOTHESIS_EXPERIMENTAL_OBSERVABILITY=1` features are written under `.hypothesis/observed`.
 """
 
 from __future__ import annotations
@@ -53,10 +52,10 @@ class ObservedRun(Protocol):
 
 
 def observe(run: ObservedRun) -> None:
-    """Note the run in Hypothesis. Does nothing outside of its tests."""
+    """Note the run in Hypothesis; outside of its tests, do nothing."""
     if not currently_in_test_context():
         return
-    note(describe(run))  # printed for the failing example only
+    note(describe(run))
     if observability_enabled():
         for feature, value in features(run).items():
             event(feature, value)

@@ -6,8 +6,8 @@
     topo-ci               the same examples everywhere, no deadline
     topo-nightly          new examples every time, fifty times as many
 
-Hypothesis calls `register` at import (entry point `hypothesis`) in every program, so it imports
-nothing that `import topo_verify` does not.
+Hypothesis calls `register` at import, in every program, so it imports nothing that `import
+topo_verify` does not.
 """
 
 from __future__ import annotations
@@ -32,12 +32,10 @@ def register() -> None:
     st.register_type_strategy(World, lambda _: strategies.worlds())
     st.register_type_strategy(Algorithm, lambda _: strategies.mappers())
     st.register_type_strategy(Policies, lambda _: strategies.policies())
-    # lines of this package say nothing of the user's mapper
+    # in explanations, lines of this package say nothing of the user's mapper
     ours = [f"/topo_verify/{path.name}{'/**' * path.is_dir()}" for path in PACKAGE.iterdir()]
     known = scrutineer.UNHELPFUL_LOCATIONS
-    # `vars`, since its type fixes the length
     scrutineer.__dict__["UNHELPFUL_LOCATIONS"] = (*known, *(n for n in ours if n not in known))
-    # times depend on the machine and the world
     settings.register_profile("topo", deadline=None, suppress_health_check=[HealthCheck.too_slow])
     for name, examples in (("topo-ci", 100), ("topo-nightly", 5_000)):
         settings.register_profile(
@@ -46,6 +44,6 @@ def register() -> None:
             derandomize=name == "topo-ci",
             deadline=None,
             print_blob=True,
-            # speed depends on the machine
+            # speed depends on the machine and the world
             suppress_health_check=[HealthCheck.too_slow],
         )

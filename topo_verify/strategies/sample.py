@@ -2,8 +2,6 @@
 
 Hypothesis draws no two equal examples in one run. If a run yields too few, another follows under
 the next seed, and worlds repeat. What this does not show: only `uniform_worlds` are evenly spread.
-
-A strategy on a command line is a call, as `planar_worlds(max_edges=20, simple=True)`, or a name.
 """
 
 from __future__ import annotations
@@ -31,13 +29,12 @@ _NAMES = (
 WORLDS: MappingProxyType[str, Callable[..., SearchStrategy[World]]] = MappingProxyType(
     {name: getattr(strategies, name) for name in _NAMES}
 )
-"""Every strategy that draws worlds, by its name."""
 
 _KIND = resolve.CallSyntax("strategy", "", "'planar_worlds(max_edges=20)'", words=True)
 
 
 def resolve_strategy(text: str) -> SearchStrategy[World]:
-    """The strategy that the text names.
+    """The strategy that a call or a name stands for.
 
     Example:
         >>> from hypothesis import find
@@ -61,11 +58,11 @@ def sample(strategy: SearchStrategy[World], number: int, *, start: int = 0) -> l
 def drawing_no_literals() -> Generator[None]:
     """Within the block Hypothesis draws no literals of the loaded modules.
 
-    Otherwise draws would depend on what else is loaded and on a folder `.hypothesis`. Hypothesis
-    has no setting for this.
+    Otherwise draws would depend on loaded modules and on a folder `.hypothesis`. Hypothesis has no
+    setting for this.
     """
     module: dict[str, Any] = providers.__dict__
-    # the cache holds literals, too; other versions of Hypothesis lack these names
+    # other versions of Hypothesis lack these names
     exchanged: dict[str, Any] = {
         "_get_local_constants": Constants,
         "CONSTANTS_CACHE": LRUCache(1024),
@@ -79,7 +76,7 @@ def drawing_no_literals() -> Generator[None]:
 
 
 def _one_run(strategy: SearchStrategy[World], number: int, start: int) -> list[World]:
-    """The worlds of one run of Hypothesis: 1 to `number`, all of different choices."""
+    """1 to `number` worlds of different choices."""
     drawn: list[World] = []
 
     @seed(start)

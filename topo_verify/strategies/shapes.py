@@ -1,26 +1,24 @@
 """Bounds on the worlds of a strategy, and whether any world keeps them.
 
-    min_edges, max_edges   the number of edges m; default: 1 to 200, the worlds with an id.
-                           min_edges=0 also draws m0/0
+    min_edges, max_edges   the number of edges m; default: 1 to 200, the worlds with an id
     min_genus, max_genus   the genus g of the surface
     simple, loopless       no loops, and if simple no parallel edges
-    max_degree             no vertex has more exits than this
+    max_degree             the most exits of a vertex
     marker                 "any" exit; "leaf", at a dead end, where its direction says nothing;
                            "hub", at a vertex of the greatest degree, where it says most
 
 Worlds are grown edge by edge: a **leaf** is a new vertex on a new edge; a **split** joins two
 corners of one face (one face more); a **cross** joins corners of two faces (one face less, the
-genus one more). Splits and crosses are **closings**. `can_finish` tells whether a half-grown map
-may still be finished. Its condition is necessary and uses counts alone:
+genus one more). Splits and crosses are **closings**. `can_finish` tells by counts alone whether a
+half-grown map may still be finished:
 
     closings  each missing handle takes a cross, and a split before it if there is one face
-    leaves    all edges to come that need not be closings count as leaves, which is best
+    leaves    all other edges to come count as leaves, which is best
     room      the free places at vertices: a leaf takes one and brings max_degree - 1, a closing two
     capacity  the edges that the vertices can carry, if loops or parallels are forbidden
 
-What this does not show: that a world exists if it holds. Without `max_degree` one does (M.
-Škoviera, "The maximum genus of graphs of diameter two", Discrete Math. 87 (1991)); with it, the
-tests compare with all worlds up to 6 edges.
+The condition is necessary; without `max_degree` it is sufficient (M. Škoviera, "The maximum genus
+of graphs of diameter two", Discrete Math. 87 (1991)).
 """
 
 from __future__ import annotations
@@ -36,7 +34,6 @@ from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 MarkerPlace = Literal["any", "leaf", "hub"]
 
 WIDEST = MAX_ID_EDGES
-"""The default of max_edges."""
 
 LARGEST = 2000
 """The greatest max_edges: half of Hypothesis's 8 KiB of choices an example."""
@@ -50,9 +47,9 @@ class Shape:
     """Bounds that a grown map keeps, besides the number of edges.
 
     Attributes:
-        max_parallel, max_loops: edges between two vertices, and from one vertex to itself.
+        max_parallel, max_loops: edges between two vertices, and at one vertex.
         min_cycles, max_cycles: edges outside a spanning tree.
-        dense: at least half as many edges as there are pairs of vertices.
+        dense: at least half as many edges as pairs of vertices.
         leaf: the first vertex, which dart 0 leaves, has degree 1.
     """
 
@@ -73,7 +70,7 @@ class Shape:
         return min(1, self.max_degree) if self.leaf else self.max_degree
 
     def at(self, edges: int) -> Shape:
-        """The same bounds for this number of edges: if dense, with the most vertices it allows."""
+        """The bounds for this number of edges: if dense, with the most vertices that it allows."""
         if not self.dense:
             return self
         # the largest n with n(n-1)/2 <= 2m
@@ -81,7 +78,7 @@ class Shape:
 
     def capacity(self, vertices: int) -> int:
         """The most edges that this number of vertices can carry."""
-        # the leaf with the marker has one edge; the others lie between the other vertices
+        # the leaf with the marker has one edge
         inner = vertices - 1 if self.leaf and vertices > 1 else vertices
         pairs = inner * (inner - 1) // 2
         return pairs * self.max_parallel + inner * self.max_loops + vertices - inner
@@ -89,10 +86,7 @@ class Shape:
     def can_finish(
         self, *, edges: int, to_come: int, vertices: int, faces: int, genus: int, room: int
     ) -> bool:
-        """Whether a map may keep all the bounds if `to_come` of its `edges` are missing.
-
-        It uses counts alone: no is always right, yes may be wrong.
-        """
+        """Whether a map may keep the bounds with `to_come` more edges; yes may be wrong."""
         missing = max(0, self.min_genus - genus)
         cycles = edges - to_come - vertices + 1
         # one face must remain: faces - 1 crosses need no split
@@ -144,7 +138,6 @@ class Shape:
         printer.text(repr(self))
 
     def __str__(self) -> str:
-        """The bounds that are set, in words."""
         words = [f"genus {_range(self.min_genus, self.max_genus)}"] * (
             self.min_genus > 0 or self.max_genus < MANY
         )
@@ -226,7 +219,6 @@ def require_marker(strategy: str, marker: str, known: tuple[str, ...]) -> None:
 
 def _in_order(strategy: str, quantity: str, least: int, most: int) -> None:
     if least > most:
-        # min_edges=1 is the default
         mend = "min_edges=0 draws m0/0, too" if (quantity, most) == ("edges", 0) else "swap them"
         raise InputError(
             f"{strategy}: min_{quantity}={least} is above max_{quantity}={most}: {mend}"

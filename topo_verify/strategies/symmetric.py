@@ -1,21 +1,19 @@
 """Worlds in which many places look alike, so that the marker alone tells them apart.
 
-A **cover** is made of copies of a small map, its *sheets*, numbered round a circle 0 … n-1. Each
-edge of the small map has a *shift* s: in sheet i it leads to sheet i + s. Turning the circle maps
-the cover onto itself, so without the marker no place differs from its n - 1 copies. Two kinds:
+A **cover** is n copies of a small map, its *sheets*, numbered round a circle. Each edge of the
+small map has a *shift* s: in sheet i it leads to sheet i + s. Turning the circle maps the cover
+onto itself, so without the marker no place differs from its n - 1 copies.
 
-**Rosettes**: the small map has one vertex, so all vertices look alike (the Cayley maps of cyclic
-groups). Its darts are `a A b B …`, an edge being a letter in both cases; a letter by itself is half
-an edge a sheet, which must shift by n/2. For example:
+**Rosettes**: the small map has one vertex (the Cayley maps of cyclic groups). Its darts are `a A b
+B …`; a letter without its capital is half an edge a sheet, which must shift by n/2:
 
     darts, sheets          cover                        darts, sheets          cover
     aA, n, a: 1            cycle                        abAB, n, a: 1, b: c    lattice on a torus
     abc, 2, all: 1         3 parallel edges             all of n-1 shifts      complete graph
     aAbB, 1                2 loops (a bouquet)          abA, n, b: n/2         Möbius ladder
 
-**Necklaces**: the small map is any map with a cycle, such as a bead with one closing edge to the
-next. Source (voltage graphs): J. L. Gross and T. W. Tucker, "Topological Graph Theory" (1987),
-chapter 2.
+**Necklaces**: the small map, a bead, is any map with a cycle. Source (voltage graphs): J. L. Gross
+and T. W. Tucker, "Topological Graph Theory" (1987), chapter 2.
 """
 
 from __future__ import annotations
@@ -62,7 +60,7 @@ class _CoverSizes:
     """How large rosettes or necklaces may be.
 
     Attributes:
-        smalls: darts of a rosette, or edges of a bead; ascending, once for each number of sheets.
+        smalls: darts of a rosette, or edges of a bead, once for each number of sheets.
         sheets: the numbers of sheets for each of `smalls`.
     """
 
@@ -108,10 +106,9 @@ def symmetric_worlds(
 
 @st.composite
 def _symmetric(draw: st.DrawFn, shape: Shape, least: int, most: int, marker: MarkerPlace) -> World:
-    # 0: rosettes, 1: necklaces
     bound, is_necklace = draw(_FIRST)
     kinds = _kinds(shape, least, max(least, at_most(most, bound)))
-    if not any(kinds):  # the bound drawn is too tight
+    if not any(kinds):
         kinds = _kinds(shape, least, most)
     sizes = kinds[is_necklace] or kinds[not is_necklace]
     assert sizes is not None
@@ -131,7 +128,7 @@ def _symmetric(draw: st.DrawFn, shape: Shape, least: int, most: int, marker: Mar
 
 
 def cover(small: Small, sheets: int, root: Dart) -> World:
-    """The world of these sheets, joined by the shifts, with the marker on sheet 0."""
+    """The world of these sheets, with the marker on sheet 0."""
     darts = len(small.alpha)
     # dart d of sheet i is i·darts + d
     alpha = [
@@ -145,7 +142,7 @@ def cover(small: Small, sheets: int, root: Dart) -> World:
 
 @lru_cache(maxsize=256)
 def _kinds(shape: Shape, least: int, most: int) -> tuple[_CoverSizes | None, _CoverSizes | None]:
-    # n sheets make n·darts/2 edges of a rosette, n·edges of a bead; -(-a // b) rounds up
+    # n·darts/2 edges of a rosette, n·edges of a bead; -(-a // b) rounds up
     rosettes = {0: [1] * (least == 0 and not shape.leaf)}
     for darts in range(1, min(2 * most, shape.max_degree) + 1):
         sheets = range(max(1, -(-2 * least // darts)), 2 * most // darts + 1)
@@ -165,12 +162,11 @@ def _drawn(sheets: dict[int, list[int]]) -> _CoverSizes | None:
 
 
 def _is_rosette(shape: Shape, sheets: int, darts: int) -> bool:
-    """Whether a connected rosette has this number of darts, 1 or more, within the bounds."""
-    if darts == 1:  # two sheets, joined by one edge
+    if darts == 1:
         return sheets == 2
     if shape.leaf or sheets * darts % 2:
         return False
-    if shape.max_parallel == 1:  # all darts lead to different vertices
+    if shape.max_parallel == 1:
         return darts < sheets
     return shape.max_loops > 0 or sheets > 1
 
@@ -191,12 +187,12 @@ def rosette(shape: Shape, sheets: int, darts: int, drawn: Iterator[int]) -> Smal
     The first whole edge shifts by 1, which joins all sheets.
     """
     halves = darts % 2
-    # all half edges shift by sheets/2: at most one in a simple graph
+    # each shifts by sheets/2
     if sheets % 2 == 0 and shape.max_parallel > 1:
-        # half edges only join opposite sheets, so above 2 sheets a whole edge must remain
+        # above 2 sheets a whole edge must join them
         spare = darts - halves - 2 * (sheets > 2 and darts > 1)
         halves += 2 * (next(drawn) % (spare // 2 + 1))
-    # s and -s make the same edges, sheets/2 each of them twice
+    # s and -s make the same edges; sheets/2 would make them twice
     pool = list(range(1, (sheets + 1) // 2))
     alpha: list[Dart] = []
     shift: list[int] = []
@@ -215,7 +211,7 @@ def rosette(shape: Shape, sheets: int, darts: int, drawn: Iterator[int]) -> Smal
                 s = _free_shift(shape, sheets, next(drawn))
             alpha += [dart + 1, dart]
             shift += [s, -s]
-        # byte 0 keeps the two darts of an edge side by side
+        # byte 0: side by side
         for new in range(dart, len(alpha)):
             row.insert(new - next(drawn) % (new + 1), new)
     after = dict(zip(row, row[1:] + row[:1], strict=True))
@@ -242,12 +238,11 @@ def necklace(shape: Shape, sheets: int, bead: Grown, drawn: Iterator[int]) -> Sm
             s = _free_shift(shape, sheets, next(drawn))
         else:
             s = next(drawn) % sheets
-        # from the lesser vertex on, so that shifts compare
+        # shifts from the lesser vertex on can be compared
         before.add(s)
         shift += [s, -s] if ends == (u, v) else [-s, s]
     return Small(bead.alpha, bead.sigma, tuple(shift), bead.vertex)
 
 
 def _free_shift(shape: Shape, sheets: int, number: int) -> int:
-    """The shift of a loop; not 0 if the cover may have no loops."""
     return number % sheets if shape.max_loops > 0 else 1 + number % (sheets - 1)

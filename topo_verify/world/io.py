@@ -1,16 +1,15 @@
-"""Reads worlds from files and text, and writes them; the end of a file's name says its format.
+"""Reads and writes worlds; the end of a file's name says its format.
 
 | name ends in | format |
 | --- | --- |
 | `.pc`, `.plc` | planar_code |
-| `.graphml` | GraphML, with a rotation or with positions |
+| `.graphml` | GraphML |
 | `.net.xml` | a road network of SUMO |
 | `.nx.json` | NetworkX's node-link JSON |
 | anything else | world JSON |
 """
 
-# Formats are imported in the functions that use them: parsers of XML and JSON load slowly, and most
-# programs open no file.
+# Formats are imported late: parsers load slowly.
 
 from __future__ import annotations
 
@@ -30,23 +29,16 @@ _ENDINGS = {
     ".net.xml": "sumo",
     ".nx.json": "nx-json",
 }
-"""Format by ending; other names are `json`."""
 
 
 def format_of_name(path: str | PathLike[str]) -> str:
-    """The format in which a file of this name is read."""
+    """The format that the file's name stands for."""
     name = os.fspath(path).lower()
     return next((kind for ending, kind in _ENDINGS.items() if name.endswith(ending)), "json")
 
 
 def load(cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -> W:
-    """The world in the file.
-
-    Args:
-        graph: index of the graph in a file of planar_code; default: the only one.
-    Raises:
-        InputError: the file cannot be read, or holds no world.
-    """
+    """The world in the file; `World.load` documents the arguments."""
     from topo_verify.world.formats import files, graphml, node_link, planar_code, sumo, world_json
 
     kind, name = format_of_name(path), shown(path)
@@ -78,7 +70,7 @@ def decode(cls: type[W], text: str | bytes) -> W:
 
 
 def encode(world: World) -> str:
-    """World JSON on one line, the same bytes for the same world."""
+    """World JSON on one line."""
     from topo_verify.world.formats import world_json
 
     return world_json.encode(world)
@@ -114,15 +106,10 @@ def draw(
     doors: bool = False,
     darts: bool = False,
 ) -> str:
-    """The picture of the world as SVG; also written to the file in the format of its name.
-
-    Raises:
-        InputError: the file cannot be written, its ending is unknown, or the renderer is missing.
-    """
+    """The picture as SVG; `World.draw` documents the arguments."""
     from topo_verify.world.drawing import document, format_of, lay_out, to_svg
     from topo_verify.world.formats import files
 
-    # refuses a bad name before the work
     kind = None if path is None else format_of(os.fspath(path))
     layout = lay_out(world)
     if kind is not None and path is not None:
@@ -131,7 +118,7 @@ def draw(
 
 
 def twin(world: World, model: Literal["undirected", "none"]) -> World | None:
-    """A twin of the world, or None."""
+    """`World.twin`."""
     from topo_verify.world.twins import find_twin
 
     return find_twin(world, model)[0]

@@ -1,27 +1,15 @@
-"""The least cost of a proof, a lower bound for every mapper that is right, and a walk of that cost.
+"""The least cost LB of a proof: a lower bound for every right mapper, and a walk that attains it.
 
-A mapper has proved its map only if its closed trips from v0 generate the fundamental group (else
-the fold of its history has an open dart). Write d for the distance from v0.
-
-- The classes of the trips span the cycle space. A closed trip of length at most t uses only edges
-  uv with d(u) + 1 + d(v) <= t, so the loops that a breadth-first tree closes with the edges outside
-  it are a lightest basis: d(u) + 1 + d(v) each.
-- Edges of **pendant trees** (on no tree path from v0 to an end of such an edge) change no class.
-  Each is walked there and back: 2·P for P of them.
-- The last trip need not come back: ended at v in a pendant tree attached at a, it saves the depth
-  of v below a, and costs d(a) to get there: s, if positive.
-
-LB = Σ (d(u) + 1 + d(v)) + 2·P - s. The walk of `proof_tour` attains it, so it is the optimum with
-the map in hand; cost / LB is the price of not knowing the map. It does not hold for mappers that
-may assume planarity, n or m.
-
-**The walk** makes each loop and walks pendant trees when it first passes their vertex; it ends in
-the one that saves most. Doors count from the dart of arrival: the same in every numbering.
+A mapper has proved its map only if its closed trips from v0 generate the fundamental group; else
+the fold of its history has an open dart. The cheapest such trips are the loops that a breadth-first
+tree closes with the other edges. Each edge of a **pendant tree**, off all tree paths from v0 to
+such an edge, is walked there and back, but the last trip need not come back. cost / LB is the price
+of not knowing the map, except for mappers that may assume planarity, n or m.
 
     core        the vertices that the walk passes anyway
     branch      a vertex outside the core whose tree edge must be walked, or one on the way there
 
-Source: docs/semantics.md, section 11.
+Source: docs/semantics.md, section 11, with the formula and its proof.
 """
 
 from __future__ import annotations
@@ -38,12 +26,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)  # cached_property needs `__dict__`
 class BreadthFirstTree:
-    """The breadth-first tree of a world from v0, in the numbering of the canonical code.
+    """The breadth-first tree of a world from v0, in the numbering of its canonical code, `table`.
 
     The first dart of a vertex leads to its parent; parents stand before their children.
-
-    Args:
-        table: degrees and alpha, a canonical code.
     """
 
     table: Table
@@ -67,7 +52,7 @@ class BreadthFirstTree:
 
     @cached_property
     def depth(self) -> tuple[int, ...]:
-        """The distance of each vertex from v0, in edges."""
+        """The distance of each vertex from v0."""
         depth = [0] * len(self.first)
         for v in range(1, len(depth)):
             depth[v] = depth[self.parent[v]] + 1
@@ -76,35 +61,35 @@ class BreadthFirstTree:
     @cached_property
     def chords(self) -> tuple[int, ...]:
         """The lesser dart of each edge outside the tree, ascending."""
-        entries = set(self.first[1:])  # an edge of the tree is its child's first dart, the greater
+        entries = set(self.first[1:])  # first darts end tree edges
         alpha = self.table[1]
         return tuple(d for d, other in enumerate(alpha) if d < other and other not in entries)
 
     def climb(self, vertex: int, goals: Container[int] = (0,)) -> Iterator[int]:
-        """The vertices from this one up to the first of the goals, excluded."""
+        """The vertices from this one up to the first goal, excluded."""
         while vertex not in goals:
             yield vertex
             vertex = self.parent[vertex]
 
     def home(self, vertex: int) -> list[int]:
-        """The darts of the tree path from this vertex to v0."""
+        """The darts of the tree path from the vertex to v0."""
         return [self.first[v] for v in self.climb(vertex)]
 
     def down(self, vertex: int) -> list[int]:
-        """The darts of the tree path from v0 to this vertex."""
+        """The darts of the tree path from v0 to the vertex."""
         return [self.table[1][dart] for dart in reversed(self.home(vertex))]
 
     def loop(self, chord: int) -> list[int]:
-        """The darts from v0 down the tree, over this edge, and home."""
+        """The darts from v0 down the tree, over the chord, and home."""
         end = self.vertex[self.table[1][chord]]
         return [*self.down(self.vertex[chord]), chord, *self.home(end)]
 
     def weight(self, chord: int) -> int:
-        """The length of that loop."""
+        """The length of the chord's loop."""
         return self.depth[self.vertex[chord]] + 1 + self.depth[self.vertex[self.table[1][chord]]]
 
     def doors(self, darts: Iterable[int], reference: int = 0) -> tuple[int, ...]:
-        """The doors of a walk of these darts, begun at this reference dart."""
+        """The doors of a walk, each counted from the dart of arrival."""
         degrees, alpha = self.table
         doors: list[int] = []
         for dart in darts:
@@ -113,11 +98,11 @@ class BreadthFirstTree:
         return tuple(doors)
 
 
-@lru_cache(maxsize=4)  # each mapper in a world asks for it twice
+@lru_cache(maxsize=4)
 def least_cost(table: Table) -> int:
-    """The least cost LB, in edge traversals, of the world with this canonical code. O(m)."""
+    """LB of the world with this canonical code. O(m)."""
     tree = BreadthFirstTree(table)
-    core = {0}  # on tree paths from v0 to the ends of loops
+    core = {0}
     for chord in tree.chords:
         for dart in (chord, table[1][chord]):
             core.update([*tree.climb(tree.vertex[dart], core)])
@@ -127,7 +112,7 @@ def least_cost(table: Table) -> int:
 
 
 def proof_tour(table: Table) -> tuple[int, ...]:
-    """The doors of a walk of least cost that proves the world with this canonical code. O(cost)."""
+    """The doors of a cheapest walk that proves the world with this canonical code. O(cost)."""
     tree = BreadthFirstTree(table)
     trips = [tree.loop(chord) for chord in tree.chords]
     return tree.doors(covering_walk(tree, trips, range(len(tree.first))))
@@ -138,19 +123,16 @@ def covering_walk(
 ) -> list[int]:
     """The darts of a walk that makes these trips and walks the tree edges above these vertices.
 
-    Args:
-        trips: their darts; each ends at v0, and all but the first begin there.
-        needed: the vertices whose tree edge must be walked.
-    Returns: the darts from where the first trip begins (v0 without a trip). Tree edges off the
-    trips are walked there and back, the last branch only there.
+    The first trip may begin anywhere; all others begin and end at v0. Tree edges off the trips are
+    walked there and back, the last branch only there.
     """
     core = {0, *(tree.vertex[dart] for trip in trips for dart in trip)}
     reached = {*core}
     for goal in needed:
         reached.update([*tree.climb(goal, reached)])
-    branches = sorted(reached - core)  # on the tree paths to the needed vertices
+    branches = sorted(reached - core)
     last, _ = _last(tree, core, branches)
-    onward = {*tree.climb(last, core)}  # walked at the end
+    onward = {*tree.climb(last, core)}
     children: dict[int, list[int]] = {}
     for v in branches:
         if v not in onward:
@@ -164,10 +146,10 @@ def covering_walk(
 
 
 def _last(tree: BreadthFirstTree, core: set[int], branches: Iterable[int]) -> tuple[int, int]:
-    """The branch at which a walk ends best (v0 if none saves moves), and the moves saved."""
-    attached: dict[int, int] = {}  # of each branch: the depth of the core vertex above it
+    """The branch at which a walk ends best, or v0, and the moves saved."""
+    attached: dict[int, int] = {}  # the depth of the core vertex above
     best, saved = 0, 0
-    for v in branches:  # parents stand before their children
+    for v in branches:
         above = tree.parent[v]
         attached[v] = tree.depth[above] if above in core else attached[above]
         if tree.depth[v] - 2 * attached[v] > saved:

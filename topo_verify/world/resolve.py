@@ -1,16 +1,6 @@
-"""Resolves a WORLD argument of the command line to the world that it names.
+"""Resolves a WORLD argument of the command line, as docs/semantics.md, section 16, lists them.
 
-| text | world |
-| --- | --- |
-| `-` | world JSON from standard input |
-| `nyc` | the street network of the package |
-| `m5/17` | the world of that id |
-| `family:lattice(10,10,holes=0.2,seed=7)` | the world of that family |
-| anything else | the world in that file |
-
-The first row that fits counts. **Calls** have literal arguments and are never run as Python.
-
-Source: docs/semantics.md, section 16.
+A call's arguments are literals; nothing is evaluated as Python.
 """
 
 from __future__ import annotations
@@ -35,18 +25,18 @@ T = TypeVar("T")
 Argument = int | float | str | bool | None
 
 MAX_LENGTH = 200
-"""Characters in a call, against deep nesting and long numbers."""
+"""Against deep nesting and long numbers."""
 
 
 @dataclass(frozen=True, slots=True)
 class CallSyntax:
-    """What is called, for the error messages.
+    """How error messages describe a call.
 
     Attributes:
         kind: such as "family of worlds".
         before: the text before the call.
         example: a complete valid text.
-        words: may arguments be quoted words, True, False and None, too?
+        words: whether words, True, False and None are allowed.
     """
 
     kind: str
@@ -58,13 +48,12 @@ class CallSyntax:
 def call(
     text: str, known: Mapping[str, Callable[..., T]], syntax: CallSyntax, *, bare: bool = False
 ) -> T:
-    """The result of the call.
+    """The result of calling a known function as the text says.
 
     Args:
-        known: the functions by name.
         bare: a name alone is a call without arguments.
     Raises:
-        InputError: unknown name or unfit arguments; also whatever the function raises.
+        InputError: unknown name or unfit arguments.
     """
     name = text.partition("(")[0]
     if name not in known:
@@ -87,17 +76,16 @@ def call(
             f"'{shown(syntax.before + text, limit=60)}': {shown(str(error))};"
             f" the {syntax.kind.split()[0]} is {name}({parameters})"
         ) from error
-    # outside the `try`: a TypeError from here is a defect of the function
+    # outside the `try`: a TypeError from here is the function's defect
     return known[name](*bound.args, **bound.kwargs)
 
 
 def _arguments(text: str, syntax: CallSyntax) -> tuple[list[Argument], dict[str, Argument]]:
-    """The call's arguments by position and by name; TypeError if it is none."""
     if len(text) > MAX_LENGTH:
         raise TypeError(f"expected at most {MAX_LENGTH} characters, got {len(text)}")
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # the InputError is enough
+            warnings.simplefilter("ignore")
             parsed = ast.parse(text, mode="eval").body
     except SyntaxError as error:
         raise TypeError(error.msg) from error
@@ -107,7 +95,7 @@ def _arguments(text: str, syntax: CallSyntax) -> tuple[list[Argument], dict[str,
         raise TypeError("expected one call, with its arguments in brackets")
     named: dict[str, Argument] = {}
     for word in parsed.keywords:
-        # `**x` has no name; Python finds repeated names only when it compiles
+        # `**x` has no name
         if word.arg is None or word.arg in named:
             given = ast.get_source_segment(text, word)
             raise TypeError(f"expected name=value and each name once, got '{given}'")
@@ -120,7 +108,7 @@ def _literal(node: ast.expr, text: str, syntax: CallSyntax) -> Argument:
     try:
         value = ast.literal_eval(node)
     except (ValueError, RecursionError):
-        value = ...  # never allowed
+        value = ...
     # isinstance would take True for an int
     if type(value) not in allowed:
         expected = "a literal" if syntax.words else "a number"
@@ -133,11 +121,8 @@ _FAMILY = CallSyntax("family of worlds", "family:", "family:lattice(3,4,seed=7)"
 
 
 def resolve_world(text: str, *, stdin: IO[bytes] | None = None) -> World:
-    """The world that the text names.
+    """The world that the text names; `-` reads `stdin`.
 
-    Args:
-        text: a path, `-`, a world id, `family:…` or `nyc`.
-        stdin: what `-` reads; default: standard input.
     Raises:
         InputError: there is no such world, or it cannot be read.
     """
@@ -161,11 +146,7 @@ def resolve_world(text: str, *, stdin: IO[bytes] | None = None) -> World:
 
 
 def as_world(world: object) -> World:
-    """The world itself, or the one that a text names as on the command line.
-
-    Raises:
-        InputError: it is neither, or no world has this text.
-    """
+    """The world itself, or the one that a text names as on the command line."""
     if isinstance(world, World):
         return world
     if isinstance(world, str):
@@ -176,5 +157,5 @@ def as_world(world: object) -> World:
 def _exists(path: str) -> bool:
     try:
         return bool(path) and Path(path).exists()
-    except (OSError, ValueError):  # no permission; not a file name
+    except (OSError, ValueError):
         return False

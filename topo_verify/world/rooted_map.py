@@ -1,17 +1,15 @@
 """A world: a connected graph embedded in an orientable surface, with one directional marker.
 
-The embedding is a combinatorial map (rotation system). Every edge is two **darts**, one at each
-end; `alpha` exchanges the two darts of an edge, `sigma` turns a dart to the next exit of its
-vertex. The cycles of `sigma` are the vertices, those of `sigma∘alpha` (cross, then turn) the faces.
-The marker lies at a vertex and points at one of its darts, the `root`. The only automorphism of
-such a **rooted map** is the identity, so numbering its darts breadth-first from the root gives a
-canonical code: two worlds are isomorphic iff their codes are equal.
+Every edge is two **darts**, one at each end. `alpha` exchanges the darts of an edge; `sigma` turns
+a dart to the next exit of its vertex, **clockwise** seen from above, so mirror images are different
+worlds. The cycles of `sigma` are the vertices, those of `sigma∘alpha` (cross, then turn) the faces.
+The marker points at one dart, the `root`.
 
-Orientation: `sigma(d)` is the next exit **clockwise** after `d`, seen from above. Mirror images are
-different worlds.
+The only automorphism of such a **rooted map** is the identity, so numbering its darts breadth-first
+from the root gives a canonical code: two worlds are isomorphic iff their codes are equal.
 
 Source: docs/semantics.md, section 1; S. K. Lando and A. K. Zvonkin, "Graphs on Surfaces and Their
-Applications" (2004), chapter 1.
+    Applications" (2004), chapter 1.
 """
 
 from __future__ import annotations
@@ -60,8 +58,7 @@ class World:
     Complexity: O(m).
     """
 
-    # Set in `world/__init__.py`: an import of io.py here would close a circle, because every format
-    # makes worlds.
+    # set in `world/__init__.py`: importing io.py here would close a circle
     formats: ClassVar[_Formats]
 
     alpha: tuple[Dart, ...]
@@ -95,10 +92,10 @@ class World:
         """The world from rotations, pairs of darts and the marked dart, as a world file has them.
 
         Args:
-            vertices: the darts of each vertex in clockwise order, any distinct integers; they are
-                renumbered in ascending order.
+            vertices: the darts of each vertex in clockwise order; distinct integers, renumbered in
+                ascending order.
             edges: two darts each.
-            marker: a dart, or None where there is none.
+            marker: a dart; None if there is no dart.
             about: name, vertex_names, positions, source, licence.
         Raises:
             InputError: names the dart or vertex and what is wrong with it.
@@ -132,7 +129,7 @@ class World:
 
     @classmethod
     def from_code(cls, code: Code, *, name: str = "") -> Self:
-        """The world with this code, or any table whose vertices own consecutive darts."""
+        """The world with this code, or with any table whose vertices own consecutive darts."""
         degrees, alpha = code
         sigma: list[Dart] = []
         for degree in degrees:
@@ -162,7 +159,7 @@ class World:
 
     @classmethod
     def from_json(cls, text: str | bytes) -> Self:
-        """The world in this world JSON. Raises InputError as `load`."""
+        """The world in this world JSON; raises as `load`."""
         return cls.formats.decode(cls, text)
 
     def to_json(self) -> str:
@@ -232,7 +229,7 @@ class World:
 
     @property
     def is_planar(self) -> bool:
-        """Whether the surface is a sphere."""
+        """Whether the genus is 0."""
         return self.genus == 0
 
     @cached_property
@@ -248,7 +245,7 @@ class World:
 
     @property
     def cost_bound(self) -> int:
-        """The most edge traversals of a run: m·(n + (2m-1)·2(n-1))."""
+        """An upper bound for the edge traversals of a run: m·(n + (2m-1)·2(n-1))."""
         m, n = len(self.edges), len(self.vertices)
         return m * (n + (2 * m - 1) * 2 * (n - 1))
 
@@ -301,7 +298,7 @@ class World:
 
     @property
     def text(self) -> str:
-        """The id; the JSON of a world too large for one."""
+        """The id; the JSON of a world too large for an id."""
         small = len(self.edges) <= rank_order.MAX_ID_EDGES
         return self.id if small else self.to_json()
 
@@ -314,7 +311,7 @@ class World:
         back = [0] * len(self.sigma)
         for dart, after in enumerate(self.sigma):
             back[after] = dart
-        # reflected in the y axis: the drawing stays clockwise
+        # reflected in the y axis
         flipped = tuple((-x, y) for x, y in self.positions)
         return replace(self, sigma=tuple(back), positions=flipped, name="")
 
@@ -349,19 +346,19 @@ class World:
         return hash((self.alpha, self.sigma, self.root))
 
     def __repr__(self) -> str:
-        if len(self.edges) <= 30:  # one short line
+        if len(self.edges) <= 30:
             return f"tv.World.from_id({self.id!r})"
         size = f"{len(self.vertices)} vertices, {len(self.edges)} edges, genus {self.genus}"
         return f"<World {self.name!r}: {size}>"
 
     def draw(self, path: str | PathLike[str] | None = None, **marks: bool) -> str:
-        """A picture as SVG, with the true order of the darts at every vertex.
+        """The picture as SVG, with the true order of the darts at every vertex.
 
         Args:
             path: also write it to this file: .svg, .png, .pdf or .html.
             marks: `doors=True` numbers the doors of each vertex, `darts=True` the darts.
         Raises:
-            InputError: as `io.draw`.
+            InputError: the file cannot be written, or the renderer is missing.
         """
         return self.formats.draw(self, path, **marks)
 
@@ -378,7 +375,7 @@ class World:
 
 
 def cycles(permutation: Sequence[int], starts: Sequence[int] = ()) -> tuple[tuple[int, ...], ...]:
-    """The cycles, in the order of their starts; those without one by their least dart."""
+    """The cycles: those of the starts in their order, then the others by their least dart."""
     visited = [False] * len(permutation)
     cycles: list[tuple[int, ...]] = []
     for start in (*starts, *range(len(permutation))):

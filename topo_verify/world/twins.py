@@ -1,19 +1,17 @@
 """Twins: two different worlds that look the same to every robot without the marker's direction.
 
 Such a robot senses the degree, and whether the marker is here (`undirected`), or the degree alone
-(`none`). Two darts are **alike** if no walk from them senses a difference; partition refinement
-finds them.
+(`none`). Two darts are **alike** if no walk from them senses a difference.
 
-**Making a twin.** Exchange the far ends of two edges whose darts are alike: a robot senses the
-same. If the world stays connected and is not isomorphic to the original, it is a twin. One of
-another genus is preferred, for two worlds may differ by their marked darts alone. Without a marker,
-two copies of the world, joined crosswise at an edge on a cycle, are a twin.
+**Making a twin.** Exchanging the far ends of two edges with alike darts changes nothing that a
+robot senses. If the result is connected and not isomorphic to the original, it is a twin. Without a
+marker, two copies of the world, joined crosswise at an edge on a cycle, are one.
 
-**When there is none.** With the mark, worlds that look like W are coverings of its quotient by
-alike darts, with the N sheets that W has, because the mark lies on one vertex. Only one exists if
-N = 1, if W has at most one cycle, or if N = 2 and the quotient has no cycle. Up to 6 edges these
-are all cases, and otherwise one exchange makes a twin (`benchmarks/twins.py`); neither is proved
-beyond. Without a marker only trees are determined.
+**No twin.** A world that looks like W covers W's quotient by alike darts with N sheets as W does,
+because the mark lies on one vertex. Only one such world exists if N = 1, if W has at most one
+cycle, or if N = 2 and the quotient has no cycle. In all other cases up to 6 edges one exchange
+makes a twin (`benchmarks/twins.py`); beyond, this is not proved. Without a marker only trees are
+determined.
 """
 
 from __future__ import annotations
@@ -26,20 +24,15 @@ from topo_verify.errors import InputError, InternalError
 from topo_verify.world.rooted_map import Dart, World, cycles
 
 MarkerModel = Literal["undirected", "none"]
-"""What is sensed of the marker: its place, or nothing."""
 
 MODELS: tuple[MarkerModel, ...] = get_args(MarkerModel)
 
 MOST_TRIED = 500
-"""Limit of the search for a twin of another genus."""
+"""Of another genus."""
 
 
 def find_twin(world: World, model: MarkerModel) -> tuple[World | None, str]:
-    """A twin; or None, and why there is none.
-
-    Raises:
-        InputError: there is no such model.
-    """
+    """A twin and ""; or None and the reason."""
     if model not in MODELS:
         raise InputError(f"expected one of {', '.join(MODELS)}, got {model!r}")
     if why := no_twin(world, model):
@@ -76,7 +69,7 @@ def no_twin(world: World, model: MarkerModel) -> str:
 
 
 def alike_darts(world: World, model: MarkerModel) -> list[int]:
-    """The class of each dart: equal for darts from which no walk senses a difference."""
+    """The class of each dart; equal for darts that are alike."""
     classes, count = _numbered(sensed(world, model)), 0
     while count != (count := len(set(classes))):
         pairs = zip(classes, world.sigma, world.alpha, strict=True)
@@ -95,7 +88,7 @@ def look_alike(world: World, other: World, model: MarkerModel) -> bool:
     here, there = sensed(world, model), sensed(other, model)
     pairs = [(world.root or 0, other.root or 0)]
     known = set(pairs)
-    for a, b in pairs:  # grows
+    for a, b in pairs:
         if here[a] != there[b]:
             return False
         for end in (

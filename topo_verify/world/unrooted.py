@@ -1,15 +1,14 @@
 """The number of worlds without their marker: maps up to isomorphism that keeps the orientation.
 
-They are the connected pairs (alpha, sigma) on 2m darts, up to renumbering. By Burnside's lemma all
-pairs are counted by the sum over the permutations g of the darts, one of each cycle type, of the
-fixed-point-free involutions that commute with g (times the sigma that commute with g, divided by
-the order of its centraliser, which are equal). On j cycles of length k such an involution pairs
-some cycles, k ways each, and turns each of the others by half, if k is even:
+They are the connected pairs (alpha, sigma) on 2m darts, up to renumbering. By Burnside's lemma, all
+pairs are counted by a sum over permutations g of the darts, one of each cycle type, of the
+fixed-point-free involutions that commute with g; the sigma that commute with g cancel with the
+order of its centraliser. On j cycles of length k there are
 
     c(k, j) = sum over i of  j! / (i! 2^i (j - 2i)!) * k^i * [k is even or j = 2i]
 
-The generating function is a product over k; the inverse Euler transform keeps the connected pairs.
-Worlds of classes other than `any` are listed.
+such involutions: i pairs of cycles, the others turned by half. The generating function is a product
+over k; the inverse Euler transform keeps the connected pairs.
 """
 
 from __future__ import annotations
@@ -22,14 +21,14 @@ from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.pruned import worlds
 
 SIZES = (20, 60, 200)
-"""The formula is evaluated for all sizes up to one of these at once."""
+"""The formula is evaluated for all sizes up to one of these."""
 
 MOST_LISTED = 5000
-"""The limit of worlds of another class that are listed."""
+"""Of other classes than `any`."""
 
 
 def unrooted_count(edges: int, kind: WorldClass) -> int | None:
-    """The number of unrooted maps in a class; None where it would take too long."""
+    """The number of unrooted maps in a class; None if it would take too long."""
     if edges == 0:
         return kind.count(0)
     if kind == WorldClass():
@@ -47,7 +46,7 @@ def unrooted_count(edges: int, kind: WorldClass) -> int | None:
 @cache
 def _connected(most: int) -> list[int]:
     pairs = _pairs(most)
-    sums = [0] * (most + 1)  # for each n: Σ d·connected[d] over its divisors d
+    sums = [0] * (most + 1)  # Σ d·connected[d] over the divisors d of n
     connected = [0] * (most + 1)
     for n in range(1, most + 1):
         sums[n] = n * pairs[n] - sum(sums[k] * pairs[n - k] for k in range(1, n))
@@ -58,7 +57,7 @@ def _connected(most: int) -> list[int]:
 
 def _pairs(edges: int) -> list[int]:
     size = 2 * edges
-    total = [1] + [0] * size  # by the number of darts
+    total = [1] + [0] * size
     for k in range(1, size + 1):
         ways = [_involutions(k, j) for j in range(size // k + 1)]
         total = [
@@ -68,7 +67,7 @@ def _pairs(edges: int) -> list[int]:
 
 
 def _involutions(k: int, j: int) -> int:
-    """The involutions without fixed point that commute with j cycles of length k."""
+    """The fixed-point-free involutions that commute with j cycles of length k."""
     return sum(
         factorial(j) // (factorial(i) * 2**i * factorial(j - 2 * i)) * k**i
         for i in range(j // 2 + 1)

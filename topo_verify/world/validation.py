@@ -1,7 +1,6 @@
-"""Refuses rotations, edges and markers that do not make a world.
+"""Refuses what is not a world, and names the dart.
 
-An `InputError` names the dart. Nothing is repaired: results about another world than the one meant
-are worthless.
+Nothing is repaired: results about another world than the one meant are worthless.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from topo_verify.errors import InputError, plural
 
 
 def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int | None) -> None:
-    """Refuse all but an involution without fixed point, a permutation and one of their darts."""
+    """Refuse all but an involution without fixed point, a permutation and one of the darts."""
     darts = len(alpha)
     if len(sigma) != darts or darts % 2:
         raise InputError(
@@ -34,7 +33,7 @@ def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int |
             f"the marker points at dart {root}, which is out of range:"
             f" name one of the darts 0 … {darts - 1}"
         )
-    # ranges first: later checks use images as indices
+    # ranges first: images are indices below
     for name, row in (("alpha", alpha), ("sigma", sigma)):
         for dart, image in enumerate(row):
             if not 0 <= image < darts:
@@ -53,8 +52,7 @@ def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int |
                 f"alpha is not an involution: alpha[{dart}] = {other}, but"
                 f" alpha[{other}] = {alpha[other]}; let the two darts of an edge name each other"
             )
-    if len(set(sigma)) != darts:  # so one dart is the image of two
-        # reversed, so that the lower of two darts with one image stays
+    if len(set(sigma)) != darts:
         first = {image: dart for dart, image in reversed(list(enumerate(sigma)))}
         second = min(dart for dart, image in enumerate(sigma) if first[image] != dart)
         raise InputError(
@@ -128,7 +126,7 @@ def numbering(rotations: Sequence[Sequence[int]], pairs: Sequence[Sequence[int]]
 
 
 def require_marker(marker: int | None, darts: Container[int]) -> None:
-    """Refuse a marker that is none of the darts."""
+    """Refuse a marker that is not a dart."""
     if marker is not None and marker not in darts:
         raise InputError(
             f"the marker points at dart {marker}, which no vertex has: name a dart of 'vertices'"
@@ -136,7 +134,7 @@ def require_marker(marker: int | None, darts: Container[int]) -> None:
 
 
 def map_parts(map_like: object) -> tuple[list[list[int]], list[list[int]], int | None]:
-    """The vertices, edges and marker of an object that has them as attributes or as keys."""
+    """The vertices, edges and marker of an object, read from attributes or keys."""
     vertices, edges, marker = (_part(map_like, name) for name in ("vertices", "edges", "marker"))
     dart = None if marker is None else _integer(marker)
     if marker is not None and dart is None:
@@ -178,7 +176,7 @@ def _rows(name: str, value: object) -> list[list[int]]:
     rows: list[list[int]] = []
     kinds = [type(row).__name__ for row in given]
     for place, row in enumerate(given):
-        # A set has no order, which a rotation needs and an edge does not.
+        # a set has no order
         items = None if name == "vertices" and isinstance(row, AbstractSet) else _items(row)
         darts = [dart for item in items or () if (dart := _integer(item)) is not None]
         if items is None or len(darts) < len(items):
@@ -192,22 +190,22 @@ def _rows(name: str, value: object) -> list[list[int]]:
 
 
 def _items(value: object) -> list[Any] | None:
-    if isinstance(value, (tuple, list)):  # the usual case, quickly
+    if isinstance(value, (tuple, list)):
         return list(cast("Iterable[Any]", value))
     if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Sized):
         return None
-    with suppress(TypeError):  # a 0-dimensional array has a length and no items
+    with suppress(TypeError):  # a 0-dimensional array
         return list(cast("Iterable[Any]", value))
     return None
 
 
 def _integer(value: object) -> int | None:
-    """The value as an int; None if it is no integer of at most 64 bits."""
-    if type(value) is int:  # the usual case, and no bool
+    """None unless the value is an integer of at most 64 bits."""
+    if type(value) is int:  # no bool
         return value if value.bit_length() <= 64 else None
-    if isinstance(value, bool) or not hasattr(value, "__index__"):  # quicker than SupportsIndex
+    if isinstance(value, bool) or not hasattr(value, "__index__"):
         return None
-    with suppress(TypeError):  # an array of one float has `__index__` and refuses
+    with suppress(TypeError):  # an array of one float
         number = index(cast("SupportsIndex", value))
         return number if number.bit_length() <= 64 else None
     return None

@@ -8,17 +8,17 @@ from topo_verify.world.drawing.export import FORMATS, IN_NOTEBOOKS, document, fo
 from topo_verify.world.drawing.layout import Bridge, Layout
 from topo_verify.world.drawing.svg import to_svg
 
-# choice.py     how a world is drawn; tries until the picture is true; balls
+# choice.py     how a world is drawn; balls
 # layout.py     Layout: where everything lies; fits sketches
 # straight.py   straight edges: given positions, trees; springs
 # cells.py      surfaces cut open: regular tori, worlds with one face
-# planar.py     any world as a plane map with bridges, polished
-# plane_map.py  plane maps with dummies for crossings, and their meshes
+# planar.py     any world as a plane map with bridges
+# plane_map.py  plane maps and their meshes
 # svg.py        a layout as SVG
 # heat.py       a world coloured by a cost for each dart
 # export.py     files: SVG, PNG, PDF or HTML
 # curves.py     SVG path data and crossings
-# arrays.py     names for arrays, sparse linear equations
+# arrays.py     names for arrays, linear equations
 # read_back.py  compares a finished SVG with the world
 
 __all__ = [

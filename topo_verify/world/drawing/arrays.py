@@ -1,4 +1,4 @@
-"""Names for arrays, and sparse linear equations, solved by SciPy's SuperLU or, if few, by NumPy."""
+"""Names for arrays, and sparse linear equations."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ Flags = NDArray[np.bool_]
 
 
 FEW = 100
-"""Up to this number NumPy is faster, also because SciPy loads slowly."""
+"""Up to this size NumPy is faster; SciPy loads slowly."""
 
 
 def solve(rows: Ints, columns: Ints, values: Floats, right: Floats) -> Floats:
-    """The solution of the symmetric positive definite equations; repeated entries add up."""
+    """The solution of symmetric positive definite equations; repeated entries add up."""
     size = len(right)
     if size <= FEW:
         dense = np.bincount(rows * size + columns, values, size * size).reshape(size, size)

@@ -1,15 +1,14 @@
 """Surfaces cut open, without crossings: what leaves on one side comes back on its partner.
 
-**A regular map of the torus** is a flat periodic cell. The torus is the plane divided by a lattice:
-each dart gets a whole translation with sum zero around every face, and each vertex lies in the
-middle of its neighbours (S. Gortler, C. Gotsman and D. Thurston, "Discrete one-forms on meshes",
-CAGD 23 (2006)). An affine map then makes edges equally long.
+**A regular map of the torus** is a flat periodic cell. Each dart gets a whole translation with sum
+zero around every face, and each vertex lies in the middle of its neighbours (S. Gortler, C. Gotsman
+and D. Thurston, "Discrete one-forms on meshes", CAGD 23 (2006)). An affine map then makes edges
+equally long.
 
-**A world with one face**, of genus g > 0, is a polygon with 4g sides. A spanning tree lies in the
-middle. The 2g other edges leave it as spokes through the sides, in the order of the tree's contour,
-and come back through the side with the same letter. The boundary is a circle, and each vertex lies
-in the middle of its neighbours (W. Tutte, "How to draw a graph", 1963); an undrawn point of the
-boundary holds a dead end.
+**A world with one face**, of genus g > 0, is a polygon with 4g sides and a spanning tree in its
+middle. The 2g other edges leave it as spokes in the order of its contour, and come back through the
+side with the same letter. Each vertex lies in the middle of its neighbours (W. Tutte, "How to draw
+a graph", 1963); a dead end hangs on an undrawn boundary point.
 """
 
 from __future__ import annotations
@@ -46,7 +45,7 @@ class _Torus:
 
 
 def torus_cell(world: World) -> Layout | None:
-    """The layout of a regular map of the torus; None of any other world."""
+    """The layout of a regular map of the torus, or None."""
     if world.genus != 1 or len(set(world.degrees)) > 1 or len(set(map(len, world.faces))) > 1:
         return None
     torus = _shifted(_flat(world))
@@ -87,10 +86,10 @@ def _points(points: Floats) -> tuple[Point, ...]:
 
 
 def _translations(world: World) -> dict[Dart, list[int]]:
-    """A whole translation of each dart: the sum around every face is zero, and none is trivial.
+    """A whole, not trivial translation of each dart, with sum zero around every face.
 
     Two edges lie neither in a tree of vertices nor in one of faces. Each closes a cycle of faces;
-    translations count how often the two cycles cross a dart.
+    translations count how often it crosses a dart.
     """
     face_of = {dart: k for k, face in enumerate(world.faces) for dart in face}
     tree = _tree(world, 0)
@@ -142,7 +141,7 @@ def _flat(world: World) -> _Torus:
     right = np.zeros((size, 2))
     np.add.at(right, tails, moves)
     places = np.zeros((size, 2))
-    if size > 1:  # the first vertex is fixed
+    if size > 1:
         kept = (tails > 0) & (heads > 0)
         inner = np.arange(size - 1)
         places[1:] = solve(
@@ -152,7 +151,7 @@ def _flat(world: World) -> _Torus:
             right[1:],
         )
     steps = places[heads] + moves - places[tails]
-    # the affine map that spreads steps alike in all directions
+    # make steps alike in all directions
     spread = steps.T @ steps
     a = np.sqrt(spread[0, 0])
     b = spread[0, 1] / a
@@ -161,10 +160,10 @@ def _flat(world: World) -> _Torus:
     drawn = steps @ sides
     after = drawn[np.array(world.sigma)]
     if (drawn[:, 0] * after[:, 1] - drawn[:, 1] * after[:, 0]).sum() > 0:
-        sides = sides * np.array([1, -1])  # clockwise turns are negative with y upwards
+        sides = sides * np.array([1, -1])  # sigma turns clockwise, negative with y upwards
     lattice = _reduced(sides)
     change = sides @ np.linalg.inv(lattice)
-    x, y = lattice[0] / np.hypot(*lattice[0])  # turned: the first side lies level
+    x, y = lattice[0] / np.hypot(*lattice[0])
     level = lattice @ np.array([[x, -y], [y, x]])
     return _Torus(places @ change, steps @ change, level, tails)
 
@@ -179,7 +178,7 @@ def _reduced(sides: Floats) -> Floats:
         if not times:
             break
         b = b - times * a
-    # counter-clockwise from the first to the second, at an angle of 90° or more
+    # the angle from the first to the second is 90° or more
     if b[0] * a[1] - b[1] * a[0] < 0:
         a = -a
     return np.array([b, a])
@@ -208,7 +207,6 @@ def _to_border(torus: _Torus) -> float:
 
 def _to_corner(torus: _Torus) -> float:
     starts = torus.places[torus.vertex_of]
-    # the copies of the corners near the edge
     near = np.round(starts)[:, None] + np.array([*product(range(-2, 3), repeat=2)])
     offset = (near - starts[:, None]) @ torus.sides
     step = (torus.steps @ torus.sides)[:, None]
@@ -217,11 +215,7 @@ def _to_corner(torus: _Torus) -> float:
 
 
 def _parts(place: Floats, step: Floats, trim: float) -> list[Floats]:
-    """The pieces of an edge within the cell, in fractions of the sides.
-
-    Args:
-        trim: the share of the edge within the circle at each end.
-    """
+    """The pieces of an edge within the cell, trimmed at the circles, in fractions of the sides."""
     times = {trim, 1 - trim}
     for start, length in zip(place.tolist(), step.tolist(), strict=True):
         low, high = sorted((start, start + length))
@@ -237,11 +231,11 @@ def _parts(place: Floats, step: Floats, trim: float) -> list[Floats]:
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
 SMALL = 0.04
-"""In a polygon of width 2 with smaller circles, bridges are easier to read."""
+"""In a polygon with smaller circles, bridges are easier to read."""
 
 
 def polygon(world: World) -> Layout | None:
-    """The layout of a small world with one face and a genus; None of any other world."""
+    """The layout of a small world with one face and a genus, or None."""
     if not 0 < 2 * world.genus <= len(LETTERS) or len(world.faces) > 1:
         return None
     tree = _tree(world, max(range(len(world.vertices)), key=lambda v: len(world.vertices[v])))
@@ -261,7 +255,7 @@ def polygon(world: World) -> Layout | None:
     scale, half = RADIUS / radius, pi / len(spokes)
     corners = np.array([[cos(angle[d] - half), sin(angle[d] - half)] for d in spokes]) / cos(half)
     low, high = corners.min(0), corners.max(0)
-    margin = (MARGIN + 1) * RADIUS  # letters stand outside
+    margin = (MARGIN + 1) * RADIUS
 
     def on_page(points: Floats) -> tuple[Point, ...]:
         return _points((points - low) * scale + margin)
@@ -306,7 +300,7 @@ def _angles(stops: Iterable[Dart], tree: set[Dart]) -> dict[Dart, float]:
     for dart in stops:
         groups += [] if dart in tree else [[]]
         groups[-1].append(dart)
-    groups[-1] += groups.pop(0)  # it follows the last spoke
+    groups[-1] += groups.pop(0)
     step = 2 * pi / len(groups)
     return {
         dart: step * (k + place / len(group)) - pi / 2

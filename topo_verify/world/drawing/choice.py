@@ -21,21 +21,19 @@ from topo_verify.world.rooted_map import Dart, World
 ROUNDINGS = (0.5, 0.35, 0.2, 0.1, 0.0)
 
 ROOMY = 0.025
-"""Vertex radius, as a share of the longer side, that needs no further improvement."""
+"""Vertex radius, as a share of the longer side, that needs no improvement."""
 
 CRAMPED = 0.0003
-"""The share below which vertices have no room."""
+"""The share that leaves vertices no room."""
 
 WHOLE = 1000
-"""The most edges shown whole."""
 
 
 def lay_out(world: World, *, centre: Dart | None = None) -> Layout:
     """A layout of the world whose picture was read back and found true.
 
     Args:
-        centre: show a part around this dart; default: everything if possible, or the part around
-            the marker.
+        centre: show the part around this dart; default: everything, or the part around the marker.
     """
     if centre is not None and len(ball(world, centre, limit=LIMIT).vertices) < len(world.vertices):
         return _ball(world, centre)
@@ -82,14 +80,13 @@ def _ball(world: World, centre: Dart) -> Layout:
 
 
 def _true(world: World, sketch: Sketch) -> Layout | None:
-    """The layout of the sketch, with corners as round as possible; None if none is true."""
+    """The true layout of the sketch with the roundest corners, if any."""
     straight = fitted(sketch, 0.0)
     if _share(straight) < CRAMPED and untrue(world, straight, _meant(sketch, straight)):
         return None  # vertices coincide
     best: Layout | None = None
     for rounding in ROUNDINGS:
         layout = fitted(sketch, rounding)
-        # a cut corner may come near a vertex and shrink all circles
         if best is not None and _share(layout) < 1.3 * _share(best):
             break
         if not untrue(world, layout, _meant(sketch, layout)):
@@ -111,11 +108,7 @@ def _share(layout: Layout) -> float:
 
 
 def untrue(world: World, layout: Layout, bridges: int | None) -> list[str]:
-    """A sentence on each mistake in the picture of the layout.
-
-    Args:
-        bridges: the number of crossings meant; None: any.
-    """
+    """The mistakes in the picture of the layout; `bridges`: the crossings meant, None: any."""
     return read_back.untruths(read_back.read(to_svg(world, layout)), world, bridges=bridges)
 
 
@@ -129,7 +122,7 @@ class Ball:
 
     Attributes:
         part: as a world; an edge that leaves it ends at a vertex of degree 1.
-        vertices: the shown vertices of `whole`, the first ones in `part`.
+        vertices: those of `whole` shown, the first ones in `part`.
         cut: the darts whose edges leave the part, each with the vertex of `part` at its end.
     """
 
@@ -140,7 +133,7 @@ class Ball:
 
 
 def ball(world: World, centre: Dart, *, limit: int = LIMIT) -> Ball:
-    """The part nearest to the dart's vertex, breadth-first, with at most `limit` darts."""
+    """The part nearest to the dart's vertex, with at most `limit` darts."""
     first = world.vertex_of[centre]
     inside, queue, darts = {first}, deque([first]), len(world.vertices[first])
     while queue:
@@ -157,7 +150,7 @@ def ball(world: World, centre: Dart, *, limit: int = LIMIT) -> Ball:
     for dart in (dart for rotation in rotations[:] for dart in rotation):
         other = world.alpha[dart]
         if world.vertex_of[other] not in inside:
-            # greatest number: the edge is drawn from the inside
+            # greatest, so the edge is drawn from the inside
             cut[dart] = len(rotations)
             rotations.append([len(world.alpha) + dart])
             edges.append((dart, len(world.alpha) + dart))
@@ -170,7 +163,6 @@ def ball(world: World, centre: Dart, *, limit: int = LIMIT) -> Ball:
 def put_back(around: Ball, layout: Layout) -> Layout:
     """The layout of the whole world that shows its part like this."""
     world, part = around.whole, around.part
-    # darts of the part keep their order
     darts = sorted(dart for vertex in around.vertices for dart in world.vertices[vertex])
     edge_of = {dart: k for k, edge in enumerate(world.edges) for dart in edge}
     numbers = [edge_of[darts[a]] for a, _ in part.edges]
@@ -188,7 +180,6 @@ def put_back(around: Ball, layout: Layout) -> Layout:
         if not {darts[part.edges[k][0]] for k in (bridge.over, bridge.under)} & around.cut.keys()
     )
     places = dict(zip(around.vertices, layout.centres, strict=False))
-    # at the end of the shortest way inside
     queue: deque[int] = deque()
     for dart, leaf in around.cut.items():
         end = world.vertex_of[world.alpha[dart]]

@@ -1,4 +1,4 @@
-"""SVG path data of absolute `M`, `L` and `Q`: made, flattened, and where it crosses."""
+"""SVG path data of absolute `M`, `L` and `Q`."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from topo_verify.world.drawing.arrays import Floats, Ints
 from topo_verify.world.formats.embedding import Point
 
 STEPS = 8
-"""The pieces of a flattened quadratic arc."""
+"""Pieces of a flattened quadratic arc."""
 
 
 def number(value: float) -> str:
-    """The coordinate with two decimals at most, never `-0`."""
+    """The coordinate with at most two decimals, never `-0`."""
     text = f"{value:.2f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text
 
@@ -38,7 +38,6 @@ def smooth(points: Sequence[Point], rounding: float = 0.5) -> str:
     last = len(points) - 2
     for k in range(1, len(points) - 1):
         before, corner, after = points[k - 1 : k + 2]
-        # the first and the last leg have only one corner
         start = _between(corner, before, rounding if k > 1 else min(1.0, 1.6 * rounding))
         end = _between(corner, after, rounding if k < last else min(1.0, 1.6 * rounding))
         if rounding < 0.5 or k == 1:
@@ -60,11 +59,7 @@ _WORD = re.compile(r"[MLQ]|-?\d+(?:\.\d+)?")
 
 
 def flatten(data: str) -> Floats:
-    """The points of the path, arcs in `STEPS` pieces.
-
-    Raises:
-        ValueError: other commands than absolute M, L and Q.
-    """
+    """The points of the path, arcs in `STEPS` pieces; ValueError for other commands."""
     if _WORD.sub("", data).strip(" "):
         raise ValueError(f"expected absolute M, L and Q in path data, got {data!r}")
     words = iter(_WORD.findall(data))
@@ -112,7 +107,7 @@ def piece(points: Floats, middle: float, half: float) -> str:
 
 
 class Crossing(NamedTuple):
-    """Two curves cross: their indices, where, and how far along each."""
+    """Two curves cross."""
 
     first: int
     second: int
@@ -134,7 +129,7 @@ def crossings(curves: Sequence[Floats]) -> list[Crossing]:
     with np.errstate(divide="ignore", invalid="ignore"):
         t = (offset[:, 0] * q[:, 1] - offset[:, 1] * q[:, 0]) / turn
         u = (offset[:, 0] * p[:, 1] - offset[:, 1] * p[:, 0]) / turn
-        hit = (t >= 0) & (t < 1) & (u >= 0) & (u < 1)  # False if parallel
+        hit = (t >= 0) & (t < 1) & (u >= 0) & (u < 1)
     result: list[Crossing] = []
     for i, j, s, r in zip(first[hit], second[hit], t[hit], u[hit], strict=True):
         x, y = starts[i] + s * steps[i]
@@ -145,7 +140,7 @@ def crossings(curves: Sequence[Floats]) -> list[Crossing]:
 
 
 def _legs(curves: Sequence[Floats]) -> tuple[Floats, Floats, Ints, Ints, Floats]:
-    """Of every leg: start, step, curve, place and distance along it."""
+    """Start, step, curve, place and distance along it."""
     curves = [curve if len(curve) > 1 else np.zeros((1, 2)) for curve in curves]
     starts = np.concatenate([np.zeros((0, 2)), *(curve[:-1] for curve in curves)])
     steps = np.concatenate([np.zeros((0, 2)), *(np.diff(curve, axis=0) for curve in curves)])

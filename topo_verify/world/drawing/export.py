@@ -16,7 +16,7 @@ Format = Literal["svg", "png", "pdf", "html"]
 FORMATS: tuple[Format, ...] = ("svg", "png", "pdf", "html")
 
 DENSITY = 144.0
-"""Pixels of a PNG per 72 units of the picture, up to `MOST_PIXELS` along the longer side."""
+"""Pixels of a PNG per 72 units of the picture."""
 
 MOST_PIXELS = 5000
 
@@ -28,11 +28,7 @@ _TYPST = b"""#set document(date: none)
 
 
 def format_of(name: str) -> Format:
-    """The format that the file's name asks for.
-
-    Raises:
-        InputError: none of `FORMATS`.
-    """
+    """The format that the file's name asks for."""
     for ending in FORMATS:
         if name.lower().endswith(f".{ending}"):
             return ending
@@ -104,7 +100,7 @@ def _page(world: World, layout: Layout, svg: str) -> str:
         f"'sha256-{b64encode(sha256(style.encode()).digest()).decode()}'" for style in (own, STYLE)
     )
     policy = f"default-src 'none'; style-src {hashes}; base-uri 'none'; form-action 'none'"
-    # the policy forbids style attributes; `own` replaces it
+    # the policy forbids style attributes
     inside = svg.replace(' style="max-width:100%;height:auto"', "", 1)
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'

@@ -1,14 +1,10 @@
 """A world coloured by a cost for each dart: where to put the marker, and where to point it.
 
-Over the picture of svg.py lie
-
-- on each vertex a disc in the colour of the mean over its darts, `data-mean`, and
-- along the beginning of each dart a stroke in its colour, `data-dart` and `data-cost`,
-
-and beneath it a legend. The arrow stands on the best dart, a dashed ring around the vertex of the
-worst. The scale is perceptually uniform, also for colour-blind eyes (J. R. Nuñez, C. R. Anderton,
-R. S. Renslow: "Optimizing colormaps with consideration for color vision deficiency", PLOS ONE
-13(7), 2018).
+A disc on each vertex has the colour of the mean over its darts (`data-mean`), a stroke along each
+dart that of its cost (`data-dart`, `data-cost`). The arrow stands on the best dart, a dashed ring
+around the vertex of the worst. The scale is perceptually uniform, also for colour-blind eyes (J. R.
+Nuñez, C. R. Anderton, R. S. Renslow: "Optimizing colormaps with consideration for color vision
+deficiency", PLOS ONE 13(7), 2018).
 """
 
 from __future__ import annotations
@@ -30,14 +26,13 @@ SCALE = (
     (0, 32, 81), (10, 50, 109), (43, 68, 110), (76, 86, 108), (104, 104, 109), (127, 124, 117),
     (146, 143, 120), (166, 163, 117), (190, 184, 107), (218, 206, 91), (253, 234, 69),
 )  # fmt: skip
-"""Evenly spaced points of the scale, dark to light."""
+"""From dark to light, evenly spaced."""
 
 STEPS = 40
-"""Of the legend."""
 
 
 def colour(share: float) -> str:
-    """The colour of a share of the way from the least cost to the greatest."""
+    """The colour of a share of the scale."""
     place = min(max(share, 0.0), 1.0) * (len(SCALE) - 1)
     k = min(int(place), len(SCALE) - 2)
     mixed = (a + (b - a) * (place - k) for a, b in zip(SCALE[k], SCALE[k + 1], strict=True))
@@ -49,9 +44,6 @@ def heat_svg(world: World, costs: Sequence[int], *, title: str) -> str:
 
     Args:
         costs: of the marker at each dart, in edge traversals.
-        title: of the legend.
-    Raises:
-        InternalError: the finished picture is not true to the world or to the costs.
     """
     best, worst = costs.index(min(costs)), costs.index(max(costs))
     there = replace(world.with_marker(best), name=world.name)
@@ -160,10 +152,7 @@ def _legend(layout: Layout, costs: Sequence[int], title: str) -> Iterator[str]:
 
 
 def untrue_colours(svg: str, world: World, costs: Sequence[int]) -> list[str]:
-    """A sentence on every disc and stroke of a finished heat map that shows another cost.
-
-    Discs are found by their centres, strokes by where they begin.
-    """
+    """A sentence on every disc and stroke of a heat map that shows another cost."""
     mistakes: list[str] = []
     picture = read_back.read(svg)
     ends = read_back.leavings(picture)

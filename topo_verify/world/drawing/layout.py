@@ -1,7 +1,6 @@
-"""Layout: where the vertices, edges and bridges of a drawn world lie.
+"""Layout: where the vertices, edges and bridges of a drawn world lie, y downwards.
 
-A sketch, which is places in a plane, is scaled, trimmed at the circles and given bridges. In a
-layout y grows downwards.
+A sketch, places in a plane, is scaled, trimmed at the circles and given bridges.
 """
 
 from __future__ import annotations
@@ -23,10 +22,7 @@ Kind = Literal["positions", "planar", "bridges", "cell", "ball"]
 
 @dataclass(frozen=True)
 class Bridge:
-    """One edge passes over another (or over itself), by indices into `world.edges`.
-
-    `path` is the piece of the upper edge's curve over the lower one, as path data.
-    """
+    """One edge passes over another, or over itself; indices into `world.edges`."""
 
     over: int
     under: int
@@ -34,12 +30,11 @@ class Bridge:
 
 
 class CutSurface(NamedTuple):
-    """A surface cut open: a polygon whose sides are glued in pairs.
+    """A polygon whose sides are glued in pairs.
 
     Attributes:
         corners: in order around it.
-        sides: a letter for each side, from its corner to the next one; equal letters are glued, the
-            end of one side to the start of the other.
+        sides: a letter for each side; sides with equal letters are glued, end to start.
     """
 
     corners: tuple[Point, ...]
@@ -52,10 +47,10 @@ class Layout:
 
     Attributes:
         kind: `positions` of the file, `planar` without crossings, planar with `bridges`, a `cell`
-            of a cut surface, or a `ball` around a vertex.
+            of a cut surface, or a `ball`.
         centres: of the vertices; of a hidden one, where the way to it leaves the ball.
-        paths: the curve of each edge, as SVG path data, from the circle of the lesser dart's vertex
-            to that of the other's; several parts if it leaves a cell, none if hidden.
+        paths: path data of each edge, from the circle at its lesser dart; several parts if it
+            leaves a cell, none if hidden.
         stubs: in a ball, the beginnings of edges whose other vertex is hidden: dart and path data.
         hidden: in a ball, the vertices that are not shown.
     """
@@ -76,12 +71,11 @@ RADIUS = 11.0
 """Of a vertex's circle, unless the picture would get too large."""
 
 LONGEST_SIDE = 2400.0
-"""With up to `MANY` edges; more have more room, for their two decimals."""
 
 MANY = 250
 
 MARGIN = 2.4
-"""A length, in radii of a vertex."""
+"""In radii of a vertex."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +86,7 @@ class Sketch:
         centres: of the vertices, an (n, 2) array.
         chains: the control points of each edge, from centre to centre, the lesser dart first.
         bridges: the number of crossings; None: any.
-        turn: may the picture be turned to lie wide?
+        turn: whether it may be turned to lie wide.
     """
 
     kind: Kind
@@ -103,7 +97,7 @@ class Sketch:
 
 
 def fitted(sketch: Sketch, rounding: float) -> Layout:
-    """The layout of the sketch, with the largest circles that stay clear of all else."""
+    """The layout of the sketch, with the largest clear circles."""
     centres, chains = _upright(sketch)
     radius = clear_radius(centres, chains, rounding)
     corner, size = _box(centres, chains)
@@ -139,7 +133,6 @@ def find_bridges(paths: Sequence[str], radius: float) -> tuple[Bridge, ...]:
     flat = [curves.flatten(data) for data in paths]
     places = crossings(flat)
     half = 0.9 * radius
-    # halos of neighbouring bridges must not overlap
     along: dict[int, list[float]] = {}
     for crossing in places:
         along.setdefault(crossing.first, []).append(crossing.along_first)
@@ -167,7 +160,7 @@ def _upright(sketch: Sketch) -> tuple[Floats, list[Floats]]:
         points = np.concatenate([sketch.centres, *sketch.chains])
         points = points - points.mean(0)
         spread = points.T @ points
-        # the angle of the main axis, in closed form: libraries differ on the sign
+        # libraries differ on the sign of the main axis
         angle = 0.5 * np.arctan2(2 * spread[0, 1], spread[0, 0] - spread[1, 1])
         c, s = np.cos(angle), np.sin(angle)
         turn = np.array([[c, s], [-s, c]]).T @ turn
@@ -180,7 +173,7 @@ def _box(centres: Floats, chains: Sequence[Floats]) -> tuple[Floats, Floats]:
 
 
 def clear_radius(centres: Floats, chains: Sequence[Floats], rounding: float) -> float:
-    """The radius of the vertices: a fraction of the usual edge, and clear of all else."""
+    """The vertex radius: a fraction of the usual edge, and clear of all else."""
     usual = [curves.length(chain) for chain in chains]
     limits = [0.18 * float(np.median(usual)) if usual else 1.0]
     if len(centres) > 1:
@@ -192,14 +185,14 @@ def clear_radius(centres: Floats, chains: Sequence[Floats], rounding: float) -> 
         limits += [share * float(np.hypot(*leg)) for leg in ends]
         if np.abs(chain[0] - chain[-1]).max() == 0:
             limits.append(0.13 * curves.length(chain))
-        # enlarged, because path data has two decimals
+        # enlarged: path data has two decimals
         scale = 1e4 / max(float(np.abs(chain).max()), 1e-12)
         data = curves.smooth([(x, y) for x, y in (chain * scale).tolist()], rounding)
         apart = distances(centres, curves.flatten(data) / scale)
         own = (np.abs(centres - chain[0]).max(1) == 0) | (np.abs(centres - chain[-1]).max(1) == 0)
         if not own.all():
             limits.append(0.62 * float(apart[~own].min()))
-    # if vertices coincide, the picture will be found untrue
+    # coinciding vertices make the picture untrue
     return max(min(limits), 2e-4 * float(_box(centres, chains)[1].max()), 1e-9)
 
 

@@ -1,19 +1,16 @@
-"""Sketches of any world as a plane map with bridges, one after the other until one is true.
+"""Sketches of any world as a plane map with bridges.
 
-**A drawing on a grid** of 2n - 4 by n - 2 is a first injective map of the mesh into the plane: no
-triangle is too small for floating-point numbers (M. Chrobak and T. Payne, "A linear-time algorithm
-for drawing a planar graph on a grid", 1995). Rejected: a circle packing, whose circles shrink
-exponentially where loops lie within loops.
+**A drawing on a grid** is a first injective map of the mesh into the plane, without triangles too
+small for floating-point numbers (M. Chrobak and T. Payne, "A linear-time algorithm for drawing a
+planar graph on a grid", 1995). Rejected: a circle packing, whose circles shrink exponentially where
+loops lie within loops.
 
-**Polishing** that map gives wished triangles and smooth edges without a flip. The energy of a
-triangle is the symmetric Dirichlet energy of the linear map J from its wished shape, |J|² + |J⁻¹|²,
-infinite where a triangle would flip, so the map of a disc on a fixed frame stays injective. Bends
-along edges of the world cost their squares.
-
-Newton's method with the Hessian of every triangle made positive by its eigenvalues in closed form
-(B. Smith, F. de Goes and T. Kim, "Analytic Eigensystems for Isotropic Distortion Energies", ACM TOG
-2019). Triangles far from their wished shape get a nearer wish first (L. Liu et al., "Progressive
-Parameterizations", ACM TOG 2018).
+**Polishing** brings triangles towards wished shapes. The energy of a triangle is the symmetric
+Dirichlet energy of the linear map J from its wished shape, |J|² + |J⁻¹|², infinite where it would
+flip. Bends along edges of the world cost their squares. Newton's method uses the Hessian of every
+triangle, made positive by its eigenvalues in closed form (B. Smith, F. de Goes and T. Kim,
+"Analytic Eigensystems for Isotropic Distortion Energies", ACM TOG 2019). Far triangles get a nearer
+wish first (L. Liu et al., "Progressive Parameterizations", ACM TOG 2018).
 """
 
 from __future__ import annotations
@@ -40,19 +37,16 @@ from topo_verify.world.drawing.plane_map import (
 from topo_verify.world.rooted_map import World
 
 BEND = 0.4
-"""The cost of a bend, beside the shape of a triangle."""
+"""Its cost, beside the shape of a triangle."""
 
 STEPS = 60
 
 ATTEMPTS, LARGE_ATTEMPTS = 6, 2
-"""Trials for worlds with at most 100 edges, and with more."""
+"""For worlds with at most 100 edges, and with more."""
 
 
 def planar(world: World) -> Iterator[Sketch]:
-    """Sketches of the world, the most promising first.
-
-    While its chains are straight, each has the crossings of a plane map.
-    """
+    """Sketches of the world, the most promising first."""
     if not world.edges:
         yield Sketch("planar", np.zeros((1, 2)), ())
         return
@@ -63,7 +57,7 @@ def planar(world: World) -> Iterator[Sketch]:
             return
         outers = outer_faces(plane)
         outer = outers[min(attempt % 2 if attempt < 4 else attempt - 2, len(outers) - 1)]
-        if (attempt // 2, outer) in tried:  # fewer faces than attempts
+        if (attempt // 2, outer) in tried:
             continue
         tried.add((attempt // 2, outer))
         points = 2 if len(plane.other) < 600 else 1
@@ -86,10 +80,8 @@ def outer_faces(plane: PlaneMap) -> list[int]:
         return len(edges) - 2 * dummies, len(face)
 
     by_size = sorted(faces, key=worth, reverse=True)
-    # second: the face nearest to all others
     middle = min(by_size[:40], key=lambda face: (_depth(plane, face), -len(face)))
     rest = [face for face in by_size if face is not by_size[0] and face is not middle]
-    # they may be the same; trying it twice is useless
     best = [by_size[0]] if middle is by_size[0] else [by_size[0], middle]
     return [face[0] for face in (*best, *rest)]
 
@@ -118,12 +110,12 @@ def _depth(plane: PlaneMap, face: list[int]) -> tuple[int, float]:
 
 def gridded(mesh: Mesh) -> Floats:
     """The points of the mesh on a grid whose frame is equilateral."""
-    before: dict[int, dict[int, int]] = {}  # by point and neighbour: the next neighbour clockwise
+    before: dict[int, dict[int, int]] = {}  # [point][neighbour]: the next one clockwise
     for x, y, z in [*mesh.triangles.tolist(), mesh.frame[::-1].tolist()]:
         for point, next_point, other in ((x, y, z), (y, z, x), (z, x, y)):
             before.setdefault(point, {})[other] = next_point
     corners: list[int] = mesh.frame.tolist()
-    # NetworkX's outer face: that of the first point and its first neighbour
+    # the outer face, for NetworkX
     first = {corners[0]: corners[1]}
     embedding: nx.PlanarEmbedding[int] = nx.PlanarEmbedding()
     embedding.set_data(
@@ -149,7 +141,7 @@ def _cycle(after: Mapping[int, int], start: int) -> Iterator[int]:
 
 
 NEAR = 60.0
-"""The energy of a triangle beyond which its wish is brought nearer (at best it is 4)."""
+"""A triangle with more energy gets a nearer wish; the least energy is 4."""
 
 ENOUGH = 3e-4
 """The polish ends when a step gains a smaller share of the energy."""
@@ -228,8 +220,8 @@ class _Energy:
         """Rows, columns and values of the Hessian, each triangle's part made positive.
 
         Args:
-            bold: for stretches below 1 the secant of the slope to 1, where it is 0, replaces its
-                derivative: Newton's step multiplies a small stretch by 4/3 at most.
+            bold: for stretches below 1 the secant of the slope to 1 replaces its derivative, so
+                Newton's step multiplies a small stretch by 4/3 at most.
         """
         a, b = s[:, 0], s[:, 1]
         cube = (a * b) ** 3
@@ -251,7 +243,6 @@ class _Energy:
 
         twist, flip = outer(u1, v0) - outer(u0, v1), outer(u1, v0) + outer(u0, v1)
         modes = np.stack([outer(u0, v0), outer(u1, v1), twist / np.sqrt(2), flip / np.sqrt(2)], 1)
-        # how J changes with each corner
         grow = np.concatenate([-inverse.sum(1, keepdims=True), inverse], 1)
         # (triangle, mode, coordinate, corner) -> (triangle, mode, 6)
         parts = modes @ grow.transpose(0, 2, 1)[:, None]
@@ -317,7 +308,7 @@ def polished(mesh: Mesh, places: Floats, *, bend: float, steps: int) -> Floats:
         if then < now:
             places = places + step * move
         if near:
-            # near wishes may change for ever; stop when the worst triangle gets no better
+            # wishes may change for ever
             worsts.append(worst)
             near = worst > NEAR and not worst > 0.5 * min([np.inf, *worsts[-4:-3]])
         elif now - then < ENOUGH * now:

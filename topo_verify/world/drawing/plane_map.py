@@ -1,16 +1,14 @@
 """A world as a plane map, and a triangulated disc over it.
 
 Edges that do not fit cross others in dummy nodes of degree 4, so every vertex keeps its cyclic
-order whatever the genus. A spanning tree comes first, then the edges both of whose corners lie on
-one face, then each other edge on a shortest way through the dual; the best of several random orders
-counts (M. Chimani and C. Gutwenger, "Advances in the Planarization Method", JGAA 16 (2012)).
-
-A half-edge lies in the face on its left, which is the cycle of "cross, then turn clockwise".
+order. A spanning tree is inserted first, then edges with both corners on one face, then each other
+edge on a shortest way through the dual; the best of several random orders counts (M. Chimani and C.
+Gutwenger, "Advances in the Planarization Method", JGAA 16 (2012)). A half-edge lies in the face on
+its left.
 
 **The mesh** has points on every edge, a centre of every face, and a collar within a face that
 touches itself, so it has no loops and no parallel edges. The outer face becomes a ring of triangles
-around the rest, and a large triangle around all of it. The wished length of an edge of the mesh is
-the sum of the wished radii of its points.
+with a large triangle around it. An edge of the mesh should be as long as the radii of its points.
 """
 
 from __future__ import annotations
@@ -27,18 +25,17 @@ from topo_verify.world.drawing.arrays import Floats, Ints
 from topo_verify.world.rooted_map import Dart, World
 
 MOST_CROSSINGS = 1000
-"""A picture with more is slow and unreadable."""
+"""A picture with more is unreadable."""
 
 
 class PlaneMap:
     """A plane map that grows from the nodes.
 
     Attributes:
-        other, after, before: of each half-edge: the other half, the next and the previous half
-            clockwise at its node.
-        node, edge, face: of each half-edge; the edge is the world's, the face lies on its left.
+        other, after, before: the other half of each half-edge, and its clockwise neighbours.
+        node, edge, face: of each half-edge; the edge is the world's.
         half: the half-edge of each inserted dart.
-        nodes: their number; those from `vertices` on are dummies.
+        nodes: their number; dummies begin at `vertices`.
     """
 
     def __init__(self, world: World) -> None:
@@ -80,12 +77,11 @@ class PlaneMap:
         a, b = self.world.edges[number]
         chain = [self.half[a]]
         while self.other[chain[-1]] != self.half[b]:
-            # straight on at a dummy
             chain.append(self.after[self.after[self.other[chain[-1]]]])
         return chain
 
     def corner(self, dart: Dart) -> int | None:
-        """The half-edge that follows the place of the dart at its vertex, if any."""
+        """The half-edge that follows the dart's place at its vertex."""
         turned = self.world.sigma[dart]
         while turned not in self.half:
             if turned == dart:
@@ -151,7 +147,7 @@ class PlaneMap:
                 self._faces += 1
 
     def way(self, number: int) -> list[int]:
-        """The half-edges on a shortest way from corner to corner."""
+        """The half-edges that a shortest way between the ends crosses."""
         goal, home = (self.face_at(dart) for dart in self.world.edges[number])
         halves: dict[int, list[int]] = {}
         for half, face in enumerate(self.face):
@@ -177,10 +173,7 @@ class PlaneMap:
 
 
 def planarise(world: World, random: Random) -> PlaneMap | None:
-    """The world as a plane map, its edges inserted in a random order.
-
-    None if it has more than `MOST_CROSSINGS`.
-    """
+    """The plane map of a random order; None if it has more than `MOST_CROSSINGS`."""
     plane = PlaneMap(world)
     number = {dart: k for k, edge in enumerate(world.edges) for dart in edge}
     tree = [number[dart] for dart in _spanning_tree(world, random)]
@@ -234,7 +227,6 @@ def _insert_uncrossed(plane: PlaneMap, rest: list[int]) -> list[int]:
 def best_plane_map(world: World, seed: int = 0) -> PlaneMap | None:
     """The plane map with the fewest crossings of several, or None as `planarise`."""
     edges = len(world.edges)
-    # small maps have few orders; large ones are slow
     tries = max(3, min(4 + 2 * edges, 40, 3000 // max(1, edges))) if world.genus else 1
     best: PlaneMap | None = None
     for k in range(tries):
@@ -247,7 +239,7 @@ def best_plane_map(world: World, seed: int = 0) -> PlaneMap | None:
 
 
 COLLAR, RING, OUTER = 0.6, 0.25, 0.002
-"""The weights of the triangles of collars, of the ring, and between the ring and the frame."""
+"""Weights of the triangles of collars, of the ring, and between ring and frame."""
 
 AROUND = 3.0
 """The weight factor at vertices of the world."""
@@ -320,15 +312,14 @@ def over(plane: PlaneMap, outer: int, *, points: int) -> Mesh:
     """The mesh over the plane map.
 
     Args:
-        outer: a half-edge of the face that becomes the outer one.
-        points: between the two ends of a half-edge pair (at least 2 on loops).
+        outer: a half-edge of the outer face.
+        points: between the two ends of a half-edge pair.
     """
     builder = _Builder(plane, points)
     frame: tuple[int, ...] = ()
     for face in plane.faces():
         walk = tuple(p for half in face for p in (plane.node[half], *builder.between[half]))
         if outer in face:
-            # the walk of the outer face has the disc on its right
             frame = builder.framed(builder.strip(walk, RING)[::-1])
             continue
         weight = 1.0

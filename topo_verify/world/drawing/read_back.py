@@ -1,6 +1,4 @@
-"""Reads a finished SVG and compares what it shows with the world.
-
-It parses the XML and the path data, independently of what drew them.
+"""Parses a finished SVG, independently of what drew it, and compares it with the world.
 
 What this does not show: that a reader's eye tells two near edges apart.
 """
@@ -20,7 +18,7 @@ from topo_verify.world.drawing.curves import crossings, flatten
 from topo_verify.world.rooted_map import Dart, World
 
 TOLERANCE = 0.03
-"""Of a point on its circle, for rounding to two decimals."""
+"""Of a point on its circle: coordinates have two decimals."""
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -43,11 +41,7 @@ class Picture:
 
 
 def read(svg: str) -> Picture:
-    """The content of the SVG.
-
-    Raises:
-        ValueError: it is no SVG of a world.
-    """
+    """The content of the SVG; ValueError if it shows no world."""
     circles: dict[int, tuple[float, float, float]] = {}
     parts: dict[tuple[Dart, Dart], dict[int, Floats]] = {}
     stubs: dict[Dart, Floats] = {}
@@ -87,15 +81,10 @@ def _sides(corners: Floats, letters: str) -> dict[str, list[Floats]]:
 
 
 def untruths(picture: Picture, world: World, *, bridges: int | None = None) -> list[str]:
-    """A sentence on each difference between the picture and the world.
-
-    Args:
-        bridges: the number of crossings meant; None: any in worlds that are not planar.
-    """
+    """The differences between the picture and the world; `bridges`: the crossings meant."""
     missing = sorted(set(range(len(world.vertices))) - picture.circles.keys())
     if missing and not picture.stubs:
         return [f"vertex {missing[0]} is not drawn"]
-    # each is needed by the next
     for check in (_edges, _ends, _seams):
         if mistakes := [*check(picture, world)]:
             return mistakes
@@ -137,7 +126,6 @@ def leavings(picture: Picture) -> dict[Dart, Floats]:
 
 
 def _ends(picture: Picture, world: World) -> Iterator[str]:
-    """Every curve begins and ends on the circles of its darts' vertices."""
     for dart, curve in sorted(leavings(picture).items()):
         x, y, r = picture.circles[world.vertex_of[dart]]
         off = hypot(curve[0][0] - x, curve[0][1] - y) - r
@@ -146,7 +134,6 @@ def _ends(picture: Picture, world: World) -> Iterator[str]:
 
 
 def _seams(picture: Picture, _world: World) -> Iterator[str]:
-    """An edge that leaves the cell comes back at the same point of the surface."""
     for edge, parts in sorted(picture.curves.items()):
         for before, after in pairwise(parts):
             if not picture.sides:
@@ -160,7 +147,6 @@ def _seams(picture: Picture, _world: World) -> Iterator[str]:
 
 
 def _is_glued(side: Floats, partner: Floats, out: Floats, back: Floats) -> bool:
-    """Whether gluing the sides, end to start, makes these two points one."""
     (start, end), (last, first) = side, partner
     share = float((out - start) @ (end - start) / ((end - start) ** 2).sum())
     off = (out - start - share * (end - start), back - first - share * (last - first))
@@ -168,9 +154,9 @@ def _is_glued(side: Floats, partner: Floats, out: Floats, back: Floats) -> bool:
 
 
 def gaps(picture: Picture, world: World) -> dict[int, list[float]]:
-    """At each drawn vertex of degree 2 or more, the angles between neighbouring darts.
+    """The clockwise angles between neighbouring darts at each drawn vertex of degree 2 or more.
 
-    They are measured clockwise, so they sum up to 2 pi iff the order is that of the world.
+    They sum up to 2 pi iff the order is that of the world.
     """
     starts = leavings(picture)
     angles: dict[int, list[float]] = {}
@@ -195,7 +181,7 @@ def smallest_angle(picture: Picture, world: World) -> float:
 
 
 def overlaps(picture: Picture) -> Iterator[str]:
-    """A sentence on each two circles that overlap."""
+    """The circles that overlap."""
     vertices = sorted(picture.circles)
     rows = np.array([picture.circles[vertex] for vertex in vertices])
     apart = np.hypot(*(rows[:, None, :2] - rows[None, :, :2]).transpose(2, 0, 1))
@@ -205,7 +191,6 @@ def overlaps(picture: Picture) -> Iterator[str]:
 
 
 def _touches(picture: Picture, world: World) -> Iterator[str]:
-    """No curve enters a foreign circle, or its own again."""
     vertices = sorted(picture.circles)
     rows = np.array([picture.circles[vertex] for vertex in vertices])
     lines = [(edge, part) for edge, parts in picture.curves.items() for part in parts]

@@ -1,9 +1,9 @@
 """Drawings with straight edges: trees, and the positions of the world's file.
 
-**Springs** spread a drawing evenly, and no edge ever crosses another. A vertex moves at most a
-third of the way to any foreign edge, and so do the ends of that edge, so every cyclic order stays
-(P. Simonetto, D. Archambault, D. Auber and R. Bourqui, "ImPrEd: An Improved Force-Directed
-Algorithm that Prevents Nodes from Crossing Edges", EuroVis 2011).
+**Springs** spread a drawing evenly, and no edge ever crosses another: a vertex moves at most a
+third of the way to any foreign edge, and so do that edge's ends (P. Simonetto, D. Archambault, D.
+Auber and R. Bourqui, "ImPrEd: An Improved Force-Directed Algorithm that Prevents Nodes from
+Crossing Edges", EuroVis 2011).
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def tree(world: World) -> Sketch | None:
     ends = ends_of(world)
     wound = max(world.degrees) <= 2 and len(world.vertices) > LONG
     centres = _spiral(world) if wound else _fan(world)
-    if not wound and max(world.degrees) < len(world.edges):  # stars need none
+    if not wound and max(world.degrees) < len(world.edges):
         centres = relaxed(centres, ends, steps=max(60, min(300, 30_000 // len(centres))))
     chains = tuple(centres[pair] for pair in ends)
     return Sketch("planar", centres, chains, bridges=0, turn=not wound)
@@ -52,7 +52,6 @@ def _fan(world: World) -> Floats:
         row = rotation[first:] + rotation[:first]
         for dart in row if entry is None else row[:-1]:
             wide = tau * leaves[dart] / total
-            # clockwise with y upwards: angles fall
             middle = angle - wide / 2
             out = world.alpha[dart]
             length = 1 + 0.2 * sqrt(leaves[dart])
@@ -101,10 +100,9 @@ def _spiral(world: World) -> Floats:
 
 
 ROOM = 1.0
-"""A vertex and a foreign edge at a smaller distance repel each other."""
+"""A vertex and a foreign edge repel each other at a smaller distance."""
 
 GRAVITY = 0.02
-"""A pull to the middle."""
 
 STIFF = 0.15
 """The move for a force of 1."""
@@ -115,7 +113,7 @@ def relaxed(centres: Floats, ends: Ints, *, steps: int) -> Floats:
 
     Args:
         centres: of a drawing in which straight edges show every order.
-        ends: the two vertices of each edge, an (m, 2) array.
+        ends: an (m, 2) array.
     """
     lengths = np.hypot(*(centres[ends[:, 1]] - centres[ends[:, 0]]).T)
     places = centres / float(np.median(lengths))
@@ -125,7 +123,6 @@ def relaxed(centres: Floats, ends: Ints, *, steps: int) -> Floats:
         force, near = _forces(places, ends, own)
         move = STIFF * force
         reach = np.hypot(*move.T)
-        # slower and slower
         most = np.minimum(0.5 * (1 - k / steps) + 0.01, near / 3)
         places = places + move * (np.minimum(reach, most) / np.maximum(reach, 1e-12))[:, None]
     return places
@@ -136,7 +133,7 @@ def _forces(places: Floats, ends: Ints, own: Flags) -> tuple[Floats, Floats]:
     x, y = places.T
     tail, head = ends.T
     force = np.zeros_like(places)
-    # vertices repel each other at short range, or far clusters would spread the whole
+    # at short range, or far clusters would spread the whole
     dx, dy = x[:, None] - x, y[:, None] - y
     square = dx * dx + dy * dy
     np.fill_diagonal(square, np.inf)
@@ -172,7 +169,7 @@ CROWDED = 0.12
 
 
 def given(world: World) -> Sketch | None:
-    """Straight edges between the world's positions; None if there are none or edges coincide."""
+    """The positions with straight edges; None without positions, or if edges coincide."""
     distinct = len(set(world.positions)) == len(world.vertices)
     if not world.positions or not distinct or not world.is_simple:
         return None

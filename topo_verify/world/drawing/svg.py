@@ -1,9 +1,6 @@
 """A layout as SVG: literal colours for light, a media query for dark; every text escaped.
 
-docs/commands.md, section "world draw", promises how a script finds vertices and edges in it.
-
-**The number of a dart** stands on its own edge, as near to its vertex as other numbers, circles and
-darts allow.
+docs/commands.md, section "world draw", promises how scripts find vertices and edges.
 """
 
 from __future__ import annotations
@@ -47,8 +44,8 @@ def to_svg(world: World, layout: Layout, *, doors: bool = False, darts: bool = F
     """The picture of the world, the same bytes for the same arguments.
 
     Args:
-        doors: write the place of each dart in its rotation beside it.
-        darts: write the number of each dart beside it.
+        doors: write each dart's place in its rotation beside it.
+        darts: write each dart's number beside it.
     """
     return "\n".join([*_head(world, layout), *_body(world, layout, doors, darts), "</svg>\n"])
 
@@ -59,7 +56,7 @@ def text(words: str, *, limit: int = 200) -> str:
 
 
 def caption(world: World, layout: Layout) -> str:
-    """The picture's content, in one line."""
+    """The picture's content in words."""
     size = (
         f"{plural(len(world.vertices), 'vertex', 'vertices')}, {plural(len(world.edges), 'edge')},"
         f" genus {world.genus}"
@@ -84,7 +81,6 @@ def _head(world: World, layout: Layout) -> Iterator[str]:
 
 def _body(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[str]:  # noqa: FBT001
     radius = layout.radius
-    # visible, but thinner than the circles
     line = number(min(max(0.15 * radius, max(layout.width, layout.height) / 800), 0.45 * radius))
     if layout.cell:
         yield from _cell(layout.cell, radius)
@@ -118,7 +114,7 @@ def _body(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[st
 
 
 def _cell(cell: CutSurface, radius: float) -> Iterator[str]:
-    """The border of a cell: glued sides have one colour and one letter."""
+    """Glued sides have one colour and one letter."""
     (x, y), *others = cell.corners
     dash = f"{number(0.5 * radius)} {number(0.4 * radius)}"
     if cell.sides == "abab":
@@ -155,7 +151,7 @@ def arrow(world: World, layout: Layout, dart: Dart) -> Iterator[str]:
         x, y = layout.centres[world.vertex_of[dart]]
         at = f'cx="{number(x)}" cy="{number(y)}" r="{number(layout.radius + 0.6 * size)}"'
         yield f'<circle class="tv-mark" stroke-width="{number(0.2 * size)}" {at}/>'
-    # less of a loop, which turns back beneath it
+    # a loop turns back beneath the arrow
     loop = layout.cell is None and world.vertex_of[dart] == world.vertex_of[world.alpha[dart]]
     reach = min(2.5 * size, (0.3 if loop else 0.66) * curves.length(along))
     tip = 0.5 * reach
@@ -181,7 +177,6 @@ def _vertices(world: World, layout: Layout) -> Iterator[str]:
         f' font-size="{number(size)}">'
     )
     names = world.vertex_names or tuple(map(str, range(len(world.vertices))))
-    # titles show long names
     labels = [name if len(name) <= 3 else str(vertex) for vertex, name in enumerate(names)]
     places = dict(enumerate(layout.centres)) if size == layout.radius else {}
     if not places and len(world.vertices) <= MOST_NAMES:
@@ -200,7 +195,7 @@ def _vertices(world: World, layout: Layout) -> Iterator[str]:
 
 
 MOST_NAMES = 250
-"""Vertices beyond which small circles have no names."""
+"""With more vertices, small circles have no names."""
 
 
 def _beside(layout: Layout, labels: Sequence[str], size: float) -> dict[int, Point]:
@@ -227,7 +222,6 @@ def _beside(layout: Layout, labels: Sequence[str], size: float) -> dict[int, Poi
 
 
 UNITS = np.array([(cos(turn * pi / 4), sin(turn * pi / 4)) for turn in range(8)])
-"""Eight directions, from the right on."""
 
 
 def _dart_labels(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[str]:  # noqa: FBT001
@@ -247,7 +241,7 @@ def _dart_labels(world: World, layout: Layout, doors: bool, darts: bool) -> Iter
 
 
 FIRST, STEP, MOST = 0.75, 0.3, 24
-"""In radii: the first place along an edge, the step to the next, and how many are tried."""
+"""In radii: the first place along an edge, the step to the next, and the number of places."""
 
 CLEAR = 0.55
 """In radii: the distance of a one-digit number from other darts."""
@@ -257,7 +251,7 @@ DIGIT = 0.2
 
 
 def leaving(world: World, layout: Layout) -> dict[Dart, Floats]:
-    """The first part of the edge of each drawn dart, as points from the dart on."""
+    """The first part of each drawn dart's edge, as points from the dart on."""
     lines: dict[Dart, Floats] = {}
     for (a, b), parts in zip(world.edges, layout.paths, strict=True):
         if parts:
@@ -266,10 +260,10 @@ def leaving(world: World, layout: Layout) -> dict[Dart, Floats]:
 
 
 def places(world: World, layout: Layout, words: Mapping[Dart, str]) -> dict[Dart, Point]:
-    """The places of the words of drawn darts, vertex by vertex, clockwise."""
+    """The places of the darts' words, each on its edge and clear of the others."""
     lines, radius = leaving(world, layout), layout.radius
     circles = [c for vertex, c in enumerate(layout.centres) if vertex not in layout.hidden]
-    # what numbers avoid: points, and how far from each, across and down
+    # points to avoid, and the distance across and down
     taken = [(x, y, 1.3 * radius, 1.3 * radius) for x, y in circles]
     chosen: dict[Dart, Point] = {}
     for vertex, rotation in enumerate(world.vertices):

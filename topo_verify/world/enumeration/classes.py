@@ -1,15 +1,7 @@
 """Classes of worlds, such as `planar` or `simple,max-degree:4`: membership, counts and samples.
 
-A class is terms joined with commas, which must all hold; none depends on the marker.
-
-| term | which worlds |
-| --- | --- |
-| `any` | all |
-| `planar` | `genus:0` |
-| `genus:G`, `genus<=G` | of this genus, of this genus at most |
-| `loopless` | no edge joins a vertex with itself |
-| `simple` | loopless, and no two edges join the same two vertices |
-| `max-degree:D` | no vertex has more than D exits |
+A class is terms joined with commas, which must all hold; none depends on the marker. They are
+`any`, `planar`, `genus:G`, `genus<=G`, `loopless`, `simple` and `max-degree:D`.
 
 Source: docs/semantics.md, section 16.
 """
@@ -29,19 +21,17 @@ MAX_LISTED_EDGES = 7
 """Some classes are counted by listing: 1,708,394 worlds with 7 edges."""
 
 MAX_TRIES = 100_000
-"""Limit of draws for one world of the class."""
 
 _TERM = re.compile(r"(any|planar|simple|loopless)|(genus:|genus<=|max-degree:)([0-9]{1,9})")
 
 
 @dataclass(frozen=True, slots=True)
 class WorldClass:
-    """The worlds with all of these properties. `str` is the text; equal classes print alike.
+    """The worlds with all of these properties. `str` gives the text; equal classes print alike.
 
     Attributes:
         genus: the exact genus; None: any.
-        most_genus: its upper bound; None if `genus` is given, or any will do.
-        most_degree: upper bound of the degrees; None: any.
+        most_genus: if `genus` is None.
     """
 
     genus: int | None = None
@@ -55,13 +45,12 @@ class WorldClass:
         """The class that the text describes.
 
         Raises:
-            InputError: a term is unknown, or no world with an edge could have all the properties.
+            InputError: a term is unknown, or the class is empty.
         """
         words, bounds = _terms(text)
         exact = {*bounds["genus:"], *([0] if "planar" in words else [])}
         most = min(bounds["genus<="], default=None)
         degree = min(bounds["max-degree:"], default=None)
-        # one value for both spellings of planar
         if most == 0:
             exact.add(0)
         if len(exact) > 1 or (exact and most is not None and max(exact) > most):
@@ -70,7 +59,7 @@ class WorldClass:
                 " name one or one bound"
             )
         genus = max(exact, default=None)
-        # degrees 1 and 2 make paths and cycles, of genus 0
+        # paths and cycles have genus 0
         if degree == 0 or (genus and degree in (1, 2)):
             raise InputError(
                 f"class {shown(text, limit=80)!r} is empty: with at most {degree} exits a vertex"
@@ -101,13 +90,13 @@ class WorldClass:
         return self.admits(world.code)
 
     def admits(self, table: rank_order.Table) -> bool:
-        """Whether the world with this table is in the class; makes no `World`."""
-        # cheap tests first: the genus walks every face
+        """Whether the world with this table is in the class, without making a `World`."""
+        # the genus walks every face, so it comes last
         if self.most_degree is not None and max(table[0]) > self.most_degree:
             return False
         if self.loopless or self.simple:
             ends = _ends(table)
-            # (a, b) and (b, a) of each edge: without loops, only parallel edges repeat a pair
+            # without loops, only parallel edges repeat a pair
             if any(a == b for a, b in ends) or (self.simple and len(set(ends)) < len(ends)):
                 return False
         if self.genus is not None:
@@ -117,9 +106,8 @@ class WorldClass:
     def count(self, edges: int) -> int:
         """The number of worlds with this many edges in the class.
 
-        A formula counts genera, `count_graphs` properties of the graph up to 16 edges; for both
-        together all worlds are listed. None uses the search (`pruned.py`), so a search that meets
-        the number was complete.
+        Genera are counted by a formula, properties of the graph by `count_graphs`, both together by
+        listing. None uses the pruned search, so a search that reaches the number was complete.
 
         Raises:
             InputError: more edges than can be counted.
@@ -139,7 +127,7 @@ class WorldClass:
         return sum(map(self.admits, rank_order.tables(edges)))
 
     def sample(self, edges: int, random: Random) -> World:
-        """A world of the class with this many edges, exactly uniform, by rejection.
+        """A world of the class, exactly uniform, by rejection.
 
         Raises:
             InputError: the class is empty or too rare for `MAX_TRIES` draws.
@@ -148,7 +136,6 @@ class WorldClass:
             inside, total = self._count_by_formula(edges), rank_order.count(edges)
             if not inside:
                 raise InputError(f"class {self}: there is no world with {edges} edges in it")
-            # the mean number of draws is total / inside
             if total > inside * MAX_TRIES:
                 raise InputError(self._too_rare(edges, f"{inside / total:.0e} of all"))
         for _ in range(MAX_TRIES):
@@ -164,7 +151,7 @@ class WorldClass:
     def _count_by_formula(self, edges: int) -> int:
         if self.genus is not None:
             return count_genus(edges, self.genus) if self.genus else rank_order.count_planar(edges)
-        # 2g <= m, since n - m + f = 2 - 2g and n, f >= 1
+        # 2g <= m, by Euler's formula
         if self.most_genus is not None and 2 * self.most_genus < edges:
             return sum(count_genus(edges, genus) for genus in range(self.most_genus + 1))
         return rank_order.count(edges)
@@ -202,9 +189,7 @@ def _ends(table: rank_order.Table) -> list[tuple[int, int]]:
 
 
 def _genus(table: rank_order.Table) -> int:
-    """From Euler's formula, V - E + F = 2 - 2g."""
     degrees, alpha = table
-    # sigma
     after: list[int] = []
     for degree in degrees:
         first = len(after)

@@ -1,22 +1,14 @@
-"""Counts worlds by a property of their graph, and by genus; nothing here lists them.
+"""Counts worlds by a property of their graph, and by genus, without listing them.
 
-**Loopless, simple, or a bound on the degrees.** Every graph counts with all of its rotations. Give
-the vertices labels and let the darts of each be 0 … d-1. There are
-
-    wirings(d1, …, dn)    ways to join all darts in pairs such that the property holds.
-
-Each world (rooted, hence without symmetry) comes from a multiset of degrees, up to the numbering of
-equal vertices and up to where the numbering of each vertex's darts begins. So with one term for
-each partition of 2m into degrees,
+**Loopless, simple, or a bound on the degrees.** Let the darts of vertex i be 0 … d_i-1, and
+wirings(d1, …, dn) the ways to join all darts in pairs such that the property holds. A world is
+rooted, so it has no symmetry: it comes from a multiset of degrees, up to the numbering of equal
+vertices and of each vertex's darts. With one term for each partition of 2m into degrees,
 
     T(x) = Σ x^m · wirings(d1, …, dn) / Π d_i / Π (how often each degree occurs)!
 
-counts all maps, connected or not, each 1 / (its symmetries) times; log T counts the connected ones,
-and rooting them at one of 2m darts takes the symmetries away: N(m) = 2m · [x^m] log T(x).
-
-Wirings are counted by removing the darts of the first vertex: each meets a dart of another vertex
-or (unless loopless) of its own; `simple` takes different vertices for all darts at once. The count
-of the remaining multiset is cached.
+counts all maps, connected or not, each 1 / (its symmetries) times. log T counts the connected ones,
+and rooting them at one of 2m darts removes the symmetries: N(m) = 2m · [x^m] log T(x).
 
 **By genus.** Q[g][m] is the number of rooted maps with genus g and m edges. For m >= 1,
 
@@ -42,10 +34,10 @@ Degrees = tuple[int, ...]
 """A multiset of degrees, descending."""
 
 MAX_EDGES = 16
-"""Beyond, there are too many multisets; counting takes a second or two here."""
+"""A second or two; the number of multisets grows fast."""
 
 MAX_NARROW_EDGES = 100
-"""The same if no degree is above 2: m edges have m + 1 multisets."""
+"""If no degree is above 2: m edges have m + 1 multisets."""
 
 
 def count_graphs(
@@ -54,8 +46,7 @@ def count_graphs(
     """The number of rooted maps of any genus with this many edges and these properties.
 
     Raises:
-        InputError: a negative number of edges; more than `MAX_EDGES` or, if no degree is above 2,
-            more than `MAX_NARROW_EDGES`.
+        InputError: a negative number of edges, or more than can be counted.
     """
     if edges < 0:
         raise InputError(f"expected 0 or more edges, got {edges}")
@@ -67,7 +58,7 @@ def count_graphs(
             " their graph are too many to count; ask for fewer edges"
         )
     total = [_all_maps(m, highest, loopless=loopless, simple=simple) for m in range(edges + 1)]
-    # connected[m] = [x^m] log T(x); T(0) = 1
+    # [x^m] log T(x)
     connected = [Fraction(0)]
     for m in range(1, edges + 1):  # T' = T·(log T)'
         known = sum((k * connected[k] * total[m - k] for k in range(1, m)), Fraction(0))
@@ -78,7 +69,6 @@ def count_graphs(
 
 
 def _all_maps(edges: int, highest: int, *, loopless: bool, simple: bool) -> Fraction:
-    """[x^m] T(x)."""
     number = Fraction(0)
     for degrees in _partitions(2 * edges, highest):
         ways = _simple_wirings(degrees) if simple else _wirings(degrees, loopless=loopless)
@@ -97,16 +87,14 @@ def _partitions(total: int, highest: int) -> Iterator[Degrees]:
 
 @cache
 def _wirings(degrees: Degrees, *, loopless: bool) -> int:
-    """The number of ways to join all darts in pairs; if loopless, of different vertices."""
     if not degrees:
         return 1
-    # the partner of one dart of the first vertex, which every wiring joins once
+    # the partner of one dart of the first vertex
     first, rest = degrees[0], degrees[1:]
     ways = 0
     if first > 1 and not loopless:
         ways += (first - 1) * _wirings(_sorted(first - 2, *rest), loopless=False)
     for degree, times in Counter(rest).items():
-        # `degree` darts at each of `times` like vertices
         others = list(rest)
         others.remove(degree)
         lower = _wirings(_sorted(first - 1, degree - 1, *others), loopless=loopless)
@@ -118,7 +106,6 @@ def _wirings(degrees: Degrees, *, loopless: bool) -> int:
 def _simple_wirings(degrees: Degrees) -> int:
     if not degrees:
         return 1
-    # d! ways to give the first vertex's d darts to the d chosen ones
     meetings = _meetings(degrees[0], tuple(Counter(degrees[1:]).items()))
     return factorial(degrees[0]) * sum(
         ways * _simple_wirings(_sorted(*remaining)) for ways, remaining in meetings
@@ -126,10 +113,10 @@ def _simple_wirings(degrees: Degrees) -> int:
 
 
 def _meetings(darts: int, groups: tuple[tuple[int, int], ...]) -> Iterator[tuple[int, Degrees]]:
-    """Each choice of different vertices for the darts: its number of ways, and the rest.
+    """Each choice of different vertices for the darts: its number of ways, and the degrees left.
 
     Args:
-        groups: the other vertices, as (degree, how many have it).
+        groups: (degree, how many of the other vertices have it).
     """
     if not groups:
         if darts == 0:
@@ -137,7 +124,6 @@ def _meetings(darts: int, groups: tuple[tuple[int, int], ...]) -> Iterator[tuple
         return
     (degree, times), *others = groups
     for chosen in range(min(darts, times) + 1):
-        # which of the like vertices, and which dart of each
         here = comb(times, chosen) * degree**chosen
         remaining = (degree - 1,) * chosen + (degree,) * (times - chosen)
         for ways, further in _meetings(darts - chosen, tuple(others)):
@@ -145,22 +131,21 @@ def _meetings(darts: int, groups: tuple[tuple[int, int], ...]) -> Iterator[tuple
 
 
 def _sorted(*degrees: int) -> Degrees:
-    # one form for each multiset, for the caches
+    # one form for each multiset: a key of the caches
     return tuple(sorted(filter(None, degrees), reverse=True))
 
 
 def count_genus(edges: int, genus: int) -> int:
-    """The number of rooted maps with this many edges and this genus. O(edges² · genus²) products.
+    """Q[genus][edges], in O(edges² · genus²) products.
 
     Raises:
         InputError: a negative number.
     """
     if edges < 0 or genus < 0:
         raise InputError(f"expected 0 or more edges and genus, got edges={edges}, genus={genus}")
-    # n + f = m + 2 - 2g, and n, f >= 1
     if 2 * genus > edges:
         return 0
-    known: list[list[int]] = []  # Q[g][m]
+    known: list[list[int]] = []
     for g in range(genus + 1):
         known.append([int(g == 0)])
         for m in range(1, edges + 1):
@@ -169,7 +154,7 @@ def count_genus(edges: int, genus: int) -> int:
 
 
 def _next(known: list[list[int]], g: int, m: int) -> int:
-    # the recurrence times 6: all terms are integers
+    # times 6
     total = 4 * (2 * m - 1) * known[g][m - 1]
     if g and m >= 2:
         total += (2 * m - 3) * (m - 1) * (2 * m - 1) * known[g - 1][m - 2]

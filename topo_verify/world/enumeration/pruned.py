@@ -1,27 +1,19 @@
-"""Lists the worlds of a class in rank order: it grows them with pruning and filters nothing out.
+"""Lists the worlds of a class in rank order; pruning, not filtering, keeps the others out.
 
-Worlds grow as in `rank_order`. A **pruner** follows the growth for one property and stops a branch
-as soon as no completion can have the property. Pruners are immutable; branches share them:
+Worlds grow as in `rank_order`. A **pruner** follows one property and stops a branch as soon as no
+completion can have it. Pruners are immutable, so branches share them:
 
     GenusPruner      the open darts along each boundary of the partial map, one cyclic word each.
-                     Joining two darts of one word cuts the word in two and keeps the genus; joining
-                     darts of two words merges them and raises the genus by one; a new vertex puts
-                     its other darts in the place of the dart that it hangs on. A word of even
-                     length can be closed in the plane; a word of odd length needs a leaf, or
-                     another odd word at the price of a handle.
-                     So: odd words <= darts still to create + 2·(genus left).
-    NeighbourPruner  loopless and simple: the open darts of each vertex, and (simple) its
-                     neighbours. Each open dart needs an end elsewhere: at a vertex with open darts
-                     that is no neighbour, or at a vertex still to come.
+                     Joining two darts of one word cuts it in two; joining darts of two words merges
+                     them and raises the genus by one. A word of odd length needs a leaf, or another
+                     odd word and a handle: odd words <= darts to create + 2·(genus left).
+    NeighbourPruner  loopless and simple: each open dart needs an end at another vertex with open
+                     darts (simple: not a neighbour), or at a vertex still to come.
     DegreePruner     max-degree: looks at the new vertex alone.
 
-A pruned branch counts with all its completions, so ranks are those among ALL worlds, and shards are
-cut by rank in every class.
-
-Cost: every world costs its path in the tree. For `planar`, `genus<=G` and `loopless` alone every
-branch has a world (a test says so).
-
-Source: docs/semantics.md, section 12.
+A pruned branch still counts with all its completions, so ranks are those among ALL worlds, and
+shards are cut by rank in every class. For `planar`, `genus<=G` and `loopless` alone every branch
+has a world.
 """
 
 from __future__ import annotations
@@ -37,35 +29,28 @@ from topo_verify.world.rooted_map import World
 
 
 class Pruner(Protocol):
-    """Follows one property while a map grows.
+    """Follows one property while a map grows; a step returns None if no completion can have it.
 
-    Each step returns the next pruner, or None if no completion can have the property. `to_create`
-    is the number of darts still to create after the step.
+    `to_create` is the number of darts to create after the step.
     """
 
     def join(self, dart: int, partner: int, to_create: int) -> Pruner | None:
-        """The pruner once these two open darts are joined to an edge."""
+        """The pruner after joining two open darts to an edge."""
         ...
 
     def hang(self, dart: int, first: int, degree: int, to_create: int) -> Pruner | None:
-        """The pruner once a new vertex hangs on `dart` by its first dart, `first`."""
+        """The pruner after hanging a new vertex on `dart` by its first dart, `first`."""
         ...
 
 
 def ranked_tables(
     edges: int, kind: WorldClass | None = None, start: int = 0, stop: int | None = None
 ) -> Iterator[tuple[int, Table]]:
-    """The worlds of a class with this many edges, each with its rank among ALL worlds, ascending.
-
-    Args:
-        kind: the class; default: any.
-        start, stop: only ranks start … stop-1.
-    """
+    """The worlds of a class with ranks start … stop-1; each with its rank among ALL worlds."""
     total = rank_order.count(edges)
     stop = total if stop is None else min(stop, total)
     kind = WorldClass() if kind is None else kind
     if edges == 0 or kind == WorldClass():
-        # The world without edges never grows, so it is tested here.
         listed = enumerate(rank_order.tables(edges, start, stop), start)
         yield from (pair for pair in listed if edges or kind.admits(pair[1]))
     else:
@@ -83,14 +68,12 @@ class _Partial(NamedTuple):
 
 
 def _grown(edges: int, kind: WorldClass, start: int, stop: int) -> Iterator[tuple[int, Table]]:
-    # Partial maps leave the stack in the order of their ranks.
     stack = list(_roots(edges, kind))[::-1]
     while stack:
         partial = stack.pop()
         u, r = len(partial.opened), 2 * edges - len(partial.alpha)
         if partial.rank >= stop:
             return
-        # all its completions come before `start`
         if partial.rank + rank_order.completions(u, r) <= start:
             continue
         if u:
@@ -105,14 +88,13 @@ def _roots(edges: int, kind: WorldClass) -> Iterator[_Partial]:
         pruners = _pruners(kind, edges, degree)
         if pruners is not None:
             yield _Partial(rank, (degree,), tuple(range(degree)), (-1,) * degree, pruners)
-        # pruned or not: ranks count class `any`
         rank += rank_order.completions(degree, 2 * edges - degree)
 
 
 def _children(partial: _Partial, r: int) -> Iterator[_Partial]:
     rank, degrees, opened, alpha, pruners = partial
     dart, u, created = opened[0], len(opened), len(alpha)
-    # dead end: no open dart while darts remain
+    # 0: a dead end
     ways = rank_order.completions(u - 2, r) if u > 1 else 0
     for place in range(1, u) if ways else ():
         partner = opened[place]
@@ -145,7 +127,7 @@ def _all(pruners: Iterator[Pruner | None]) -> tuple[Pruner, ...] | None:
 
 
 def _pruners(kind: WorldClass, edges: int, degree: int) -> tuple[Pruner, ...] | None:
-    """The pruners for a root of this degree; None if the class has no such root."""
+    """The pruners for a root of this degree, if the class has such a root."""
     pruners: list[Pruner] = []
     to_create = 2 * edges - degree
     if kind.most_degree is not None:
@@ -199,12 +181,12 @@ class GenusPruner(NamedTuple):
             with_partner = next(word for word in others if partner in word)
             others.remove(with_partner)
             parts, handles = [ahead + _turned(with_partner, partner)], self.handles - 1
-        # an empty word is a finished face
+        # an empty word: a finished face
         words = (*others, *(part for part in parts if part))
         return self._if_feasible(GenusPruner(words, handles, self.exact), to_create)
 
     def hang(self, dart: int, first: int, degree: int, to_create: int) -> GenusPruner | None:
-        """Puts the new vertex's other darts in the place of the dart that it hangs on."""
+        """Puts the new vertex's other darts in the place of `dart`."""
         fresh = tuple(range(first + 1, first + degree))
         grown = (_turned(word, dart) + fresh if dart in word else word for word in self.words)
         return self._if_feasible(
@@ -215,15 +197,14 @@ class GenusPruner(NamedTuple):
         return words if words.feasible(to_create) else None
 
     def feasible(self, to_create: int) -> bool:
-        """Whether the words can be closed with the darts to create and the handles left."""
+        """Whether the darts to create and the handles left can close the words."""
         odd = sum(len(word) % 2 for word in self.words)
         if self.handles < 0 or odd > to_create + 2 * self.handles:
             return False
         if not self.exact:
             return True
-        # Each handle takes a join that merges two words; every other join adds a word, perhaps an
-        # empty one; one remains, because every map has a face. If darts remain, one of the edges
-        # hangs a new vertex and is no join.
+        # A handle takes a join that merges two words; every other join adds a word, and one
+        # remains as a face. If darts remain, one edge hangs a vertex and is no join.
         joins = (sum(map(len, self.words)) + to_create) // 2 - (to_create > 0)
         return 2 * self.handles <= max(0, len(self.words) + joins - 1)
 
@@ -235,7 +216,7 @@ def _turned(word: IntTuple, dart: int) -> IntTuple:
 
 
 class NeighbourPruner(NamedTuple):
-    """Allows no loops and, if `simple`, no two edges between the same two vertices."""
+    """Allows no loops and, if `simple`, no parallel edges."""
 
     simple: bool
     vertex: IntTuple
@@ -294,10 +275,10 @@ def worlds(edges: int, *, cls: str = "any") -> Iterator[World]:
         edges: of each world, 0 to 200.
         cls: a class as on the command line, such as `planar` or `simple,max-degree:4`.
     Raises:
-        InputError: at the call; the number is out of range or the class unknown or empty.
+        InputError: at the call: the number is out of range, or the class unknown or empty.
     """
     if type(edges) is not int or not 0 <= edges <= MAX_ID_EDGES:
-        # Python refuses to print very long integers.
+        # unprintable
         value = "another one" if type(edges) is int else f"a {type(edges).__name__}"
         raise InputError(
             f"expected edges=N with an integer from 0 to {MAX_ID_EDGES} (larger worlds have no id),"

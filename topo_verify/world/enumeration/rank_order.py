@@ -2,24 +2,22 @@
 
 The letters: `m` edges; `u` open darts (known, their edge not yet); `r` darts still to create.
 
-A rooted map grows from its root vertex: take the smallest open dart; either join it with another
-open dart, or hang a new vertex of degree `d` on it, whose darts are numbered consecutively from
-the dart by which it hangs. A step that leaves no open dart while darts remain is forbidden. What
-can still happen depends on `u` and `r` alone, so completions are counted by
+A rooted map grows from its root vertex. Take the smallest open dart; either join it with another
+open dart, or hang a new vertex of degree `d` on it, whose darts are numbered consecutively from the
+dart by which it hangs. An open dart must remain while there are darts to create. What can still
+happen depends on `u` and `r` alone, so completions are counted by
 
-    F(u, r) = (u-1)·F(u-2, r) + Σ_{1<=d<=r} F(u+d-2, r-d),   F(0, 0) = 1,   F(0, r>0) = 0,
+    F(u, r) = (u-1)·F(u-2, r) + Σ_{1<=d<=r} F(u+d-2, r-d),   F(0, 0) = 1,   F(0, r>0) = 0.
 
-and there are Σ_{1<=d<=2m} F(d, 2m-d) rooted maps with m edges. Each comes out exactly once, in its
-breadth-first numbering, so no hash table is needed; the counts turn a rank into a map and back.
-
-**Order** (a format promise, it numbers the worlds): root degree ascending; then at the smallest
+Each map arises once, in its breadth-first numbering, so no hash table is needed; the counts turn a
+rank into a map and back. **Order** (a format promise): root degree ascending; then at the smallest
 open dart, joins first by ascending partner, then new vertices by ascending degree.
 
 A **table** is `(degrees, alpha)`: vertex `i` owns the next `degrees[i]` darts, `alpha[d]` is the
 other dart of `d`'s edge, the root is dart 0. It is the canonical code of its world.
 
 Source: docs/semantics.md, section 12. Planar: W. T. Tutte, "A census of planar maps", Canad. J.
-Math. 15 (1963).
+    Math. 15 (1963).
 """
 
 from __future__ import annotations
@@ -36,17 +34,13 @@ from topo_verify.errors import InputError
 
 IntTuple = tuple[int, ...]
 Table = tuple[IntTuple, IntTuple]
-"""`(degrees, alpha)`, as above."""
 
 MAX_ID_EDGES = 200
-"""Largest world with an id. The counts work beyond, only slower."""
+"""Largest world with an id; the counts work beyond, only slower."""
 
 
 def completions(open_darts: int, to_create: int) -> int:
-    """F(u, r); 0 if u + r is odd.
-
-    Complexity: the first call for a given u + r fills a table of O((u + r)²) integers.
-    """
+    """F(u, r); 0 if u + r is odd."""
     half, odd = divmod(open_darts + to_create, 2)
     if odd or open_darts < 0 or to_create < 0:
         return 0
@@ -60,7 +54,7 @@ _rows: list[tuple[int, ...]] = [(1,)]
 
 
 def _next_row(before: tuple[int, ...]) -> tuple[int, ...]:
-    # F(u, r) joins from before[r], with u - 2 open darts; if u = 1 there is no join
+    # joins come from before[r], with u - 2 open darts; if u = 1 there is none
     total = len(before) + 1
     attached = [0, *accumulate(before)]  # Σ_d F(u+d-2, r-d) = before[0] + … + before[r-1]
     joined = [(total - r - 1) * ways for r, ways in enumerate(before)]
@@ -78,9 +72,8 @@ def count(edges: int) -> int:
 def count_by_recurrence(edges: int) -> int:
     """The same number, from an independent recurrence in the edges alone.
 
-    M(z) = 1 + z·M(z)² + z·M(z) + 2z²·M'(z), read off coefficient by coefficient.
-    Source: D. Arquès and J.-F. Béraud, "Rooted maps on orientable surfaces, Riccati's equation and
-    continued fractions", Discrete Math. 215 (2000).
+    M(z) = 1 + z·M(z)² + z·M(z) + 2z²·M'(z): D. Arquès and J.-F. Béraud, "Rooted maps on orientable
+    surfaces, Riccati's equation and continued fractions", Discrete Math. 215 (2000).
     """
     _require_edges(edges)
     numbers: list[int] = [1]
@@ -92,26 +85,24 @@ def count_by_recurrence(edges: int) -> int:
 
 
 def count_planar(edges: int) -> int:
-    """The number of planar rooted maps, 2·3^m·C(2m, m) / ((m+1)(m+2)) (Tutte)."""
+    """The number of planar rooted maps: 2·3^m·C(2m, m) / ((m+1)(m+2)) (Tutte)."""
     _require_edges(edges)
     powers: int = 2 * 3**edges
     return powers * comb(2 * edges, edges) // ((edges + 1) * (edges + 2))
 
 
 def rank(table: Table) -> int:
-    """The number of the map in the enumeration, counted from 0: the inverse of `unrank`.
+    """The number of the map in the enumeration, from 0, in O(m²) steps on long integers.
 
     Args:
         table: a canonical code (`World.code`); any other numbering gives a meaningless number.
-    Complexity: O(m²) steps on integers of O(m log m) bits.
     """
     degrees, alpha = table
     if not alpha:
         return 0
-    # each step adds all completions of the alternatives before it
+    # add the completions of the alternatives before each step
     m2 = len(alpha)
     before = sum(completions(d, m2 - d) for d in range(1, degrees[0]))
-    # stays ascending: new darts get the highest numbers
     opened = list(range(degrees[0]))
     created, vertices = degrees[0], 1
     while opened:
@@ -131,11 +122,7 @@ def rank(table: Table) -> int:
 
 
 def unrank(edges: int, rank: int) -> Table:
-    """The map of this rank among those with this many edges: the inverse of `rank`.
-
-    Raises:
-        InputError: the rank is not one of 0 … count(edges) - 1.
-    """
+    """The map of this rank; InputError if there is none."""
     total = count(edges)
     if not 0 <= rank < total:
         raise InputError(
@@ -145,7 +132,7 @@ def unrank(edges: int, rank: int) -> Table:
     if edges == 0:
         return (0,), ()
     m2 = 2 * edges
-    # `_choose` counts from 0: the degree is d + 1
+    # `_choose` counts from 0
     d, rank = _choose(rank, (completions(d, m2 - d) for d in range(1, m2 + 1)))
     degrees, opened, alpha = [d + 1], list(range(d + 1)), [0] * m2
     created = d + 1
@@ -154,7 +141,6 @@ def unrank(edges: int, rank: int) -> Table:
         dart = opened.pop(0)
         joins = (u - 1) * completions(u - 2, r)
         if rank < joins:
-            # no division by zero: rank < joins
             place, rank = divmod(rank, completions(u - 2, r))
             partner = opened.pop(place)
         else:
@@ -169,7 +155,7 @@ def unrank(edges: int, rank: int) -> Table:
 
 
 def _choose(rank: int, ways: Iterator[int]) -> tuple[int, int]:
-    """The index of the block that the rank falls into, and the rank within that block."""
+    """The index of the block that the rank falls into, and the rank within it."""
     index, size = 0, next(ways)
     while rank >= size:
         index, rank, size = index + 1, rank - size, next(ways)
@@ -177,13 +163,9 @@ def _choose(rank: int, ways: Iterator[int]) -> tuple[int, int]:
 
 
 def id_parts(text: str) -> tuple[int, int]:
-    """Edges and rank of a world id, `m<edges>/<rank>`.
-
-    Raises:
-        InputError: the text is not an id, or names more than 200 edges.
-    """
+    """Edges and rank of a world id, `m<edges>/<rank>`; InputError if it is not one."""
     edges, slash, rank = text.removeprefix("m").partition("/")
-    # Python parses only so many digits; the longest rank has 437
+    # the longest rank has 437 digits
     digits = all(part.isascii() and part.isdigit() and len(part) < 1000 for part in (edges, rank))
     if not (text.startswith("m") and slash and digits):
         raise InputError(f"expected a world id m<edges>/<rank>, such as m5/17, got {text[:60]!r}")
@@ -192,7 +174,7 @@ def id_parts(text: str) -> tuple[int, int]:
 
 
 def require_id_edges(edges: int) -> None:
-    """Raise `InputError` for a number of edges that is too large for an id."""
+    """Refuse a number of edges that is too large for an id."""
     if edges > MAX_ID_EDGES:
         raise InputError(
             f"a world with {edges} edges has no id (ids go up to {MAX_ID_EDGES} edges):"
@@ -201,22 +183,21 @@ def require_id_edges(edges: int) -> None:
 
 
 def sample(edges: int, random: Random) -> Table:
-    """A rooted map with this many edges, exactly uniform over all of them."""
+    """A rooted map with this many edges, exactly uniform."""
     return unrank(edges, random.randrange(count(edges)))
 
 
 _TAIL = 8
-"""Partial maps with at most this many darts left have their completions cached."""
+"""Completions with at most this many darts are cached."""
 
 
 def tables(edges: int, start: int = 0, stop: int | None = None) -> Iterator[Table]:
-    """The rooted maps of ranks start … stop-1 (default: all of them), in the order of their ranks.
+    """The rooted maps of ranks start … stop-1 (default: all), in order.
 
-    Complexity: a shard costs what it yields; earlier subtrees are skipped whole.
+    A shard costs what it yields; earlier subtrees are skipped whole.
     """
     total = count(edges)
     stop = total if stop is None else min(stop, total)
-    # the limit of `islice`
     return islice(_tables_from(edges, start), min(max(0, stop - start), sys.maxsize))
 
 
@@ -225,8 +206,7 @@ def _tables_from(edges: int, skip: int) -> Iterator[Table]:
         yield from [((0,), ())][skip:]
         return
     m2 = 2 * edges
-    # A stack of partial maps: degrees, open darts, darts joined and their partners, in step.
-    # Steps are pushed in reverse, to come in order.
+    # degrees, open darts, joined darts, their partners
     stack: list[tuple[IntTuple, IntTuple, IntTuple, IntTuple]]
     stack = [((d,), tuple(range(d)), (), ()) for d in range(m2, 0, -1)]
     while stack:
@@ -236,7 +216,7 @@ def _tables_from(edges: int, skip: int) -> Iterator[Table]:
         if skip and completions(u, r) <= skip:
             skip -= completions(u, r)
         elif u + r <= _TAIL:
-            # the endings are cached over slots, which here get the numbers of the darts
+            # slots of the cached endings
             slots = (*opened, *range(created, m2))
             place = _inverse(joined + slots)
             for more, partner_slots in islice(_endings(u, r), skip, None):
@@ -252,8 +232,7 @@ def _tables_from(edges: int, skip: int) -> Iterator[Table]:
 
 def _steps(opened: IntTuple, created: int, r: int) -> Iterator[tuple[int, int, IntTuple]]:
     """Each step at the smallest open dart: its partner's place and number, and new degrees."""
-    # A step must leave an open dart (a join leaves u - 2, a new vertex u + d - 2) or no dart to
-    # create. j = u: the partner is a new dart.
+    # A join leaves u - 2 open darts, a new vertex u + d - 2. j = u: the partner is a new dart.
     u = len(opened)
     if u > 2 or r == 0:
         for j in range(1, u):
@@ -264,8 +243,8 @@ def _steps(opened: IntTuple, created: int, r: int) -> Iterator[tuple[int, int, I
 
 
 def _inverse(darts: IntTuple) -> itemgetter[IntTuple]:
-    """A getter that puts a row given in the order `darts` into the order of the darts."""
-    # with one index an itemgetter would return no tuple
+    """A getter that reorders a row from the order `darts` to ascending darts."""
+    # never one index: an itemgetter would return no tuple
     return itemgetter(*sorted(range(len(darts)), key=darts.__getitem__))
 
 
@@ -273,15 +252,15 @@ def _inverse(darts: IntTuple) -> itemgetter[IntTuple]:
 def _endings(u: int, r: int) -> tuple[tuple[IntTuple, itemgetter[IntTuple]], ...]:
     """All completions over slots: 0 … u-1 are the open darts, u … u+r-1 the darts to come.
 
-    Each is (further degrees, getter of every slot's partner). At most 8 slots: recursion depth 4.
+    Each is (further degrees, getter of every slot's partner).
     """
     endings: list[tuple[IntTuple, itemgetter[IntTuple]]] = []
     slots = tuple(range(u + r))
     for _, partner, more in _steps(slots[:u], u, r):
         rest = tuple(s for s in slots if s not in (0, partner))
-        if not rest:  # the only way to join two slots
+        if not rest:
             return ((more, itemgetter(1, 0)),)
-        # `rest` has the form of slots again: open ones first
+        # `rest` has the form of slots again
         place = _inverse((0, partner, *rest))
         for further, partners in _endings(u - 2 + sum(more), r - sum(more)):
             row = place((partner, 0, *partners(rest)))

@@ -1,19 +1,17 @@
-"""Families of worlds: well-known graphs, lattices, random graphs and maps, named by arguments.
+"""Families of worlds: well-known graphs, lattices, random graphs and maps.
 
-A world's name is the call that makes it again, without defaults, such as
-`lattice(10,10,holes=0.2,seed=7)`. All draws come from `random.Random(seed)`, the same on every
-machine with Python 3.11 to 3.13. Arguments out of range, and more than `MAX_DARTS` darts, raise
-`InputError`.
+A world's name is the call that makes it again, such as `lattice(10,10,holes=0.2,seed=7)`. All draws
+come from `random.Random(seed)`, the same on every machine with Python 3.11 to 3.13. Arguments out
+of range, and more than `MAX_DARTS` darts, raise `InputError`.
 
-**Holes** are `round(holes·nodes)` nodes removed at random. The largest component of the rest is
-kept (of equally large ones, that with the lowest node).
+**Holes** are `round(holes·nodes)` nodes removed at random. The largest component stays; of equally
+large ones, that with the lowest node.
 
 **The marker** is drawn last: a vertex, then one of its exits. Random maps have it at their root,
 families without a seed at dart 0. `marker=DART` changes nothing else.
 
-**Rotations** follow the drawing if there is one (node 0 at the top left, exits clockwise from the
-north, positions with y upwards; tori, shapes and solids without positions). Other families draw
-each vertex's rotation uniformly.
+**Rotations** follow the drawing if there is one: node 0 at the top left, exits clockwise from the
+north, y upwards. Other families draw each vertex's rotation uniformly.
 """
 
 from collections.abc import Callable, Mapping
@@ -53,7 +51,6 @@ FAMILIES: Mapping[str, Callable[..., World]] = {
         *(tetrahedron, cube, octahedron, dodecahedron, icosahedron),
     )
 }
-"""All families by name."""
 
 __all__ = [
     "FAMILIES", "MAX_DARTS", "complete", "complete_bipartite", "cube", "cycle", "dense",

@@ -15,16 +15,16 @@ MAX_DARTS = 10**6
 
 
 def integer(family: str, name: str, value: object, least: int) -> int:
-    """The value as a plain int, at least `least`."""
+    """The value as a plain int of at least `least`."""
     if isinstance(value, SupportsIndex) and not isinstance(value, bool) and index(value) >= least:
         return index(value)
     raise InputError(f"{family}: {name} is {value!r}, expected an integer of {least} or more")
 
 
 def share(family: str, name: str, value: object, *, whole: bool) -> float:
-    """The value as a plain float in 0 … 1 (1 only if `whole`)."""
+    """The value as a plain float in 0 … 1; 1 only if `whole`."""
     if isinstance(value, SupportsFloat):
-        # NaN fails the comparison, a huge integer overflows
+        # NaN fails the comparison
         with suppress(OverflowError):
             share = float(value)
             if 0 <= share < 1 or (whole and share == 1):
@@ -34,7 +34,7 @@ def share(family: str, name: str, value: object, *, whole: bool) -> float:
 
 
 def size(family: str, size: tuple[int, int], *, darts_each: int) -> tuple[int, int, int]:
-    """The rows and columns as plain integers, and the number of darts."""
+    """The rows, the columns and the number of darts."""
     rows, columns = integer(family, "rows", size[0], 1), integer(family, "columns", size[1], 1)
     return rows, columns, darts_each * rows * columns
 

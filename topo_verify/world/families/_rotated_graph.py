@@ -13,9 +13,9 @@ from topo_verify.world.rooted_map import Dart, World
 class EdgeEnd(NamedTuple):
     """One end of an edge, as seen from its node."""
 
-    to: int  # the other node
+    to: int
     edge: tuple[int, int]
-    side: int  # the end of the edge, 0 or 1
+    side: int
 
 
 Graph = dict[int, list[EdgeEnd]]
@@ -23,7 +23,7 @@ Graph = dict[int, list[EdgeEnd]]
 
 
 def from_neighbours(rows: Iterable[Sequence[int]]) -> Graph:
-    """The simple graph whose nodes have these neighbours, in clockwise order."""
+    """The simple graph with these neighbours of each node, clockwise."""
     return {
         node: [EdgeEnd(to, (min(node, to), max(node, to)), int(node > to)) for to in row]
         for node, row in enumerate(rows)
@@ -53,11 +53,10 @@ def largest_component(graph: Graph) -> Graph:
             known.add(node)
             component = [node]
             for reached in component:
-                # the order of this set does not show: the component is sorted
+                # any order
                 fresh = {end.to for end in graph[reached]} - known
                 known |= fresh
                 component += fresh
-            # `max` keeps the earlier of equals
             largest = max(largest, component, key=len)
     return {node: graph[node] for node in sorted(largest)}
 
@@ -70,7 +69,6 @@ def as_world(
     positions: tuple[tuple[float, float], ...] = (),
 ) -> World:
     """The world of a connected graph: darts numbered node by node, clockwise."""
-    # the side tells the ends of a loop apart
     number = {
         (end.edge, end.side): dart
         for dart, end in enumerate(end for ends in graph.values() for end in ends)
@@ -78,7 +76,7 @@ def as_world(
     rotations = [[number[end.edge, end.side] for end in ends] for ends in graph.values()]
     pairs = [(dart, number[edge, 1]) for (edge, side), dart in number.items() if side == 0]
     if marker is None and number and random:
-        # all vertices are equally likely, not all darts
+        # vertices are equally likely, darts are not
         marker = random.choice(random.choice(rotations))
     try:
         return World.from_rotations(rotations, pairs, marker, name=name, positions=positions)

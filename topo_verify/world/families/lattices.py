@@ -1,4 +1,4 @@
-"""Lattices: worlds whose nodes lie on a grid and are joined with their neighbours."""
+"""Lattices: nodes on a grid, joined with their neighbours."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from topo_verify.world.families._rotated_graph import EdgeEnd, Graph, as_world, 
 from topo_verify.world.rooted_map import Dart, World
 
 _NORTH, _NORTH_EAST, _EAST, _SOUTH_EAST = (-1, 0), (-1, 1), (0, 1), (1, 1)
-"""Half of the eight directions as (rows down, columns right); the others are their opposites."""
+"""(Rows down, columns right)."""
 
 _KING = (_NORTH, _NORTH_EAST, _EAST, _SOUTH_EAST)
 
@@ -63,7 +63,7 @@ def triangular_torus(rows: int, columns: int, *, marker: Dart | None = None) -> 
 def hexagonal_torus(rows: int, columns: int, *, marker: Dart | None = None) -> World:
     """A honeycomb with joined opposite borders, two nodes a cell. Genus 1, degrees 3.
 
-    Simple from 2 by 2 on; the dual of the triangular torus, faces taken as rotations.
+    Simple from 2 by 2 on; the dual of the triangular torus.
     """
     rows, columns, darts = arguments.size("hexagonal_torus", (rows, columns), darts_each=6)
     name, marker, _ = arguments.settled(
@@ -72,7 +72,7 @@ def hexagonal_torus(rows: int, columns: int, *, marker: Dart | None = None) -> W
     graph: Graph = {}
     for cell in range(rows * columns):
         row, column = divmod(cell, columns)
-        for side in (0, 1):  # edges are named by the cell's west node and its exits
+        for side in (0, 1):
             step = (-1, 1)[side]
             others = (
                 cell,
@@ -113,22 +113,18 @@ def _drawn(
         family, rows, columns, darts=darts, marker=marker, seed=seed, holes=holes
     )
     graph = with_holes(name, _grid(rows, columns, steps, wrapped=wrapped), holes, random)
-    if wrapped:  # no drawing in the plane
+    if wrapped:
         return as_world(name, graph, marker, random)
     positions = tuple((float(node % columns), float(rows - 1 - node // columns)) for node in graph)
     return as_world(name, graph, marker, random, positions)
 
 
 def _grid(rows: int, columns: int, steps: Sequence[tuple[int, int]], *, wrapped: bool) -> Graph:
-    """The grid as a graph.
-
-    Args:
-        steps: half of the directions, clockwise. An edge is named by its first node and its step.
-    """
+    """The grid; `steps` are half of the directions, clockwise."""
     graph: Graph = {}
     for node in range(rows * columns):
         exits = graph[node] = []
-        # along the steps, then against them: clockwise
+        # clockwise: along the steps, then against them
         for side in (0, 1):
             for way, (down, right) in enumerate(steps):
                 row = node // columns + (down, -down)[side]

@@ -64,7 +64,7 @@ def complete(nodes: int, *, seed: int = 0, marker: Dart | None = None) -> World:
 def complete_bipartite(
     left: int, right: int, *, seed: int = 0, marker: Dart | None = None
 ) -> World:
-    """Every one of `left` nodes joined with every one of `right` others; random rotations."""
+    """Each of `left` nodes joined with each of `right` others; random rotations."""
     family = "complete_bipartite"
     left = arguments.integer(family, "left", left, 1)
     right = arguments.integer(family, "right", right, 1)
@@ -76,11 +76,11 @@ def complete_bipartite(
 
 
 def _regular_edges(nodes: int, degree: int, random: Random) -> Iterable[tuple[int, int]]:
-    if 2 * degree >= nodes:  # draw the complement, because few pairs fit in a nearly full graph
+    if 2 * degree >= nodes:  # few pairs fit in a nearly full graph
         missing = set(_regular_edges(nodes, nodes - 1 - degree, random))
         return [pair for pair in combinations(range(nodes), 2) if pair not in missing]
     while True:
-        edges: dict[tuple[int, int], None] = {}  # ordered, unlike a set
+        edges: dict[tuple[int, int], None] = {}
         ends = [node for node in range(nodes) for _ in range(degree)]
         while ends:
             random.shuffle(ends)
@@ -91,7 +91,7 @@ def _regular_edges(nodes: int, degree: int, random: Random) -> Iterable[tuple[in
                     unpaired += pair
                 else:
                     edges[pair] = None
-            # rarely: `_some_fit` is slow
+            # `_some_fit` is slow
             if len(unpaired) == len(ends) and not _some_fit(unpaired, edges):
                 break  # start again, as the paper does
             ends = unpaired

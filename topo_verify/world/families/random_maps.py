@@ -2,24 +2,21 @@
 
 **Trees.** A rooted plane tree with m edges is a word of m ups and m downs that never sinks below
 its start. By the cycle lemma, m ups and m+1 downs, shuffled and read from behind their first lowest
-point, are such a word (and a last down), all equally likely.
+point, are such a word and a last down, all equally likely.
 
-**Planar maps.** Every edge of a random tree gets a step -1, 0 or 1, which labels the vertices. Each
-corner, in the order of a walk around the tree, is joined with the next corner whose label is less
-by one, or with one new vertex if there is none. That gives a quadrangulation; the vertices of even
-labels (or of odd ones: a coin decides), joined across each face, are the map. Each planar map with
-m edges arises from m+2 triples (tree, steps, coin), so it is **exactly uniform among all rooted
-planar maps**.
+**Planar maps.** Steps -1, 0 or 1 along the edges of a random tree label its vertices. In the order
+of a walk around the tree, each corner is joined with the next corner whose label is less by one, or
+with one new vertex if there is none. In this quadrangulation the vertices of even labels (or of odd
+ones: a coin decides), joined across each face, are the map. Each planar map with m edges arises
+from m+2 triples (tree, steps, coin), so the draw is **exactly uniform**.
 
-**Maps of a genus.** A random tree gets edges: one that joins two corners of a face splits that
-face, one that joins two faces merges them and raises the genus. Every rooted map of that genus can
-occur, but they are **not equally likely** (`world sample --class genus:1` is uniform). Cost up to
-O(m²).
+**Maps of a genus.** An edge added to a random tree splits a face, or merges two and raises the
+genus. Every rooted map can occur, but they are **not equally likely**. O(m²).
 
 Source: G. Schaeffer, "Conjugaison d'arbres et cartes combinatoires aléatoires", thesis, Bordeaux
-1998; P. Chassaing and G. Schaeffer, "Random planar lattices and integrated superBrownian
-excursion", Probab. Theory Relat. Fields 128 (2004); A. Dvoretzky and Th. Motzkin, "A problem of
-arrangements", Duke Math. J. 14 (1947).
+    1998; P. Chassaing and G. Schaeffer, "Random planar lattices and integrated superBrownian
+    excursion", Probab. Theory Relat. Fields 128 (2004); A. Dvoretzky and Th. Motzkin, "A problem of
+    arrangements", Duke Math. J. 14 (1947).
 """
 
 from __future__ import annotations
@@ -33,7 +30,7 @@ from topo_verify.world.families import _arguments as arguments
 from topo_verify.world.rooted_map import Dart, World
 
 MAX_EDGES = 10_000
-"""Of `random_genus`: half a second."""
+"""Of `random_genus`."""
 
 
 def random_tree(edges: int, *, seed: int = 0, marker: Dart | None = None) -> World:
@@ -63,7 +60,7 @@ def random_planar(edges: int, *, seed: int = 0, marker: Dart | None = None) -> W
 
 
 def random_genus(edges: int, genus: int, *, seed: int = 0, marker: Dart | None = None) -> World:
-    """A map of this genus. All can be drawn; they are not equally likely.
+    """A map of this genus; all can be drawn, not equally likely.
 
     Args:
         edges: at least twice the genus, at most `MAX_EDGES`.
@@ -76,12 +73,11 @@ def random_genus(edges: int, genus: int, *, seed: int = 0, marker: Dart | None =
     name, marker, random = arguments.settled(
         family, edges, genus, darts=2 * edges, marker=marker, seed=seed
     )
-    # a handle takes two edges outside the tree: a split and a join
     in_tree = sum(random.randrange(2) for _ in range(edges - 2 * genus))
-    kinds = [1] * (edges - in_tree - genus) + [-1] * genus  # of the faces
+    kinds = [1] * (edges - in_tree - genus) + [-1] * genus
     random.shuffle(kinds)
     faces = _Faces(_walk(_tree(in_tree, random)))
-    # the sum so far is faces - 1 >= 0, so a join finds two
+    # the sum so far is faces - 1 >= 0: a join finds two
     for kind in _from_lowest_point(kinds):
         (faces.split if kind > 0 else faces.join)(random)
     root = random.randrange(2 * edges) if edges else 0
@@ -98,7 +94,7 @@ def _rooted(name: str, sigma: Sequence[Dart], root: Dart, marker: Dart | None) -
 
 
 def _turning(faces: Sequence[Sequence[Dart]]) -> list[Dart]:
-    # along a face each dart is sigma∘alpha of the one before it, and alpha(d) = d ^ 1
+    # a face is a cycle of sigma∘alpha, and alpha(d) = d ^ 1
     sigma = [0] * sum(map(len, faces))
     for face in faces:
         for place, dart in enumerate(face):
@@ -113,10 +109,7 @@ def _tree(edges: int, random: Random) -> list[int]:
 
 
 def _from_lowest_point(word: list[int]) -> list[int]:
-    """The word rotated to start behind its first lowest point.
-
-    If it ends at least as high as it starts, the result never sinks below its start.
-    """
+    """The word rotated to start behind its first lowest point."""
     heights = [0, *accumulate(word)]
     lowest = heights.index(min(heights))
     return word[lowest:] + word[:lowest]
@@ -143,13 +136,12 @@ def planar_map(word: Sequence[int], steps: Sequence[int], *, coin: int) -> tuple
     Args:
         word: the tree, ups (1) and downs (-1), at least one.
         steps: the rise of the label along each edge, in the order of the ups.
-        coin: 0 for vertices with labels of the root's parity, 1 for the others.
+        coin: 0 for vertices with labels of the root's parity.
     """
-    # an arc goes from label l to l - 1, so one of its darts is at a vertex of the map
+    # one end of each arc is a vertex of the map
     vertices, labels = _corners(word, steps)
     around = _quadrangulation(vertices, labels)
-    # A kept dart also stands for the corner before it; across its face (twice: cross, then turn)
-    # lies the corner that this one is joined with.
+    # twice "cross, then turn": across the face of the dart
     kept = [2 * i + (label - labels[0] + coin) % 2 for i, label in enumerate(labels)]
     number: dict[Dart, Dart] = {}
     for dart in kept:
@@ -167,7 +159,6 @@ def _corners(word: Sequence[int], steps: Sequence[int]) -> tuple[list[int], list
     vertices, labels = [0], [0]
     below: list[tuple[int, int]] = []
     count = 1
-    # the last step leads back to the first corner
     for step in word[:-1]:
         if step > 0:
             below.append((vertices[-1], labels[-1]))
@@ -195,10 +186,8 @@ def _quadrangulation(vertices: Sequence[int], labels: Sequence[int]) -> list[Dar
         nearest[labels[corner]] = corner
     rotations: list[list[Dart]] = [[] for _ in range(max(vertices) + 1)]
     for corner, (vertex, darts) in enumerate(zip(vertices, arriving, strict=True)):
-        # arcs do not cross: the one from the nearest earlier corner comes first
         rotations[vertex] += [*sorted(darts, key=_distance_to(corner, corners)), 2 * corner]
     around = [0] * (2 * corners)
-    # the new vertex lies outside: reversed
     for rotation in (*rotations, at_new):
         for place, dart in enumerate(rotation):
             around[rotation[place - 1]] = dart
@@ -210,9 +199,8 @@ def _distance_to(corner: int, corners: int) -> Callable[[Dart], int]:
 
 
 class _Faces:
-    """The faces of a map that begins as a tree; each call adds an edge.
+    """The faces of a growing map: the darts of each in the order of a walk, and each dart's face.
 
-    `faces` are lists of darts in the order of a walk; `face_of` is the face of each dart.
     One vertex has one empty face.
     """
 
@@ -227,7 +215,6 @@ class _Faces:
         here, there = self._edge()
         low, high = sorted((first, second))
         parts = [[here, *darts[low:high]], [there, *darts[high:], *darts[:low]]]
-        # the longer part keeps its number
         parts.sort(key=len)
         self.faces[face] = parts[1]
         self.faces.append(parts[0])
@@ -252,13 +239,13 @@ class _Faces:
             self.face_of[dart] = large
         self.faces[large] = joined
         last = self.faces.pop()
-        if small < len(self.faces):  # the last face takes the free number
+        if small < len(self.faces):
             self.faces[small] = last
             for dart in last:
                 self.face_of[dart] = small
 
     def _corner(self, random: Random) -> tuple[int, int]:
-        """The face of a random dart and its place there, which stands for the corner before it."""
+        """A random dart's face and its place there; it stands for the corner before it."""
         if not self.face_of:
             return 0, 0
         dart = random.randrange(len(self.face_of))

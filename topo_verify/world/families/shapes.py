@@ -1,11 +1,8 @@
 """Small well-known graphs and the Platonic solids, drawn in the plane without crossings: genus 0.
 
 Nodes on a circle are numbered clockwise. The simplest world of each: `path(1)` (a node alone),
-`cycle(1)` (a loop), `star(1)` (an edge), `wheel(3)` (the tetrahedron), `prism(3)`.
-
-**Solids** look the same from every dart. The octahedron and the icosahedron are drawn with one
-corner in the middle and one outside, rings between them; the dodecahedron is the dual of the
-icosahedron.
+`cycle(1)` (a loop), `star(1)` (an edge), `wheel(3)` (the tetrahedron), `prism(3)`. **Solids** look
+the same from every dart.
 """
 
 from __future__ import annotations
@@ -60,7 +57,6 @@ def wheel(rim: int, *, marker: Dart | None = None) -> World:
     def rows(n: int) -> Iterable[list[int]]:
         return [
             list(range(1, n + 1)),
-            # at the top: next node east, hub south, previous node west
             *([(i + 1) % n + 1, 0, (i - 1) % n + 1] for i in range(n)),
         ]
 
@@ -72,7 +68,6 @@ def prism(sides: int, *, marker: Dart | None = None) -> World:
 
     def rows(n: int) -> Iterable[list[int]]:
         return [
-            # the outer cycle, then the inner one with the outer node in the north
             *([(i + 1) % n, n + i, (i - 1) % n] for i in range(n)),
             *([i, n + (i + 1) % n, n + (i - 1) % n] for i in range(n)),
         ]
@@ -87,11 +82,7 @@ def _made(
     marker: Dart | None,
     graph: Callable[[int], Graph],
 ) -> World:
-    """The world of this graph, once its argument is checked.
-
-    Args:
-        number: the argument's value, its least value, and darts per unit.
-    """
+    """`number`: the argument's value, its least value, and darts per unit."""
     value, least, darts_each = number
     value = arguments.integer(family, parameter, value, least)
     name, marker, _ = arguments.settled(family, value, darts=darts_each * value, marker=marker)
@@ -113,14 +104,13 @@ def cube(*, marker: Dart | None = None) -> World:
 def octahedron(*, marker: Dart | None = None) -> World:
     """6 vertices of degree 4, 12 edges, 8 triangles."""
     ring = [[5, i % 4 + 1, 0, (i - 2) % 4 + 1] for i in range(1, 5)]
-    # reversed for the node outside
     rows = [[1, 2, 3, 4], *ring, [4, 3, 2, 1]]
     return _named("octahedron", as_world("octahedron", from_neighbours(rows), 0), marker)
 
 
 def dodecahedron(*, marker: Dart | None = None) -> World:
     """20 vertices of degree 3, 30 edges, 12 pentagons."""
-    # the dual, or its mirror image, which is the same
+    # the dual
     other = icosahedron()
     return _named("dodecahedron", World.from_rotations(other.faces, other.edges, 0), marker)
 

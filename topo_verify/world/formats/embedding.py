@@ -1,17 +1,10 @@
-"""Makes a world of a drawing: vertices with coordinates, and edges with their polylines.
+"""Makes a world of a drawing: places (vertices with coordinates) and ways (edges with polylines).
 
-The rotation at a vertex (a *place* of the drawing) is the **clockwise order of the directions in
-which the edges (its *ways*) leave**, from the north on, y upwards: along the first segment of the
-way's course (its polyline; default: straight) that has a length. Directions are compared exactly:
-in fractions where floating point does not decide. Equal directions are an error.
+The rotation at a place is the clockwise order, from the north on, of the directions in which its
+ways leave. Directions are compared exactly, in fractions where floating point does not decide. A
+directed way whose course (polyline) is that of an earlier one backwards is merged with it.
 
-A course is reversed if that brings its ends nearer to its places.
-
-**One street, two directions.** A directed way with the same course as an earlier one, backwards, is
-merged with it, in pairs. Different courses stay apart, and undirected ways are never merged.
-
-The marker points at the first dart of the first place, unless it is named. Where ways cross without
-a place (bridges) the map need not be planar.
+Source: docs/formats.md, "Drawings".
 """
 
 from __future__ import annotations
@@ -33,14 +26,12 @@ W = TypeVar("W", bound=World)
 Point = tuple[float, float]
 
 FARTHEST = 1e12
-"""The largest coordinate, for products without overflow."""
+"""Products of coordinates must not overflow."""
 
 
 MOST_EDGES = 500_000
-"""Of a file: a million darts."""
 
 MOST_POINTS = 1_000_000
-"""Of all polylines in a file."""
 
 
 class DrawnVertex(NamedTuple):
@@ -55,13 +46,13 @@ class DrawnEdge(NamedTuple):
 
     start: int
     end: int
-    course: Sequence[Point] = ()  # from start to end, both included; empty: straight
+    course: Sequence[Point] = ()  # from start to end; empty: straight
     directed: bool = False
     name: str = ""  # for messages
 
 
 class DrawnEnd(NamedTuple):
-    """One end of an edge: side 0 is its start, side 1 its end."""
+    """One end of an edge; side 0 is its start."""
 
     way: int
     side: int
@@ -76,10 +67,8 @@ def as_world(
     name: str = "",
     marker: DrawnEnd | None = None,
 ) -> W:
-    """The world of the drawing.
+    """The world of the drawing; by default the marker is the first dart of the first place.
 
-    Args:
-        marker: the end that it points at; default: the first dart of the first place.
     Raises:
         InputError: equal directions, a way of one point, a place without a way, several parts.
     """
@@ -92,7 +81,7 @@ def as_world(
         rotations = [_clockwise(place, row, ways) for place, row in zip(places, exits, strict=True)]
         _require_connected(places, [ways[number] for number in kept])
         dart = {end: n for n, end in enumerate(end for row in rotations for end in row)}
-        if marker and marker.way in same:  # the other end of the way kept, which runs back
+        if marker and marker.way in same:
             marker = DrawnEnd(same[marker.way], 1 - marker.side)
         return cls.from_rotations(
             [[dart[end] for end in row] for row in rotations],
@@ -116,7 +105,6 @@ def _course(way: DrawnEdge, places: Sequence[DrawnVertex]) -> tuple[Point, ...]:
             f"at vertex '{shown(start.name)}' begins {subject} a single point, so it leaves in"
             " no direction: give it a geometry with two different points, or leave it out"
         )
-    # turned if that brings its ends nearer to its places
     as_is = _apart(course[0], start.at) + _apart(course[-1], end.at)
     turned = _apart(course[-1], start.at) + _apart(course[0], end.at)
     return course[::-1] if turned < as_is else course
@@ -129,7 +117,7 @@ def _apart(a: Point, b: Point) -> float:
 def _merged(
     ways: Sequence[DrawnEdge], courses: Sequence[tuple[Point, ...]]
 ) -> tuple[list[int], dict[int, int]]:
-    """The ways that stay, and for each other the one that it repeats backwards."""
+    """The ways that stay, and for each other way the one that it repeats backwards."""
     kept: list[int] = []
     same: dict[int, int] = {}
     waiting: dict[tuple[int, int, tuple[Point, ...]], list[int]] = {}
@@ -225,13 +213,11 @@ def _compared(first: _LeavingEnd, second: _LeavingEnd) -> int:
     """Negative if `first` comes first clockwise from the north, 0 for the same direction."""
     if first.westward != second.westward:
         return 1 if first.westward else -1
-    # less than half a turn lies between them, so a·d - b·c > 0 iff `second` is anticlockwise from
-    # `first`, and comes first
+    # less than half a turn lies between them, so a·d > b·c iff `second` comes first
     (a, b), (c, d) = first.direction, second.direction
     ahead, back = a * d, b * c
-    if abs(ahead - back) > 1e-12 * (abs(ahead) + abs(back)):  # more than rounding errors
+    if abs(ahead - back) > 1e-12 * (abs(ahead) + abs(back)):
         return 1 if ahead > back else -1
-    # coordinates are exact as fractions
     (p, q), (r, s) = first.exact, second.exact
     turn = p * s - q * r
     return (turn > 0) - (turn < 0)
@@ -253,7 +239,7 @@ def number(value: Any, subject: str, most: float = FARTHEST) -> float:
         coordinate = float(value)
         if abs(coordinate) <= most:
             return coordinate + 0.0  # not -0.0
-    # Python refuses to print very long integers
+    # unprintable
     got = "an integer" if isinstance(value, int) else repr(value)
     raise InputError(
         f"{subject} is {shown(got, limit=60)}, expected a number of at most {most:.0e} in size"
@@ -261,13 +247,13 @@ def number(value: Any, subject: str, most: float = FARTHEST) -> float:
 
 
 def line(text: str, subject: str) -> tuple[Point, ...]:
-    """The points of a polyline in well-known text, `LINESTRING (0 0, 1 2)`, without heights."""
+    """The points of well-known text, `LINESTRING (0 0, 1 2)`, without heights."""
     match = re.fullmatch(r"\s*LINESTRING\s*(?:Z\s*)?\(([^()]*)\)\s*", text, re.IGNORECASE)
     if not match:
         raise InputError(
             f"{subject} is '{shown(text, limit=60)}', expected a line as LINESTRING (0 0, 1 2)"
         )
-    # lazily: a million points as texts take ten times the memory
+    # a list of texts would take ten times the memory
     return points((part.split() for part in _parts(match[1])), subject)
 
 

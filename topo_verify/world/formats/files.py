@@ -14,7 +14,7 @@ from typing import IO, TextIO
 from topo_verify.errors import InputError, shown
 
 LIMIT = 64 * 2**20
-"""Bytes of a file: a world of a million darts with positions, twice."""
+"""Bytes: twice a world of a million darts with positions."""
 
 
 def read(path: str | PathLike[str]) -> bytes:
@@ -25,7 +25,7 @@ def read(path: str | PathLike[str]) -> bytes:
 
 @contextmanager
 def opened(path: str | PathLike[str]) -> Generator[IO[bytes]]:
-    """The file, open for reading inside the block, where errors become `InputError`."""
+    """The file, open for reading inside the block; errors become `InputError`."""
     try:
         with Path(path).open("rb") as file:
             yield file
@@ -37,7 +37,7 @@ def opened(path: str | PathLike[str]) -> Generator[IO[bytes]]:
 
 def standard_input() -> IO[bytes]:
     """Standard input, as bytes."""
-    stream: TextIO | None = sys.stdin  # after <&-
+    stream: TextIO | None = sys.stdin
     if stream is None:
         raise InputError("standard input is closed: name a file, or pipe the text in")
     return stream.buffer
@@ -60,7 +60,7 @@ def read_stream(stream: IO[bytes], *, name: str) -> bytes:
 
 
 def too_large(name: str) -> str:
-    """The error message for more."""
+    """The error message for more than `LIMIT`."""
     return (
         f"{name} is larger than {LIMIT // 2**20} MiB, the most that is read (a million darts take"
         " less): give a smaller one"
@@ -70,8 +70,8 @@ def too_large(name: str) -> str:
 def write(path: str | PathLike[str], text: str | bytes) -> None:
     """Write the bytes, or the text as UTF-8: all of it or nothing.
 
-    A complete temporary file in the same folder replaces the old one. Links are followed and
-    permissions kept. A pipe or a terminal is written to directly.
+    A complete temporary file in the same folder replaces the old one. Links are followed,
+    permissions kept; a pipe or a terminal is written to directly.
     """
     try:
         data = text.encode() if isinstance(text, str) else text
@@ -87,17 +87,17 @@ def write(path: str | PathLike[str], text: str | bytes) -> None:
 
 
 def _replace(target: Path, data: bytes) -> None:
-    # a file cannot be renamed into another file system
+    # on the same file system
     temporary = target.parent / f".topo-verify-{token_hex(8)}"
     try:
         with temporary.open("xb") as file:
             file.write(data)
             file.flush()
-            os.fsync(file.fileno())  # a crash could leave an empty file
+            os.fsync(file.fileno())
         if target.exists():
             temporary.chmod(target.stat().st_mode & 0o777)
         temporary.replace(target)
-    except BaseException:  # an interrupt, too
+    except BaseException:
         temporary.unlink(missing_ok=True)
         raise
 

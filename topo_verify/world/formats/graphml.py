@@ -1,14 +1,9 @@
 """GraphML: worlds with their rotation, and drawings as OSMnx and NetworkX write them.
 
-A graph whose data `format` is `topo-verify/graph` carries its rotation in the data that rotated.py
-lists, darts as `0 5 3`.
+A graph whose data `format` is `topo-verify/graph` carries its rotation (rotated.py). Any other
+graph is a **drawing** (embedding.py): nodes with `x` and `y`, edges perhaps with a `geometry`.
 
-Any other graph is a **drawing** (embedding.py): nodes with `x` and `y` (or longitude and latitude),
-edges directed or not, perhaps with a `geometry` in well-known text. A street network of OSMnx
-(`save_graphml`) holds both directions of a street: each pair becomes one edge. A network in several
-parts is refused; `osmnx.truncate.largest_component` keeps one.
-
-Source: U. Brandes and others, "GraphML Progress Report", Graph Drawing 2001.
+Source: docs/formats.md; U. Brandes and others, "GraphML Progress Report", Graph Drawing 2001.
 """
 
 from __future__ import annotations
@@ -31,7 +26,6 @@ _WANTED = {
     "node": ("x", "y", "rotation", "name"),
     "edge": ("geometry", "darts"),
 }
-"""The data that are read."""
 
 
 def decode(cls: type[W], data: bytes, *, name: str = "GraphML", stem: str = "") -> W:
@@ -111,21 +105,18 @@ class _Edge(NamedTuple):
 
 
 class _Reader:
-    """Collects the keys, nodes and edges of a document.
-
-    `element` is the data of the open graph, node or edge, `attributes` the attributes.
-    """
+    """Collects nodes and edges; `element` is the data of the open graph, node or edge."""
 
     def __init__(self, name: str) -> None:
         self.name = name
         self.is_graphml = False
-        self.directed: bool | None = None  # None before the graph
-        self.keys: dict[tuple[str, str], str] = {}  # names of data by kind and key
+        self.directed: bool | None = None
+        self.keys: dict[tuple[str, str], str] = {}
         self.defaults: dict[str, dict[str, str]] = {kind: {} for kind in _WANTED}
-        self.about: dict[str, str] = {}  # of the graph
+        self.about: dict[str, str] = {}
         self.nodes: dict[str, dict[str, str]] = {}
         self.edges: list[_Edge] = []
-        self.points = 0  # of all geometries
+        self.points = 0
         self.attributes: dict[str, str] = {}
         self.element: dict[str, str] = {}
         self.data_key = ""
@@ -167,7 +158,6 @@ class _Reader:
                 pass
 
     def _key(self, attributes: Mapping[str, str]) -> None:
-        # for the <default> in this <key>
         self.data_key = attributes.get("id", "")
         for kind, wanted in _WANTED.items():
             name = attributes.get("attr.name", "")
@@ -195,7 +185,7 @@ class _Reader:
         text = data.get("geometry", "").strip()
         self.points += text.count(",")
         self._require_size(len(self.edges) + 1)
-        own = given.get("directed")  # an edge may differ from its graph
+        own = given.get("directed")
         self.edges.append(
             _Edge(
                 given.get("source"),
@@ -252,6 +242,6 @@ def encode(world: World) -> str:
     for *_, attributes in graph.edges(data=True):
         attributes["darts"] = " ".join(map(str, attributes["darts"]))
     file = BytesIO()
-    # with lxml, `write_graphml` writes other bytes
+    # `write_graphml` depends on lxml
     cast("Any", nx).write_graphml_xml(graph, file)
     return file.getvalue().decode().removesuffix("\n")

@@ -1,7 +1,7 @@
 """Reads XML that may be hostile, as a stream.
 
 A document type declaration is refused, so nothing expands ("billion laughs") and nothing is
-fetched. The depth is limited. Names come without their namespaces.
+fetched. The depth is limited. Names come without namespaces.
 
 Source: "XML security" in the manual of Python's standard library.
 """
@@ -14,20 +14,19 @@ from xml.parsers import expat
 from topo_verify.errors import InputError
 
 DEEPEST = 64
-"""Elements within elements; the formats here need 6."""
+"""The formats here need 6."""
 
 _SEPARATOR = "\x01"
-"""Between a namespace and a name; no document can hold it."""
 
 OnStart = Callable[[tuple[str, ...], dict[str, str]], None]
 """Called with the names from the root, and the attributes."""
 
 OnEnd = Callable[[tuple[str, ...], str], None]
-"""Called with the names from the root, and the text just before the end."""
+"""Called with the names from the root, and the text just before."""
 
 
 def read(data: bytes, *, name: str, start: OnStart, end: OnEnd) -> None:
-    """Go through the document. Raises InputError, and whatever `start` and `end` raise."""
+    """Go through the document; raises InputError."""
     path: list[str] = []
     text: list[str] = []
 
@@ -59,7 +58,7 @@ def read(data: bytes, *, name: str, start: OnStart, end: OnEnd) -> None:
         parser.Parse(data, True)  # noqa: FBT003  expat's signature
     except expat.ExpatError as error:
         raise InputError(f"{name} is not valid XML: {error}") from error
-    # an encoding that expat does not know
+    # an unknown encoding
     except (LookupError, ValueError) as error:
         if isinstance(error, InputError):
             raise

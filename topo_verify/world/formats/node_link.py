@@ -5,8 +5,8 @@
      "nodes": [{"rotation": [0], "id": 0}, {"rotation": [1], "id": 1}],
      "edges": [{"darts": [0, 1], "source": 0, "target": 1, "key": 0}]}
 
-`networkx.node_link_graph` and D3 read it. rotated.py names the attributes. `links`, the former name
-of `edges`, is read as well. Other fields are ignored; repeated ones are refused.
+rotated.py names the attributes. `links`, the former name of `edges`, is read as well. Other fields
+are ignored; repeated ones are refused.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
 
-_SAFE = 2**53  # exact in every reader of JSON
+_SAFE = 2**53
 _FileDart = Annotated[int, Meta(ge=-_SAFE, le=_SAFE)]
 _Id = int | str
 
@@ -65,8 +65,6 @@ class _NodeLink(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class _Header(msgspec.Struct):
-    """Read first: a newer version may have other fields."""
-
     graph: dict[str, Any]
 
 
@@ -131,7 +129,7 @@ def _parse(text: str | bytes, name: str) -> _NodeLink:
 
 
 def encode(world: World) -> str:
-    """Node-link JSON on one line, the same text for the same world."""
+    """Node-link JSON on one line."""
     data = _NodeLink(
         graph=_Graph(**rotated.attributes(world)),
         nodes=tuple(

@@ -1,13 +1,8 @@
-"""NetworkX: every world as a multigraph and back, planar embeddings, graphs with positions.
+"""NetworkX: multigraphs with rotations, planar embeddings, graphs with positions.
 
-**Multigraphs with rotations** hold every world whole (rotated.py). Nodes are the numbers of the
-vertices, keys those of the edges.
-
-**Planar embeddings** (`networkx.PlanarEmbedding`) hold clockwise orders of simple planar graphs.
-Vertices come in the order of the nodes, each from its first neighbour on; the marker's vertex and
-dart are written first.
-
-**Graphs with positions** become worlds as embedding.py says, such as a street network from OSMnx.
+**Multigraphs with rotations** hold every world whole (rotated.py), **planar embeddings** simple
+planar worlds. **Graphs with positions**, such as street networks of OSMnx, are read as embedding.py
+says.
 
 In the last two the marker is the first dart of the first vertex, unless `marker=("a", "b")` names
 its edge: it lies at a and points to b; in a multigraph a key may follow.
@@ -29,15 +24,11 @@ if TYPE_CHECKING:
     import networkx as nx
 
 MarkerEnds = tuple[Any, ...]
-"""The marker's node, the node that it points to, and perhaps the edge's key."""
+"""A node, the node that the marker points to, and perhaps the edge's key."""
 
 
 def to_networkx(world: World) -> nx.MultiGraph[int]:
-    """The world's graph.
-
-    The graph has `marker`; each node has `rotation`, its darts clockwise; each edge has `darts`.
-    Names and positions (`x`, `y`) come along.
-    """
+    """The world as a graph with `marker`, `rotation` of each node and `darts` of each edge."""
     import networkx as nx
 
     graph: nx.MultiGraph[int] = nx.MultiGraph()
@@ -96,8 +87,7 @@ def from_planar_embedding(
     """The world with the embedding's rotations.
 
     Args:
-        marker: (node, neighbour); default: the first node and its first neighbour.
-        name: of the world.
+        marker: (node, neighbour).
     Raises:
         InputError: the embedding is broken, empty or not connected, or has no such edge.
     """
@@ -105,7 +95,7 @@ def from_planar_embedding(
 
     source = "the planar embedding"
     given = cast("Any", embedding)
-    try:  # half-made embeddings fail in many ways
+    try:
         given.check_structure()
         rows = {node: list(given.neighbors_cw_order(node)) for node in given}
     except (nx.NetworkXException, KeyError, TypeError) as error:
@@ -130,7 +120,7 @@ def to_planar_embedding(world: World) -> nx.PlanarEmbedding[int]:
     """The embedding whose nodes are the numbers of the vertices, the marker's first.
 
     Raises:
-        InputError: the world is not simple or not planar.
+        InputError: the world is not simple and planar.
     """
     import networkx as nx
 
@@ -138,7 +128,7 @@ def to_planar_embedding(world: World) -> nx.PlanarEmbedding[int]:
     first = world.marker_vertex
     order = [first, *(v for v in range(len(world.vertices)) if v != first)]
     rotations = list(world.vertices)
-    if world.root is not None:  # the marker's dart comes first
+    if world.root is not None:
         turn = world.place_of[world.root]
         rotations[first] = rotations[first][turn:] + rotations[first][:turn]
     embedding: nx.PlanarEmbedding[int] = nx.PlanarEmbedding()
@@ -163,7 +153,6 @@ def from_positions(
             LINESTRING (0 0, 1 2), or an object with `coords`; default: straight.
         positions: (x, y) of each node; default: the nodes' own attributes, `x` and `y` or `pos`.
         marker: (node, neighbour) or (node, neighbour, key).
-        name: of the world.
     Raises:
         InputError: a position or geometry is missing or malformed, two edges leave a node at one
             angle, the graph is empty or not connected, or the marker names no edge or several.
@@ -218,7 +207,7 @@ def _row(value: Any, subject: str) -> list[Any]:
 
 
 def _marked(marker: MarkerEnds, labels: Sequence[tuple[Any, ...]]) -> DrawnEnd:
-    """The one end of an edge that the marker names; of a loop, its start.
+    """The end of an edge that the marker names; of a loop, its start.
 
     In a directed graph an edge in this direction precedes one against it.
     """

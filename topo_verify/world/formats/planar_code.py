@@ -2,18 +2,14 @@
 
     >>planar_code<<  3  2 3 0  1 3 0  1 2 0       (a triangle; a number is a byte)
 
-After the optional head the graphs follow one another: the number of vertices, then for each vertex
-its neighbours in clockwise order, from 1, and a zero. A graph of more than 255 vertices begins with
-a zero byte, and its numbers have two bytes: the high byte first, unless the head is
-`>>planar_code le<<`.
-
-The format has no marker: it is the first dart of the first vertex. Written worlds are numbered
-breadth-first from it, so isomorphic worlds give the same bytes.
+After the optional head come the graphs: the number of vertices, then for each vertex its neighbours
+in clockwise order, from 1, and a zero. A graph of more than 255 vertices begins with a zero byte,
+and its numbers have two bytes, the high byte first unless the head is `>>planar_code le<<`.
 
 What this does not show: that the writer meant clockwise; a mirror image is a valid file.
 
-Source: G. Brinkmann and B. D. McKay, plantri-guide.txt; for the head and the byte order the guide
-of CaGe and `planarg` of nauty 2.8.
+Source: docs/formats.md; G. Brinkmann and B. D. McKay, plantri-guide.txt; for the head and the byte
+    order the guide of CaGe and `planarg` of nauty 2.8.
 """
 
 from __future__ import annotations
@@ -29,7 +25,6 @@ from topo_verify.world.rooted_map import World
 W = TypeVar("W", bound=World)
 
 MAX_VERTICES = 2**16 - 1
-"""The largest number of two bytes."""
 
 _HEAD = re.compile(rb">>planar_code(?: ?(le|be))? ?<<")
 
@@ -56,7 +51,6 @@ def decode(
                 f"{name} holds several graphs: say which, counted from 0, as in"
                 " World.load(path, graph=0), or give each a file"
             )
-        # parsing earlier graphs finds its start
         if number == (graph or 0):
             neighbours = rows
         if number == graph:
@@ -95,7 +89,7 @@ def encode(world: World) -> bytes:
 
 
 def require_simple_and_planar(world: World, subject: str) -> None:
-    """Refuse a world that is not simple and planar."""
+    """Refuse any other world."""
     if not world.is_simple:
         raise InputError(
             f"{subject} holds simple worlds, and this one has loops or parallel edges: keep it as"
@@ -144,7 +138,7 @@ def _graph(data: bytes, at: int, name: str, *, little: bool) -> tuple[list[Seque
 
 
 def _row(data: bytes, at: int) -> tuple[Sequence[int], int]:
-    """The numbers up to the next zero, and the position behind it (past the end without a zero)."""
+    """The numbers up to the next zero, and the position behind it."""
     end = data.find(0, at)
     return (data[at:end], end + 1) if end >= 0 else ((), len(data) + 1)
 

@@ -1,17 +1,7 @@
 """Graphs that carry a rotation: a world as NetworkX, GraphML and node-link JSON can hold it.
 
-Every world is an undirected multigraph with these attributes:
-
-| of | attribute | value |
-| --- | --- | --- |
-| the graph | `format`, `version` | `topo-verify/graph`, 1 |
-| | `marker` | the dart that the marker points at, if there is a dart |
-| | `name`, `source`, `licence` | optional texts |
-| a node | `rotation` | its darts in clockwise order |
-| | `name`; `x` and `y` | optional name and position, y upwards |
-| an edge | `darts` | its two darts, in any order |
-
-Other attributes are ignored.
+The graph is an undirected multigraph with the attributes of docs/formats.md, "Graphs with a
+rotation"; others are ignored.
 """
 
 from __future__ import annotations
@@ -31,7 +21,6 @@ W = TypeVar("W", bound=World)
 
 FORMAT: Final = "topo-verify/graph"
 VERSION: Final = 1
-"""The newest version that is read, and the one that is written."""
 
 
 class RotatedVertex(NamedTuple):
@@ -44,7 +33,7 @@ class RotatedVertex(NamedTuple):
 
 
 class RotatedEdge(NamedTuple):
-    """An edge between two vertices, by their numbers, and its darts."""
+    """An edge between two vertices, by their numbers."""
 
     start: int
     end: int
@@ -60,11 +49,7 @@ def as_world(
     source: str,
     about: Mapping[str, str],
 ) -> W:
-    """The world with these rotations.
-
-    Args:
-        about: name, source and licence of the world.
-    """
+    """The world with these rotations; `about` is its name, source and licence."""
     given = {
         "vertices": [vertex.rotation for vertex in vertices],
         "edges": [edge.darts for edge in edges],

@@ -1,14 +1,11 @@
 """SUMO's road networks, `.net.xml`: the undirected graph of their streets.
 
-The reader takes each `<junction>` with `id`, `x`, `y` (y upwards) and each `<edge>` with `id`,
-`from`, `to` and an optional `shape`, except those within a junction, whose id begins with ':'.
+The reader takes each `<junction>` with `id`, `x`, `y` and each `<edge>` with `id`, `from`, `to` and
+an optional `shape`; not those within a junction, whose id begins with ':'. Both directions of a
+street are one edge, if their ids differ only in a leading '-' or their shapes are each other's
+reverse.
 
-**Both directions of a street are one edge**, if their ids differ only in a leading '-' or their
-shapes are each other's reverse. Others stay apart, such as the carriageways of a motorway.
-
-Networks in several parts are refused; `netconvert --keep-edges.components 1` keeps the largest.
-
-Source: Eclipse SUMO, user documentation, "SUMO Road Networks".
+Source: docs/formats.md; Eclipse SUMO, user documentation, "SUMO Road Networks".
 """
 
 from __future__ import annotations
@@ -44,7 +41,7 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
             if not key or key in known:
                 why = "stands there twice" if key else "has no id"
                 raise InputError(f"{subject} {why}: each has an id of its own")
-            if key.startswith(":"):  # within a junction
+            if key.startswith(":"):
                 return
             if path[1] == "edge":
                 edges[key] = attributes
@@ -58,7 +55,7 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
             embedding.require_size(name, vertices=len(places), edges=len(edges), points=points)
 
     def end(_path: tuple[str, ...], _text: str) -> None:
-        """Does nothing: SUMO's texts are attributes."""
+        """SUMO's texts are attributes."""
 
     markup.read(data, name=name, start=start, end=end)
     ways = _ways(places, edges, name)
@@ -75,11 +72,10 @@ def _ways(
         start, end = (number.get(attributes.get(side, "")) for side in ("from", "to"))
         if start is None or end is None:
             raise InputError(f"{subject}: expected the ids of two junctions as 'from' and 'to'")
-        # lazily: see embedding.line
+        # lazily, as embedding.line
         shape = re.finditer(r"\S+", attributes.get("shape", ""))
         rows = (point[0].split(",") for point in shape)
         course = embedding.points(rows, f"{subject}, shape")
-        # a leading "-" names the other direction
         other = ways.get(key[1:] if key.startswith("-") else f"-{key}")
         if other is None or (other.start, other.end) != (end, start):
             ways[key] = DrawnEdge(start, end, course, directed=True, name=key)

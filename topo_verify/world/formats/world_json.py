@@ -3,13 +3,9 @@
     {"format": "topo-verify/world", "version": 1, "name": "triangle",
      "vertices": [[0, 5], [1, 2], [3, 4]], "edges": [[0, 1], [2, 3], [4, 5]], "marker": 0}
 
-Darts are any distinct integers, numbered 0 … 2m-1 in ascending order when read. The JSON Schema
-beside this file is made from `WorldFile`.
-
-Reading is strict, because a file read differently from its writer's meaning makes results about it
-worthless: no field may be unknown or repeated, no number of another kind.
-
-What this does not show: that rotations were meant clockwise. A mirror image is a valid file.
+Darts are any distinct integers, renumbered in ascending order. Reading is strict (no unknown or
+repeated field), because results about a misread world are worthless. What this does not show: that
+rotations were meant clockwise. A mirror image is a valid file.
 
 Source: docs/semantics.md, section 14.
 """
@@ -30,10 +26,8 @@ from topo_verify.world.rooted_map import World
 W = TypeVar("W", bound=World)
 
 VERSION: Final = 1
-"""The newest version that is read, and the one that is written."""
 
 _SAFE = 2**53
-"""Exact in every reader of JSON."""
 
 _FileDart = Annotated[int, Meta(ge=-_SAFE, le=_SAFE)]
 
@@ -41,7 +35,7 @@ _FileDart = Annotated[int, Meta(ge=-_SAFE, le=_SAFE)]
 class WorldFile(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A world file: an embedded graph with one directional marker."""
 
-    # The schema carries this docstring; descriptions end the sentences of error messages.
+    # part of the schema; error messages end with the descriptions
 
     format: Annotated[
         Literal["topo-verify/world"], Meta(description="the name of this format, topo-verify/world")
@@ -79,14 +73,12 @@ class WorldFile(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 
 
 class _Header(msgspec.Struct):
-    """Read first: a newer version may have other fields."""
-
     format: str
     version: int
 
 
 def schema() -> dict[str, Any]:
-    """The JSON Schema of a world file; `world.schema.json` holds the same."""
+    """The JSON Schema of a world file, as in `world.schema.json`."""
     made = msgspec.json.schema(WorldFile)
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **made}
 
@@ -112,7 +104,6 @@ def decode(cls: type[W], text: str | bytes, *, name: str = "world JSON", stem: s
 def _parse(text: str | bytes, name: str) -> WorldFile:
     text = utf8_text(text, name)
     try:
-        # first, since a newer version may have other fields
         _require_version(msgspec.json.decode(text, type=_Header), name)
         data = msgspec.json.decode(text, type=WorldFile)
     except msgspec.ValidationError as error:
@@ -127,7 +118,7 @@ def _parse(text: str | bytes, name: str) -> WorldFile:
         raise InputError(
             f"{name}: expected a world, got lists that are nested too deeply: give one a vertex"
         ) from error
-    # msgspec keeps the last of two equal keys; the text is a valid world file by now
+    # msgspec keeps the last of two equal keys
     require_single_keys(text, name)
     return data
 
@@ -170,12 +161,11 @@ def require_single_keys(text: str, name: str) -> None:
                 raise InputError(f"{name} has the field '{key}' twice: leave one of the two out")
             keys.add(key)
 
-    # Python refuses to parse very long integers
+    # long integers cannot be parsed
     json.loads(text, object_pairs_hook=single, parse_int=str)
 
 
 def _sentence(error: str, name: str) -> str:
-    """msgspec's error as a sentence with the place, the right content and the mend."""
     problem, _, place = error.partition(" - at `$.")
     fields = schema()["$defs"]["WorldFile"]["properties"]
     named = re.match(r"\w+", place) or re.search(r"(?<=missing required field `)\w+", problem)
@@ -210,7 +200,7 @@ def to_data(world: World) -> WorldFile:
 
 
 def encode(world: World) -> str:
-    """World JSON on one line, the same text for the same world."""
+    """World JSON on one line."""
     return encoded(to_data(world))
 
 
