@@ -2,8 +2,7 @@
 
     .venv/bin/python benchmarks/advice.py
 
-100 random worlds each. In the second half the robot first strolls at random, which costs nothing
-here.
+100 random worlds each. In the second half the robot first strolls at random, free of charge.
 """
 
 from __future__ import annotations
@@ -43,7 +42,6 @@ def followed(world: tv.World, stroll: int, random: Random) -> tuple[int, int]:
 
 
 def main() -> None:
-    """Print the table."""
     names = (
         "random_tree(20)",
         "random_planar(26)",

@@ -8,8 +8,7 @@ acting on such beliefs could save.
     .venv/bin/python benchmarks/belief.py --families 'lattice(10' 'king(10,10,holes'
     .venv/bin/python benchmarks/belief.py --calibration --families 'lattice(10'
 
-`--calibration` prints how often a place believed to be new was new. e, h: as in
-algorithms/history.py.
+`--calibration` prints how often a place believed to be new was new.
 """
 
 from __future__ import annotations
@@ -39,7 +38,6 @@ SHARES = (2.0, 0.99, 0.95, 0.9, 0.8, 0.5, 0.0)
 """The beliefs from which on the oracle speaks; 2 is never, 0 is always."""
 
 LEAST_NEW = 0.02
-"""The least belief that a place is new."""
 
 
 class Believer:
@@ -52,7 +50,6 @@ class Believer:
         self.seen: Counter[tuple[int, bool]] = Counter()  # belief in hundredths, whether new
 
     def __call__(self, robot: Robot) -> Survey:
-        """Map the robot's world."""
         return steer(robot, edge=outward_edge, door=self.door, history_of=self._history)
 
     def _history(self, robot: Robot) -> History:
@@ -86,11 +83,7 @@ class Believer:
 
 
 def believing(job: Job) -> Run:
-    """The cost of a believer; `job.mapper` is the share from which on the oracle speaks.
-
-    Raises:
-        SystemExit: the delivered map is wrong.
-    """
+    """The cost of a believer; `job.mapper` is the share from which on the oracle speaks."""
     world = drawn(job.family, job.seed)
     began = time.process_time()
     run = explore(world, Believer(world, float(job.mapper)), limits=PATIENT)
@@ -100,7 +93,6 @@ def believing(job: Job) -> Run:
 
 
 def calibration(families: list[str], seeds: int) -> None:
-    """Print by tenths of the belief how often a place was new."""
     print(head(["family", *(f"{ten * 10}-{ten * 10 + 9} %" for ten in range(10))]))
     for family in families:
         seen: Counter[tuple[int, bool]] = Counter()
@@ -120,7 +112,6 @@ def calibration(families: list[str], seeds: int) -> None:
 
 
 def main() -> None:
-    """Print the table."""
     ask = argparse.ArgumentParser(description="planner with an oracle for what it believes")
     ask.add_argument("--families", nargs="+", default=[""], help="those whose text begins so")
     ask.add_argument("--seeds", type=int, default=10, help="0 … N-1")

@@ -2,14 +2,14 @@
 
 Each mutant of the files in `MUTATED` (mutations.py) maps the same worlds until its trace differs
 from that of the mapper that Coq proves, extracted to OCaml. If none differs, it has **survived**.
-`SAME` lists the mutants that no trace shows, with reasons. Each mutant runs in a fork; one that
-takes over 20 s of the processor counts as seen.
+`SAME` lists the mutants that no trace shows, with reasons. A mutant that takes over 20 s of the
+processor counts as killed.
 
     .venv/bin/python benchmarks/bridge.py                     every mutant
     .venv/bin/python benchmarks/bridge.py --only motion.py    those of one file
     .venv/bin/python benchmarks/bridge.py --library DIR       the library in Coq, compiled before
 
-Exit code 1 if a mutant survives that is not in `SAME`, or one that is there was seen.
+Exit code 1 if a mutant survives that is not in `SAME`, or one of `SAME` is killed.
 """
 
 from __future__ import annotations
@@ -111,7 +111,6 @@ def differs(runs: Sequence[tuple[bridge.Job, str]], mutant: Mutant, pipe: Connec
 
 
 def main() -> int:
-    """Run the test."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--only", default="", help="mutants whose file or text has this in it")
     parser.add_argument("--list", action="store_true", help="list them, and do no more")

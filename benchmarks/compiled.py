@@ -4,10 +4,10 @@
     .venv/bin/python benchmarks/compiled.py --only enumeration basic
     .venv/bin/python benchmarks/compiled.py --only nine ten --whole   # all 31,579,824 worlds
 
-Seconds are processor time; rows for two cores also show the clock. Kernels are compiled before.
-`nine` and `ten` examine one of sixteen slices of the worlds with 8 edges and extrapolate, without
-`--whole`. The ratio to C compares with `compiled_twin.c` (cc -O2 -march=native), which runs before
-and after the kernel; equal costs and counts are required.
+Seconds are processor time, with kernels compiled before; rows for two cores also show the clock.
+Without `--whole`, `nine` and `ten` extrapolate from one of sixteen slices of the worlds with 8
+edges. The ratio to C compares with `compiled_twin.c` (cc -O2 -march=native), which runs before and
+after the kernel; equal costs and counts are required.
 """
 
 from __future__ import annotations
@@ -44,18 +44,15 @@ PAPER = [name for name in CATALOGUE if "folding" not in name]
 
 SLICE = 20_000
 PART = 16
-"""Every sixteenth slice of 8 edges is examined by default."""
 
 
 def seconds(work: Callable[[], object]) -> float:
-    """The processor seconds of some work."""
     start = process_time()
     work()
     return process_time() - start
 
 
 def space() -> np.ndarray[tuple[int], np.dtype[np.int64]]:
-    """An empty workspace."""
     return np.zeros(SMALL.at("SIZE"), np.int64)
 
 
@@ -73,7 +70,6 @@ def listed(kind: str, edges: int) -> tuple[int, float]:
 
 
 def enumeration(row: Row, _: bool) -> None:
-    """Listing worlds, class by class, beside C in class `any`."""
     with tempfile.TemporaryDirectory() as folder:
         program = built(Path(folder))
         worlds, took = listed("any", 8)
@@ -96,7 +92,6 @@ def enumeration(row: Row, _: bool) -> None:
 
 
 def built(folder: Path) -> Path | None:
-    """The C twin, built by cc; None without a compiler."""
     program = folder / "compiled_twin"
     source = Path(__file__).with_name("compiled_twin.c")
     command = ["cc", "-O2", "-march=native", "-o", str(program), str(source)]
@@ -204,12 +199,10 @@ def everything(row: Row, claims: int, required: str, whole: bool) -> None:
 
 
 def nine(row: Row, whole: bool) -> None:
-    """Claims 1 to 9."""
     everything(row, 9, "< 3.5 min", whole)
 
 
 def ten(row: Row, whole: bool) -> None:
-    """All ten claims."""
     everything(row, 10, "< 4.5 min", whole)
 
 
@@ -217,7 +210,6 @@ def ten(row: Row, whole: bool) -> None:
 
 
 def lattice(row: Row, _: bool) -> None:
-    """A large lattice with holes."""
     world = families.lattice(100, 100, holes=0.2, seed=1)
     run_world(World.from_id("m1/0"), "enhancement-iii-all+i")
     took = seconds(lambda: run_world(world, "enhancement-iii-all+i"))
@@ -239,13 +231,11 @@ ROWS = {work.__name__: work for work in (enumeration, basic, speedup, nine, ten,
 
 
 def table(row: Row, only: list[str] | None = None, *, whole: bool = False) -> None:
-    """Print the rows."""
     for name in only or ROWS:
         ROWS[name](row, whole)
 
 
 def main() -> None:
-    """Print these rows only."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--only", nargs="+", choices=list(ROWS), help="these rows alone")
     parser.add_argument("--whole", action="store_true", help="examine every world to 8 edges")

@@ -3,8 +3,8 @@
     python benchmarks/dearer.py 6                 # every pair of the catalogue, by the reference
     python benchmarks/dearer.py 8 --compiled      # the enhancements against what they enhance
 
-Only costs are compared; `topo-verify search --compare A,B` does it for one pair and judges every
-run. `--compiled` needs the extra `fast`; it stops if one of claims 1 to 8 fails.
+Only costs are compared; `topo-verify search --compare A,B` also judges every run. `--compiled`
+needs the extra `fast`; it stops if one of claims 1 to 8 fails.
 """
 
 from __future__ import annotations
@@ -22,17 +22,14 @@ NAMES = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is N
 """From the weakest to the strongest."""
 
 SHARD = 500_000
-"""Worlds compared in one task."""
 
 Pair = tuple[str, str]
-"""The stronger algorithm, and the weaker one."""
 
 Row = tuple[int, int, str]
 """In how many worlds the first costs more, by how much at most, and the first such world."""
 
 
 def costs(world: World) -> dict[str, int]:
-    """The cost of each algorithm in a world, in edge traversals."""
     found: dict[str, int] = {}
     for name in NAMES:
         robot = SimulatedRobot(world, world.cost_bound)
@@ -42,7 +39,6 @@ def costs(world: World) -> dict[str, int]:
 
 
 def by_reference(largest: int) -> Iterator[tuple[Pair, Row]]:
-    """Every pair in which the stronger costs more in some world up to this size."""
     rows: dict[Pair, Row] = {}
     for edges in range(1, largest + 1):
         for rank, table in enumerate(rank_order.tables(edges)):
@@ -74,7 +70,6 @@ def compared(task: tuple[Pair, int, int]) -> tuple[int, int, int]:
 
 
 def by_engine(largest: int) -> Iterator[tuple[Pair, Row]]:
-    """The pairs of `enhanced` in which the stronger costs more in some world up to this size."""
     sizes = range(1, largest + 1)
     shards = [(m, start) for m in sizes for start in range(0, rank_order.count(m), SHARD)]
     compared((("basic", "enhancement-i"), 1, 0))  # compiles the kernels once, for all processes
@@ -88,7 +83,6 @@ def by_engine(largest: int) -> Iterator[tuple[Pair, Row]]:
 
 
 def main() -> None:
-    """Print a row for each such pair."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("edges", type=int, nargs="?", default=5)
     parser.add_argument("--compiled", action="store_true", help="by the compiled engine")

@@ -1,7 +1,7 @@
-"""How heavy each core dependency is: `python benchmarks/dependencies.py` prints the table.
+"""How heavy each core dependency is: prints the table of docs/reference/dependencies.md.
 
-The table of docs/reference/dependencies.md: purpose, size of the installed files without .pyc, the
-same with all that it needs, and the processor time of a first import, the median of five.
+Purpose, size of the installed files without .pyc, the same with all that it needs, and the
+processor time of a first import, the median of five.
 """
 
 from __future__ import annotations
@@ -44,13 +44,11 @@ print(time.process_time() - begin)
 
 
 def core() -> list[str]:
-    """The core dependencies of pyproject.toml."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     return [Requirement(text).name for text in project["dependencies"]]
 
 
 def size(name: str) -> int:
-    """The bytes of a distribution's installed files."""
     files = metadata.distribution(name).files or []
     paths = [Path(str(file.locate())) for file in files if file.suffix != ".pyc"]
     return sum(path.stat().st_size for path in paths if path.is_file())
@@ -75,7 +73,6 @@ def _required(name: str) -> Iterator[str]:
 
 
 def import_time(name: str) -> float:
-    """Processor seconds of the first import in a fresh Python: the median of five."""
     code = CLOCK.format(module=MODULES.get(name, name))
     line = [sys.executable, "-c", code]
     times = [
@@ -86,7 +83,6 @@ def import_time(name: str) -> float:
 
 
 def main() -> None:
-    """Print the table."""
     print("| package | for | installed | with what it needs | import |")
     print("| --- | --- | ---: | ---: | ---: |")
     everything = set[str]()

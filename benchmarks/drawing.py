@@ -59,7 +59,6 @@ def draws(strategy: SearchStrategy[Any]) -> float:
 
 
 def table(row: Callable[[str, str, str], None]) -> None:
-    """One line a strategy."""
     row("worlds of 30 edges, as Hypothesis draws them", "", "")
     beside = draws(GRAPHS)
     for name, strategy in WORLDS.items():

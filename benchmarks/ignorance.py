@@ -7,17 +7,15 @@ and prove the rest. The columns are what it tells:
     new        that the place behind e is new, if it is: e is settled for nothing
     true       which hypothesis is true, if one is: the others are refuted for nothing
     new, 1     both
-    new, k     `new`; and if the place is known, the true hypothesis and k-1 others are left
+    new, k     `new`; and if the place is known, the true hypothesis and k-1 others remain
 
 A cell is the mean cost over the mean least cost of a proof, with the standard error of this ratio.
-Every run delivers the right map, or the script stops.
+A wrong map stops the script.
 
     .venv/bin/python benchmarks/ignorance.py --families 'lattice(10' 'king(10,10,holes'
     .venv/bin/python benchmarks/ignorance.py --mappers homing --seeds 4 --runs runs.csv
 
-    letter       what it is
-    S, e, h      as in algorithms/history.py
-    phi          dart of S -> the dart of the world that it is
+S, e, h: as in algorithms/history.py; phi: dart of S -> the dart of the world that it is.
 """
 
 from __future__ import annotations
@@ -78,11 +76,9 @@ class ToldHistory(History):
             entry = self.world.sigma[entry]
 
     def leads_to_new(self, e: MapDart) -> bool:
-        """Whether e leads to a vertex that S lacks."""
         return self.world.alpha[self.phi[e]] not in self.map_dart_of
 
     def tell_new(self, e: MapDart) -> None:
-        """Settle a crossed e that leads to a new vertex."""
         self.told_new.add(e)
         self._settle()
 
@@ -113,11 +109,7 @@ class ToldHistory(History):
 
 
 def told(job: Job) -> Run:
-    """The cost of a mapper with an oracle; `job.mapper` is `homing: new, 2`.
-
-    Raises:
-        SystemExit: the delivered map is wrong.
-    """
+    """The cost of a mapper with an oracle; `job.mapper` is `homing: new, 2`."""
     name, _, oracle = job.mapper.partition(": ")
     world = drawn(job.family, job.seed)
 
@@ -132,7 +124,6 @@ def told(job: Job) -> Run:
 
 
 def main() -> None:
-    """Print the table."""
     ask = argparse.ArgumentParser(description="mean cost / least cost with truthful oracles")
     ask.add_argument("--mappers", default="homing,planner", help="names, with commas")
     ask.add_argument("--families", nargs="+", default=[""], help="those whose text begins so")

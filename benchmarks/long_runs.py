@@ -30,7 +30,7 @@ MOVES = 1_000_000
 
 
 class Used(NamedTuple):
-    """Processor seconds and peak megabytes of a command."""
+    """The processor time and peak memory of a process."""
 
     seconds: float
     megabytes: int
@@ -46,12 +46,10 @@ print(os.waitstatus_to_exitcode(status), usage.ru_utime + usage.ru_stime, usage.
 
 
 def used(*words: str) -> Used:
-    """The use of a topo-verify command, which must not say REFUTED."""
     return measured("-m", "topo_verify", *words, "--quiet")
 
 
 def measured(*words: str) -> Used:
-    """The use of a Python process with these arguments."""
     command = [sys.executable, "-c", MEASURE, sys.executable, *words]
     told = subprocess.run(command, capture_output=True, check=True, text=True).stdout  # noqa: S603  our own command
     code, seconds, kilobytes = told.split()
@@ -83,7 +81,6 @@ def algorithm_alone(name: str, world: World) -> float:
 
 
 def table(row: Row, sides: Sequence[int] = (32,)) -> None:
-    """Print the rows; a lattice of each of these sides."""
     with tempfile.TemporaryDirectory() as folder:
         for kind, doors in PATROLS.items():
             log = Path(folder) / "log.jsonl"
@@ -132,7 +129,6 @@ def growth(row: Row, small: int = 15, large: int = 50) -> None:
 
 
 def print_row(*cells: str) -> None:
-    """Print a row of the table."""
     print(f"{cells[0]:<66}{cells[1]:>20}{cells[2]:>12}", flush=True)
 
 

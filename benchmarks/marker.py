@@ -1,5 +1,7 @@
 """Where to put the marker: how much a good place saves, and whether a rule of thumb predicts it.
 
+    .venv/bin/python benchmarks/marker.py        # a few minutes in two processes
+
 In each world the marker lies at every dart, and every run is judged. Costs are shares of the mean
 over all darts of the world; a row is the mean over a family, ± its standard error. A rule is judged
 by the mean over the darts that fit it:
@@ -8,8 +10,7 @@ by the mean over the darts that fit it:
 - `high degree`: darts at vertices of the greatest degree;
 - `dead end`: darts at vertices of degree 1, which point out of the dead end.
 
-`r` is the correlation (Spearman) of cost with eccentricity and with degree. Run it:
-`.venv/bin/python benchmarks/marker.py`, a few minutes in two processes.
+`r` is the correlation (Spearman) of cost with eccentricity and with degree.
 """
 
 from __future__ import annotations
@@ -42,14 +43,12 @@ RULES = ("centre", "high degree", "dead end")
 
 
 def eccentricities(world: World) -> list[int]:
-    """The greatest distance from each vertex to any other, in edges."""
     graph = nx.Graph((world.vertex_of[a], world.vertex_of[b]) for a, b in world.edges)
     far = nx.eccentricity(graph)
     return [far[vertex] for vertex in range(len(world.vertices))]
 
 
 def costs(world: World, algorithm: str) -> list[int]:
-    """The cost with the marker at each dart; equal places run once."""
     known: dict[object, int] = {}
     for dart in range(len(world.alpha)):
         there = world.with_marker(dart)
@@ -88,7 +87,6 @@ def measured(family: str, algorithm: str, seed: int) -> dict[str, float | None]:
 
 
 def cell(values: Sequence[float | None], *, share: bool) -> str:
-    """The mean ± its standard error over the worlds that have a value."""
     known = [value for value in values if value is not None]
     if len(known) < 2:
         return "-"
@@ -99,7 +97,6 @@ def cell(values: Sequence[float | None], *, share: bool) -> str:
 
 
 def rows() -> Iterator[tuple[str, ...]]:
-    """The rows of the table."""
     jobs = [(f, a, s) for f in FAMILIES for a in ALGORITHMS for s in SEEDS]
     with ProcessPoolExecutor() as pool:
         found = dict(zip(jobs, pool.map(measured, *zip(*jobs, strict=True)), strict=True))
@@ -116,7 +113,6 @@ def rows() -> Iterator[tuple[str, ...]]:
 
 
 def main() -> None:
-    """Print the table."""
     print("| family | algorithm | best | worst | centre | high degree | dead end |", end="")
     print(" r eccentricity | r degree |")
     print("| --- | --- |" + " ---: |" * 7)

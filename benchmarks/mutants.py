@@ -1,8 +1,7 @@
 """Mutation test of the trusted core: every small change of the checkers must turn a test red.
 
 A **mutant** is a file with one small change (mutations.py). The tests of the checkers run on it
-until one fails; if none does, it has **survived**. `SAME` lists equivalent mutants with reasons,
-and is tested, too: a mutant of it that is killed is an error.
+until one fails; if none does, it has **survived**. `SAME` lists equivalent mutants with reasons.
 
 Each mutant has a process, forked after all slow imports; its source replaces the file at import.
 Tests that are fast or have killed before run first. A test that takes over twenty times its time
@@ -16,7 +15,7 @@ mutants.
     .venv/bin/python benchmarks/mutants.py --only entailment.py  those of one file
     .venv/bin/python benchmarks/mutants.py --list                only list them
 
-Exit code 1 if a mutant survives that is not in `SAME`, or one that is there was killed.
+Exit code 1 if a mutant survives that is not in `SAME`, or one of `SAME` is killed.
 """
 
 from __future__ import annotations
@@ -116,16 +115,12 @@ SAME = {
 
 @dataclass(slots=True)
 class Tests:
-    """Processor seconds, and mutants killed, of each test.
-
-    Tests run in the order of seconds a kill.
-    """
+    """Processor seconds of each test, and mutants killed; run in the order of seconds a kill."""
 
     seconds: dict[str, float] = field(default_factory=dict[str, float])
     kills: Counter[str] = field(default_factory=Counter[str])
 
     def cost(self, test: str) -> float:
-        """The expected time of a kill by this test."""
         return max(self.seconds.get(test, 0.0), 0.001) / (self.kills[test] + 0.1)
 
     def limit(self, test: str) -> float:
@@ -142,12 +137,10 @@ class Watch:
 
     @pytest.hookimpl(trylast=True)
     def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
-        """Put the tests first that may kill soonest."""
         items.sort(key=lambda item: self.tests.cost(item.nodeid))
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_protocol(self, item: pytest.Item) -> Generator[None, object, object]:
-        """Set the alarm, and record the time."""
         setitimer(ITIMER_VIRTUAL, self.tests.limit(item.nodeid))
         begin = process_time()
         done = yield
@@ -155,7 +148,6 @@ class Watch:
         return done
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """Record the first failure."""
         if report.failed:
             self.failed = self.failed or report.nodeid
 
@@ -165,7 +157,6 @@ Outcome = tuple[int, str, dict[str, float]]
 
 
 def run_tests(tests: Tests, mutant: Mutant | None, pipe: Connection) -> None:
-    """In a fork: run the tests until one fails, and send the outcome."""
     setrlimit(RLIMIT_AS, (MEMORY, MEMORY))
     setitimer(ITIMER_VIRTUAL, SECONDS)
     watch = Watch(tests)
@@ -190,7 +181,6 @@ Judged = tuple[Mutant | None, str, dict[str, float]]
 
 
 def outcomes(wanted: Sequence[Mutant | None], tests: Tests, workers: int) -> Iterator[Judged]:
-    """Run the tests on each mutant."""
     for mutant, sent, exitcode in in_forks(wanted, partial(run_tests, tests), workers):
         if sent is None and exitcode != -SIGVTALRM:
             raise SystemExit(f"a test run ended with exit code {exitcode}")
@@ -221,7 +211,6 @@ def judged(wanted: Sequence[Mutant], workers: int) -> Iterator[tuple[Mutant, str
 
 
 def main() -> int:
-    """Run the test."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--only", default="", help="mutants whose file or text has this in it")
     parser.add_argument("--list", action="store_true", help="list them, and do no more")

@@ -2,7 +2,7 @@
 
 The changes: a comparison the other way or off by one, `and` for `or` or one side of it alone, sums
 and remainders, numbers and truth values, `any` for `all`, a condition turned or left out, a
-statement left out, `None` returned. Types and messages are left as they are.
+statement left out, `None` returned.
 """
 
 from __future__ import annotations
@@ -67,7 +67,6 @@ QUANTIFIERS = {"any": "all", "all": "any"}
 def changes(  # noqa: C901, PLR0912  one case a kind of node
     node: ast.AST,
 ) -> Iterator[ast.AST]:
-    """The nodes that may replace this one."""
     match node:
         case ast.Compare():
             for place, op in enumerate(node.ops):
@@ -125,7 +124,6 @@ def _has_its_opposite(test: ast.AST) -> bool:
 
 
 def mutants(path: Path) -> Iterator[Mutant]:
-    """Every mutant of a file."""
     tree = ast.parse(path.read_text())
     seen: Counter[str] = Counter()
     for scope, parent, field, index, node in list(places(tree, "")):
@@ -191,27 +189,21 @@ class Planted(MetaPathFinder, SourceLoader):  # type: ignore[misc]  # typeshed's
         sys.meta_path.insert(0, self)
 
     def find_spec(self, fullname: str, *_: object) -> ModuleSpec | None:
-        """Where it is, if it is the one."""
         if fullname != self.name:
             return None
         return spec_from_file_location(fullname, self.path, loader=self)
 
     def get_filename(self, fullname: str) -> str:  # noqa: ARG002  as importlib asks
-        """The file that it replaces."""
         return self.path
 
     def get_data(self, path: str) -> bytes:  # noqa: ARG002  as importlib asks
-        """The changed source."""
         return self.source.encode()
 
 
 def in_forks(
     wanted: Sequence[M], run: Callable[[M, Connection], None], workers: int
 ) -> Iterator[tuple[M, Any, int]]:
-    """Run each in a fork, `workers` at a time; yield what it sent (None: it died), its exit code.
-
-    What takes long to import is imported before the processes fork.
-    """
+    """Run each in a fork, `workers` at a time; yield its message (None: it died) and exit code."""
     fork = multiprocessing.get_context("fork")
     waiting, running = list(reversed(wanted)), dict[Connection, tuple[M, ForkProcess]]()
     while waiting or running:
@@ -247,10 +239,7 @@ def chosen(everyone: Sequence[Mutant], options: Namespace, same: Mapping[str, st
 
 
 def report(verdicts: Iterable[tuple[Mutant, str]], same: Mapping[str, str]) -> int:
-    """Print which mutants survive ("": nothing killed it); return the exit code.
-
-    `same` has the reason for each mutant that changes nothing; it is wrong if one is killed.
-    """
+    """Print which mutants survive ("": nothing killed it); return the exit code."""
     count: Counter[str] = Counter()
     wrong: list[str] = []
     for mutant, killer in verdicts:

@@ -2,8 +2,7 @@
 
 The program is the C example, in a lattice of 20 x 20 with holes. The pipe is timed by the clock,
 since two processes take turns. A wake-up is one sleep of the harness. The replay is processor time
-without judging. The search compares a file that re-exports `basic` with and without `--in-process`,
-the best of three each.
+without judging. The search compares a file that re-exports `basic` with and without `--in-process`.
 """
 
 from __future__ import annotations
@@ -82,7 +81,6 @@ def apart(edges: int) -> float:
 
 
 def replayed() -> float:
-    """Replayed moves a second in batch mode."""
     doors = [event.door for event in explore(WORLD, "basic").trace if isinstance(event, Move)]
     player = BatchReplay(BatchRun("lattice", tuple(doors), map=explore(WORLD, "basic").map))
     robot = SimulatedRobot(WORLD, len(doors))
@@ -92,7 +90,6 @@ def replayed() -> float:
 
 
 def table(row: Callable[[str, str, str], None]) -> None:
-    """Print the rows."""
     found = piped()
     rate, woken = found or (0.0, 0.0)
     shown = "no C compiler" if found is None else f"{rate:,.0f} /s"

@@ -60,7 +60,6 @@ REQUIRED: dict[str, tuple[float, tuple[str, ...]]] = {
 
 
 def main() -> None:
-    """Print the slowest and the mean of each group."""
     lay_out(World.from_id("m5/17"))  # what is imported late
     lay_out(resolve_world("family:random_planar(100)"))
     print("| worlds | number | required s | slowest s | mean s | slowest is | angle | radius |")

@@ -56,7 +56,6 @@ def measured(page: Any, file: Path) -> tuple[float, float, float]:
 
 
 def main() -> None:
-    """Print a line for each run."""
     from playwright.sync_api import sync_playwright
 
     program = shutil.which("chromium") or shutil.which("chromium-browser")

@@ -1,8 +1,7 @@
 """The price of not knowing the map: mean costs over seeded worlds, as a ratio to the least cost.
 
 `least` is the least cost of a proof with the map in hand. Other columns are a mapper's mean cost
-over the mean least cost, with the standard error of this ratio. Every run delivers the right map,
-or the script stops.
+over the mean least cost, with the standard error of this ratio. A wrong map stops the script.
 
     .venv/bin/python benchmarks/price.py
     .venv/bin/python benchmarks/price.py --mappers homing,planner --families torus --seeds 5 --ms
@@ -10,8 +9,8 @@ or the script stops.
     .venv/bin/python benchmarks/price.py --gap
 
 `--against M` prints a second table of differences in the same worlds: cost minus the cost of M,
-over the mean least cost, with the standard error; and the mean cost as a multiple of that of M.
-`--runs FILE` keeps finished runs in a CSV file, and does not see that a mapper has changed.
+over the mean least cost; and the mean cost as a multiple of that of M. `--runs FILE` keeps finished
+runs in a CSV file, and does not see that a mapper has changed.
 """
 
 from __future__ import annotations
@@ -67,17 +66,11 @@ class Run(NamedTuple):
 
 
 def drawn(family: str, seed: int) -> World:
-    """The world of a family with this seed, which tori ignore."""
     seeded = "" if family.startswith("torus") else f",seed={seed}"
     return resolve_world(f"family:{family[:-1]}{seeded})")
 
 
 def priced(job: Job) -> Run:
-    """The run of the mapper in its world.
-
-    Raises:
-        SystemExit: the delivered map is wrong.
-    """
     world = drawn(job.family, job.seed)
     began = time.process_time()
     run = explore(world, job.mapper, limits=PATIENT)
@@ -87,7 +80,6 @@ def priced(job: Job) -> Run:
 
 
 def require_right(run: Exploration, job: Job) -> None:
-    """Exit unless the delivered map is the world."""
     found = run.map
     right = found is not None and run.world.is_isomorphic(
         World.from_rotations(found.vertices, found.edges, found.marker)
@@ -131,10 +123,7 @@ class Store:
 
 
 def with_error(costs: Sequence[float], least: Sequence[int], *, sign: str = "") -> str:
-    """The ratio of two means with its standard error; of one world there is no error.
-
-    Costs and least costs rise together, so it is the error of the ratio estimator.
-    """
+    """The ratio of two means with the error of the ratio estimator; of one world, no error."""
     n, ratio = len(costs), sum(costs) / sum(least)
     if n < 2:
         return f"{ratio:{sign}.3f}"
@@ -143,7 +132,6 @@ def with_error(costs: Sequence[float], least: Sequence[int], *, sign: str = "") 
 
 
 def ratio(runs: Sequence[Run]) -> str:
-    """The mean cost over the mean least cost, with its standard error."""
     return with_error([run.cost for run in runs], [run.least for run in runs])
 
 
@@ -155,7 +143,6 @@ def difference(runs: Sequence[Run], base: Sequence[Run]) -> str:
 
 
 def head(columns: Sequence[str], *, texts: int = 1) -> str:
-    """The head of a Markdown table: `texts` columns of text, then numbers."""
     rule = "| --- " * texts + "| ---: " * (len(columns) - texts)
     return f"| {' | '.join(columns)} |\n{rule}|"
 
@@ -171,7 +158,6 @@ def gaps(seeds: int) -> None:
 
 
 def asked() -> argparse.Namespace:
-    """The options of the command line."""
     ask = argparse.ArgumentParser(description="mean cost / least cost, mappers x families")
     ask.add_argument("--mappers", default=MAPPERS, help="names, with commas")
     ask.add_argument("--families", nargs="+", default=[""], help="those whose text begins so")
@@ -188,7 +174,6 @@ def asked() -> argparse.Namespace:
 
 
 def main() -> None:
-    """Print the tables."""
     args = asked()
     if args.gap:
         gaps(args.seeds)

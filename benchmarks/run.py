@@ -25,11 +25,10 @@ from topo_verify.world.enumeration import rank_order
 EDGES = range(1, 6)
 
 PAPER = [name for name in CATALOGUE if "folding" not in name]
-"""The paper's algorithms; the requirements are about these."""
+"""The requirements are about these."""
 
 
 def seconds(work: Callable[[], object]) -> float:
-    """The processor seconds of some work."""
     start = process_time()
     work()
     return process_time() - start
@@ -44,13 +43,11 @@ def enumeration(edges: int) -> float:
 
 
 def small_worlds() -> Iterator[World]:
-    """Every world with 1-5 edges."""
     for edges in EDGES:
         yield from map(World.from_code, rank_order.tables(edges))
 
 
 def explore_all() -> None:
-    """All of them through every algorithm of the paper."""
     for world in small_worlds():
         budget = world.cost_bound
         for name in PAPER:
@@ -58,7 +55,6 @@ def explore_all() -> None:
 
 
 def examine_all() -> None:
-    """The same with traces, limits and claims."""
     for world in small_worlds():
         for name in PAPER:
             report = examine(name, world)
@@ -66,12 +62,10 @@ def examine_all() -> None:
 
 
 def row(what: str, measured: str = "", required: str = "") -> None:
-    """One line of the table."""
     print(f"{what:<58}{measured:>18}{required:>18}")
 
 
 def main() -> None:
-    """Measure and print."""
     print(f"{platform.python_implementation()} {platform.python_version()}, one core\n")
     row("", "measured", "required")
     row(

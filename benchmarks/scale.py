@@ -24,14 +24,12 @@ CORES = (2, 64, 1000)
 
 
 def taken(do: Callable[[], object]) -> float:
-    """Seconds of processor time."""
     begin = process_time()
     do()
     return process_time() - begin
 
 
 def duration(seconds: float) -> str:
-    """A duration as one reads it."""
     for unit, size in (("days", 86400), ("h", 3600), ("min", 60)):
         if seconds >= 2 * size:
             return f"{seconds / size:.0f} {unit}"
@@ -39,7 +37,6 @@ def duration(seconds: float) -> str:
 
 
 def main() -> None:
-    """Print the tables."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--worlds", type=int, default=50_000)
     worlds = parser.parse_args().worlds

@@ -26,7 +26,6 @@ _WHO = (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
 
 
 def table(row: Row) -> None:
-    """Print the rows."""
     for edges, required in ((4, ""), (5, ""), (6, "< 60 s")):
         begin, processor = perf_counter(), _processor()
         found = search("basic", edges=edges, workers=WORKERS)
@@ -39,7 +38,6 @@ def table(row: Row) -> None:
 
 
 def main() -> None:
-    """Print these rows only."""
     table(lambda what, measured, required: print(f"{what:<58}{measured:>18}{required:>18}"))
 
 

@@ -22,7 +22,6 @@ EDGES, EVERY, SHARDS = 5, 6, 2
 
 
 def seconds(*, shared: bool) -> tuple[float, list[Tally]]:
-    """The processor time of all mappers in these worlds, and the tallies."""
     ranks = Ranks(EDGES)
     names = tuple(target.text for target in MAPPERS)
     campaign = Campaign(worlds=ranks, mappers=names, keep="notable")
@@ -35,7 +34,6 @@ def seconds(*, shared: bool) -> tuple[float, list[Tally]]:
 
 
 def main() -> None:
-    """Print both times and their ratio."""
     runs = [(seconds(shared=True), seconds(shared=False)) for _ in range(3)]
     assert all(one[1] == other[1] for one, other in runs)
     shared, each = (min(run[way][0] for run in runs) for way in (0, 1))

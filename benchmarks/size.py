@@ -29,7 +29,6 @@ SILENT = {
 
 
 def docstrings(source: str) -> list[ast.Constant]:
-    """The strings that stand alone as a statement."""
     return [
         node.value
         for node in ast.walk(ast.parse(source))
@@ -40,7 +39,6 @@ def docstrings(source: str) -> list[ast.Constant]:
 
 
 def code_lines(source: str) -> int:
-    """The number of lines of code."""
     lines: set[int] = set()
     for token in tokenize.generate_tokens(io.StringIO(source).readline):
         if token.type not in SILENT:
@@ -51,7 +49,6 @@ def code_lines(source: str) -> int:
 
 
 def import_lines(source: str) -> int:
-    """The number of lines that import."""
     return sum(
         (node.end_lineno or node.lineno) - node.lineno + 1
         for node in ast.walk(ast.parse(source))
@@ -60,7 +57,6 @@ def import_lines(source: str) -> int:
 
 
 def words(source: str) -> int:
-    """The number of words in docstrings and comments."""
     tokens = tokenize.generate_tokens(io.StringIO(source).readline)
     comments = sum(len(t.string.split()) - 1 for t in tokens if t.type == tokenize.COMMENT)
     return comments + sum(len(str(text.value).split()) for text in docstrings(source))
@@ -89,7 +85,6 @@ def longest_chain() -> list[str]:
 
 
 GENERATED = "docs/reference/commands.md"
-"""The page that docs/reference.py writes."""
 
 BLOCKS = re.compile(r"^```.*?^```$|^    [^\n]*$", re.MULTILINE | re.DOTALL)
 """Code, commands and output on a page."""
@@ -105,12 +100,10 @@ def pages() -> dict[str, tuple[int, int]]:
 
 
 def page_words(text: str) -> int:
-    """The number of words on a page."""
     return sum(any(map(str.isalnum, word)) for word in text.split())
 
 
 def print_pages() -> None:
-    """Print the words of each page, the longest page first."""
     print(f"{'page':<42}{'words':>9}{'prose':>9}")
     counts = pages()
     written = [name for name in counts if name != GENERATED]
@@ -123,7 +116,6 @@ def print_pages() -> None:
 
 
 def main() -> None:
-    """Print the tables."""
     print(f"{'room':<30}{'files':>7}{'code':>9}{'imports':>9}{'words':>9}")
     for top in ("topo_verify", "tests", "benchmarks"):
         rooms: dict[str, list[int]] = defaultdict(lambda: [0] * 4)

@@ -24,7 +24,6 @@ HEAD = (
 
 
 def rows(results: Iterable[dict[str, Any]]) -> Iterable[tuple[Any, ...]]:
-    """The rows of some results of `search --worst --format json`."""
     for result in results:
         if result["class"] != "any":
             raise SystemExit(f"expected a search of class any, got {result['class']}")
@@ -37,7 +36,6 @@ def rows(results: Iterable[dict[str, Any]]) -> Iterable[tuple[Any, ...]]:
 
 
 def main() -> None:
-    """Print the table of all files named."""
     found: dict[tuple[str, int], tuple[Any, ...]] = {}
     for path in sys.argv[1:]:
         for row in rows(json.loads(Path(path).read_text())["results"]):

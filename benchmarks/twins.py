@@ -1,10 +1,10 @@
 """Which worlds an unlimited walk determines: marker with direction, without it, no marker.
 
-    .venv/bin/python benchmarks/twins.py 6 > docs/data/tables/twins.csv
+    .venv/bin/python benchmarks/twins.py 6 > docs/data/tables/twins.csv       # 20 s
 
 A row for each number of edges and genus, then the shares. With the direction every world is
 determined (docs/explanation/fold.md). For any other world a twin is made and walked beside it, or
-the reason is known why there is none. 6 edges take 20 s.
+the reason is known why there is none.
 """
 
 from __future__ import annotations

@@ -67,7 +67,6 @@ def overlooks_a_passing_marker(pilot: Pilot, h: Hypothesis, shared: int) -> int 
         if step > len(pilot.doors):
             pilot.forward(h.doors[step - 1])
         percept, last = pilot.percepts[step], step == len(h.doors)
-        # A marker on the way is a mismatch, but at v0 everything is compared.
         if percept != expected if last else percept.degree != expected.degree:
             return step
     return None

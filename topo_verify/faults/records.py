@@ -22,7 +22,7 @@ class records_a_loop_from_dart_0(RecordsRule):
     """after a confirmation sequences are traced from dart 0 of h's vertex, not from h"""
 
     def learn(self, chart: Chart, e: MapDart, entry: MapDart, sequences: Walks) -> None:
-        super().learn(chart, e, entry, ())  # drops T[e] and T[h], as the reference does
+        super().learn(chart, e, entry, ())
         super().learn(chart, e, chart.first[chart.vertex[entry]], sequences)
 
 

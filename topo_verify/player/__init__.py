@@ -7,7 +7,7 @@ remarks.py   what the replay adds to an event; names of darts, doors and percept
 walk.py      the run as text, S beside the truth
 cards.py     reports and findings as HTML, for notebooks
 recording.py a run as compact data for the page
-fold_places.py where a fold identifies visits, and where it contradicts itself
+fold_places.py where a fold identifies visits
 page.py      the page, from the parts in page/
 animation/   a run as an animated SVG
 """

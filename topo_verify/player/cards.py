@@ -1,7 +1,4 @@
-"""Reports and findings as HTML for notebooks: a table of claims, a picture, the walk's text.
-
-All input is escaped. No script, no request; no statement rests on colour.
-"""
+"""Reports and findings as escaped HTML for notebooks; no statement rests on colour."""
 
 from __future__ import annotations
 
@@ -23,7 +20,7 @@ _SIGNS: dict[Status, str] = {"ok": "✓", "failed": "✗", "undecided": "?"}
 def report_card(
     head: str, judgements: Sequence[Judgement], playback: Playback | None, again: str
 ) -> str:
-    """The report of a run: its claims with their coverage; with a finding the world and the walk.
+    """A run's claims with their coverage; with a finding also the world and the walk.
 
     Args:
         head: mapper, world, and how many claims hold.
@@ -125,12 +122,10 @@ def _again(command: str) -> Iterator[str]:
 
 
 def _named(text: str | None) -> World | None:
-    """The world that an id or world JSON names; no file is opened for a picture."""
     try:
         return World.from_text(text) if text else None
     except InputError:
         return None
 
 
-# Here, since the checkers know nothing of pictures.
 setattr(Finding, "_repr_html_", finding_card)  # noqa: B010  undeclared

@@ -13,7 +13,7 @@ from topo_verify.robot.percept import Door
 
 
 class Turn(NamedTuple):
-    """A robot that came back to a place leaves it by another dart: its doors count from elsewhere.
+    """The robot leaves a place by another dart than it came by, from which its doors count.
 
     Attributes:
         entry: the dart of the world by which it first came.
@@ -42,11 +42,11 @@ class Circle(NamedTuple):
 
 
 def turns(playback: Playback) -> dict[int, Turn]:
-    """By event, the moves, except retracing ones, whose door does not count from the entry dart."""
+    """By event, the moves whose door does not count from the entry dart, except retracing ones."""
     turned: dict[int, Turn] = {}
     positions = playback.replayed.positions
-    entries = [positions[0]]  # by which dart it came to each place
-    asked = 1  # their number at the last question
+    entries = [positions[0]]
+    asked = 1
     for moment in playback.moments[1 : len(positions)]:
         number, out = moment.number, moment.left_by
         if isinstance(moment.event, ev.Augment) and _sees_marker(playback, positions[number]):
@@ -71,10 +71,10 @@ def _sees_marker(playback: Playback, dart: WorldDart) -> bool:
 
 
 def circle(playback: Playback) -> Circle | None:
-    """The circle in which the robot walks at the end of a run without a map; None without one.
+    """The circle in which the robot walks at the end of a run without a map, or None.
 
-    It is the longest end of the run in which places and doors repeat at least twice; it must take a
-    third of the run. Linear: the longest border of the reversed run gives the period.
+    It is the longest end of the run, at least a third, in which places and doors repeat at least
+    twice. Linear: the longest border of the reversed run gives the period.
     """
     if isinstance(playback.trace[-1], ev.Finish) or playback.replayed.illegal is not None:
         return None
@@ -96,11 +96,8 @@ def circle(playback: Playback) -> Circle | None:
 
 
 def way_home(playback: Playback, dart: KnownDart, number: int) -> tuple[Door, ...]:
-    """The doors of a shortest way on S, before this event, from a dart to v0.
-
-    See docs/semantics.md, section 6; a mapper may choose another.
-    """
-    came: dict[int, KnownDart | None] = {0: None}  # each vertex's dart towards v0
+    """The doors of a shortest way on S, before this event, from a dart to v0."""
+    came: dict[int, KnownDart | None] = {0: None}
     for vertex in (queue := [0]):
         for a in playback.darts(vertex):
             if playback.map.joined[a] < number:
@@ -122,7 +119,7 @@ class SupposedWalk:
     def __init__(self, playback: Playback) -> None:
         self._playback, self._map = playback, playback.map
         self._behind = Excursion()
-        self._trail: list[KnownDart | None] = []  # on S, behind each door of the word
+        self._trail: list[KnownDart | None] = []
         self._last: tuple[KnownDart | None, int] = None, 0
 
     def place(self, moment: Moment, guess: int | None) -> KnownDart | None:

@@ -21,8 +21,7 @@ class FoldPlaces(NamedTuple):
     """What the fold of a history shows.
 
     Attributes:
-        identified: by event, reference darts of visits recognised as an earlier place, except those
-            that see the marker.
+        identified: by event, reference darts of visits recognised as an earlier place (not v0).
         clashes: by rejection, the reference darts at two visits that would be one place.
     """
 
@@ -33,7 +32,7 @@ class FoldPlaces(NamedTuple):
 class _WatchedFold(Fold):
     def __init__(self, percept: Percept) -> None:
         self.merged: list[int] = []
-        self._whose: dict[int, int] = {}  # the visit of a percept, by its `id`
+        self._whose: dict[int, int] = {}
         super().__init__(percept)
 
     def _visit(self, percept: Percept) -> int:

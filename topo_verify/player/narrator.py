@@ -1,4 +1,4 @@
-"""The one narrator: what each event of a run means, in sentences that the replay bears out.
+"""What each event of a run means, in sentences that the replay bears out.
 
 A saying is in plain words: a vertex is a place, an edge a road, a dart an exit, a hypothesis a
 guess. A line of the text walk has the field's terms. A decision that has a finding, is false in the
@@ -129,7 +129,7 @@ class Narrator:
         return said if shows else said._replace(seen=seen)
 
     def _is_claim(self, moment: Moment) -> bool:
-        """Whether a decision is the mapper's word alone."""
+        """Is the decision the mapper's word alone?"""
         event, spoiled = moment.event, self.playback.replayed.spoiled
         if not isinstance(event, ev.Reject | ev.Confirm | ev.Augment):
             return False

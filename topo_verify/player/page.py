@@ -37,7 +37,6 @@ SCRIPTS = (
     "walk.js",
     "start.js",
 )
-"""The parts of the script in their order."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +78,7 @@ def mark_up(template: str, values: Mapping[str, str]) -> str:
 
 
 def json_in_page(data: object) -> str:
-    """The data as JSON that can stand in a script element of a page."""
+    """The data as JSON that can stand in a script element."""
     # Only "<" can end or open anything in a script; the JSON stays the same.
     return json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
 
@@ -96,7 +95,7 @@ def player_page(world: World, runs: Sequence[PlayedRun], *, name: str = "") -> s
 
 
 def framed(world: World, run: PlayedRun) -> str:
-    """The page of a run in a frame, for notebooks: scripts run, nothing else may.
+    """The page of a run in a sandboxed frame, for notebooks.
 
     The frame cannot ask for the notebook's theme: a height of 641 pixels means dark (page.css).
     """

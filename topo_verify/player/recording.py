@@ -1,7 +1,7 @@
-"""A run as compact data for the page: the events of its trace, which are deltas.
+"""A run as compact data for the page: the events of its trace, with what the replay knows.
 
-The page draws S as it grows (`page/model.js`; a test compares it with `scenes.py`). What the replay
-knows is added. The events are one text, a letter and numbers for each:
+The page draws S as it grows (`page/model.js`; a test compares it with `scenes.py`). The events are
+one text, a letter and numbers for each:
 
     move       c2: by door 2, to cross (w walk, c cross, v validate, t retrace, m: no purpose)
     pose       p edge, hypotheses
@@ -11,8 +11,8 @@ knows is added. The events are one text, a letter and numbers for each:
     augment    a (new) or l (loop) edge, dart, degree, the darts of which a record is kept from now
     percept    a degree, or [degree, door of the marker]
     saying     [kind, title, sentences, seen, expected, labels], without the usual end; kinds and
-               texts by their numbers. The number of an event's saying is a digit of 64, behind a
-               blank for each further 64; frequent ones are less
+               texts by their numbers. An event has its saying's number as a digit of 64, behind a
+               blank for each further 64; frequent sayings have small numbers
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ GALLERY = (
 )
 
 DIGITS = string.digits + string.ascii_letters + "-_"
-"""Digits of numbers in text: none of them is escaped in JSON."""
+"""None of these is escaped in JSON."""
 
 
 @dataclass(frozen=True, slots=True)

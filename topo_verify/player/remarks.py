@@ -19,7 +19,7 @@ from topo_verify.robot.percept import Door, Percept
 
 
 def remarks(playback: Playback, moment: Moment, turn: Turn | None = None) -> Iterator[str]:
-    """What the replay adds that the mapper did not say.
+    """What speaks against a decision that the mapper did not say.
 
     Args:
         turn: of a move, if its door is not counted from the dart by which the robot came.
@@ -74,7 +74,7 @@ class Homeward(NamedTuple):
 
     @property
     def proves(self) -> bool:
-        """Whether the walk led to the marker and each place on it looked as on S."""
+        """Did the walk lead to the marker, and did each place on it look as on S?"""
         return self.arrived and self.expected == self.seen
 
 

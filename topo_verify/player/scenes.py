@@ -1,13 +1,10 @@
 """What each event of a run means, beside the world: the model behind every view of a run.
 
-    playback = Playback(world, trace, judgements)
-    for moment in playback.moments: ...
-
 S is kept twice: as the mapper declares it (`Playback.map_at`, `Moment.growth`), and as far as it is
 true (`Playback.map`, with the dart of the world for each dart of S). `WorldDart` and `KnownDart`
 never mix; a plain `int` is a declared dart of S, which S need not have.
 
-What this does not show: what a mapper thinks. It shows what it did and said, and what was so.
+What this does not show: what a mapper thinks.
 """
 
 from __future__ import annotations
@@ -69,8 +66,8 @@ class Mismatch(NamedTuple):
         doors: the doors from vu to there.
         trail: the reference darts in the world at vu and behind each door.
         traced: the same on S, if the hypothesis were true, as far as S goes.
-        leaves: the unexplored dart of S by which the doors lead out of S, or None. Then a record
-            gave the expectation.
+        leaves: the unexplored dart by which the doors leave S, so that a record gave the
+            expectation; or None.
         evidence: as the mapper cites it.
     """
 
@@ -98,8 +95,7 @@ class Moment:
         growth: of an augmentation.
         recorded: of an augmentation: what is known from now on behind unexplored darts of S.
         mismatch: of a rejection that can be judged.
-        word: of a decision that can be judged: the doors from vu to where the robot stands, and the
-            percept behind each.
+        word: of a decision that can be judged: the doors from vu, and the percept behind each.
         findings: what is wrong at this event.
     """
 
@@ -277,13 +273,12 @@ class Playback:
         ):
             return
         for sequence in one.sequences:
-            dart = KnownDart(one.event.dart)  # S has it: the augmentation is true
+            dart = KnownDart(one.event.dart)
             at, rest = self.replayed.records.trace(dart, sequence, one.when + 1)
             if rest:
                 yield at, rest
 
     def _mismatch(self, one: Round) -> Mismatch | None:
-        """Where the evidence of a rejection lies; None where it cites what is not there."""
         event, drawn = one.event, self.map
         if not isinstance(event, ev.Reject) or one.pose is None:
             return None
@@ -318,7 +313,6 @@ def _after(spent: Spent, move: ev.Move) -> Spent:
 def _question(
     event: ev.Event, edge: int | None, open_hypotheses: tuple[int, ...]
 ) -> tuple[int | None, tuple[int, ...]]:
-    """The edge in question after an event, and its hypotheses that are left."""
     match event:
         case ev.Pose():
             return event.edge, event.hypotheses

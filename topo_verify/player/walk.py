@@ -1,7 +1,7 @@
 """A run as text: the moves and decisions before a finding, and S beside the truth.
 
-It holds at any width from 50 columns on. Control characters are escaped, and lines are cut. S is
-listed vertex by vertex, the darts of each clockwise, with the truth in brackets:
+It holds at any width from 50 columns on. S is listed vertex by vertex, the darts of each clockwise,
+with the truth in brackets:
 
     0-1        dart 0 is explored, its other end is dart 1; so it is in the world
     2-?[4]     dart 2 is unexplored, and leads to dart 4
@@ -46,7 +46,7 @@ _LEGEND = (
 _WIDE = ("event", "door", "out by", "sees", "arrives by", "in world", "cost", "for")
 _FEW = ("event", "door", "out by", "sees", "by", "cost")
 _LEFT = {"out by", "sees", "arrives by", "by", "in world", "for"}
-"""The columns that are flush left; the others hold numbers."""
+"""The columns that are flush left."""
 
 _LONG = 60
 
@@ -108,7 +108,7 @@ def parting(
 
 
 def is_shown(playback: Playback, finding: Finding, extent: Extent = BRIEF) -> bool:
-    """Whether the view holds this finding."""
+    """Does the view hold this finding?"""
     first = playback.first_finding
     return finding.event is None or extent.to_end or (first and first.event) == finding.event
 
@@ -140,7 +140,6 @@ class _View:
     # ------------------------------------------------------------ the table
 
     def table(self, moments: Sequence[Moment]) -> Iterator[str]:
-        """The events, a row a move, with decisions, remarks and findings between."""
         columns, gap, rows = self._laid_out(moments)
         widths = [max(map(len, column)) for column in zip(columns, *rows.values(), strict=True)]
         yield _line(columns, columns, widths, gap)
@@ -233,7 +232,6 @@ class _View:
             yield from self.wrapped(never_crossed(self.playback) or "")
 
     def map(self) -> Iterator[str]:
-        """S at the focus, with the truth in brackets."""
         if not any(isinstance(event, ev.Augment) for event in self.playback.trace):
             yield "The mapper does not declare how its map S grows."
             return
@@ -243,7 +241,6 @@ class _View:
             yield from self.wrapped(line, "  ", "      ")
 
     def wrapped(self, text: str, indent: str = "", further: str | None = None) -> list[str]:
-        """The text in lines of the view's width, its control characters escaped."""
         return textwrap.wrap(
             shortened(shown(text, limit=LINE)),
             self.width,
@@ -293,7 +290,6 @@ def known_map(playback: Playback, moment: Moment) -> Iterator[str]:
 
 
 def _is_known(playback: Playback, dart: int, number: int) -> bool:
-    """Whether the true S has this dart after an event."""
     return 0 <= dart < len(playback.map.born) and playback.map.born[dart] <= number
 
 
@@ -353,7 +349,7 @@ def _named(playback: Playback, dart: WorldDart, number: int) -> str:
 
 
 def never_crossed(playback: Playback) -> str | None:
-    """A sentence that lists the edges of the world never crossed; None: there is none."""
+    """A sentence that lists the edges of the world never crossed, or None."""
     last = len(playback.trace)
     left = [
         " to ".join(

@@ -1,12 +1,11 @@
 """A program as a child process: lines to it, lines from it, and its end.
 
-The program may flood a stream, stop reading, ignore signals, or start children. Three invariants
-hold: the kept output is bounded; nothing blocks for longer than a tick, so that a time limit can
-strike; `end` leaves no process behind.
+The program may flood a stream, stop reading, ignore signals, or start children. Still the kept
+output is bounded, nothing blocks for longer than a tick, and `end` leaves no process behind.
 
-A move is three system calls: write, poll, read. Harness and program take turns, so they are fastest
-on one processor (process.py), where a poll sleeps at once. Otherwise an idle processor takes tens
-of microseconds to wake up, so a poll looks some hundred times before it sleeps.
+A move is three system calls: write, poll, read. On one processor (process.py) a poll sleeps at
+once. Otherwise an idle processor takes tens of microseconds to wake up, so a poll looks some
+hundred times before it sleeps.
 
 A *line* is a message without its line end; the *tail* is the end of standard error.
 """
@@ -71,11 +70,11 @@ class Silent(Exception):
 
 
 class TooLong(Exception):
-    """The program wrote a line that is too long, or too many lines without reading."""
+    """A line is too long, or the program writes many lines and reads none."""
 
 
 class Child:
-    """A running program. Construction starts it; then `write` and `line`; at last `end`.
+    """A running program: `write` and `line`, at last `end`.
 
     Args:
         command: the program and its arguments; no shell expands them.
@@ -123,7 +122,7 @@ class Child:
             os.set_blocking(stream, False)
         self._poll.register(self._out, select.POLLIN)
         self._poll.register(self._err, select.POLLIN)
-        self._readers = select.poll()  # tells when no process can read our messages any more
+        self._readers = select.poll()
         self._readers.register(self._in, 0)
         self._head_sent = False
         self._processor = SharedProcessor(self._process.pid)
@@ -133,22 +132,22 @@ class Child:
         self._rest = bytearray()
         self._stderr = StandardError(echo)
         self._output_ended = False
-        self.input_closed = False  # by the program or by us
+        self.input_closed = False
         self._ended = False
-        self._reaped = False  # before `end` did it
+        self._reaped = False
 
     @property
     def process(self) -> int:
-        """Its process id."""
+        """The process id."""
         return self._process.pid
 
     # ------------------------------------------------------------ lines
 
     def line(self, *, seconds: float = inf) -> bytes:
-        """The next line; waits until it is complete.
+        """Wait for the next line.
 
         Args:
-            seconds: how long to wait, not counting the program's waits for a processor.
+            seconds: how long, not counting the program's waits for a processor.
         Raises:
             Silent: no line came in this time.
             Ended: the output has ended.
@@ -166,7 +165,7 @@ class Child:
         return self._lines.popleft()
 
     def write(self, data: bytes) -> None:
-        """Send data. Drops them if the program has closed its input: its output may say why."""
+        """Send data, or drop them if the program has closed its input: its output may say why."""
         if self._head_sent:
             assert data.startswith(HEAD), "every message begins in the same way"
             data, self._head_sent = data[len(HEAD) :], False
@@ -187,17 +186,17 @@ class Child:
 
     @property
     def flooded_stderr(self) -> bool:
-        """Whether it wrote more than a message may have on standard error."""
+        """Did it write more than a message may have on standard error?"""
         return self._stderr.bytes > LIMIT
 
     @property
     def in_half_a_line(self) -> bool:
-        """Whether the last line lacks its line end."""
+        """Does the last line lack its line end?"""
         return bool(self._rest)
 
     @property
     def has_line(self) -> bool:
-        """Whether a line has come; reads without waiting."""
+        """Has a line come? Reads without waiting."""
         if not self._lines and not self._output_ended:
             self._listen(0)
         return bool(self._lines)
@@ -209,7 +208,7 @@ class Child:
 
     @property
     def has_output(self) -> bool:
-        """Whether output waits to be taken; reads without waiting."""
+        """Does output wait to be taken? Reads without waiting."""
         return self.has_line or bool(self._rest)
 
     def _stopwatch(self, seconds: float) -> Stopwatch:
@@ -217,13 +216,13 @@ class Child:
         return Stopwatch(lambda: tasks_of(self.process), lambda: self.heard, tick=tick)
 
     def _listen(self, seconds: float = TICK) -> bool:
-        """Read what has come, after waiting a tick at most; whether anything came."""
+        """Read what has come, after waiting a tick at most; True if anything came."""
         looks = LOOKS if seconds and not self._processor.shared else 0
         # On one processor the program runs only when we sleep.
         ready = [] if seconds and not looks else self._poll.poll(0)
         while not ready and looks:
             began = monotonic()
-            os.sched_yield()  # it may wait for this very processor
+            os.sched_yield()
             # If others want the processor, stop looking: a stopwatch excuses such waits, so a
             # sleeping program would have all that time.
             looks = looks - 1 if monotonic() - began < BUSY else 0
@@ -293,8 +292,8 @@ class Child:
     def read_on(self) -> None:
         """Wait until the program reads our next message, whose first bytes are sent now.
 
-        A program that reads has written all that it had to write, and pipes keep the order, so its
-        output has come. Returns also when its output has ended or no process reads our messages.
+        Before it reads, it has written its output, and pipes keep the order. Returns also when its
+        output has ended or no process reads our messages.
 
         Raises:
             TooLong: it writes on and on, and does not read.
@@ -342,7 +341,7 @@ class Child:
         return None if status is None else status.signal
 
     def ended_by_itself(self) -> bool | None:
-        """Whether it failed: ended with another exit code than 0; None: it can still play."""
+        """Did it fail, with another exit code than 0? None: it can still play."""
         if not (self.input_closed or self._output_ended):
             return None
         return self.exit_status() not in (None, "ended with exit code 0")

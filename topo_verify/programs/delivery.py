@@ -1,6 +1,6 @@
-"""Calls a mapper and reads its result, in this process or in a child.
+"""Calls a mapper and reads its result.
 
-Reading the result is part of the call, because attributes of a foreign object may run code.
+Reading is part of the call, because attributes of a foreign object may run code.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ def _place(error: BaseException) -> str:
     if not chosen:
         return ""
     path = Path(chosen[-1].filename)
-    with suppress(ValueError, OSError):  # it is not below the working folder, or that was removed
+    with suppress(ValueError, OSError):
         path = path.relative_to(Path.cwd())
     return f"{os.fspath(path)}, line {chosen[-1].lineno}"
 

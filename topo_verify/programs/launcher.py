@@ -1,10 +1,10 @@
 """Starts processes of our own that no other program can ever look into.
 
-**Why a launcher.** Every process of the user can read a new Python (by /proc/PID/mem, /proc/PID/fd,
-ptrace or pidfd_getfd) until it becomes undumpable. Files opened by then stay open, and a process
-traced by then obeys its tracer, so no key closes this gap. An exec makes a process dumpable, but a
-*fork inherits* undumpability. So the launcher is started and shielded before any foreign program,
-and workers are its forks. It has one thread and has loaded next to nothing, so it can always fork.
+**Why a launcher.** Until a new Python becomes undumpable, every process of the user can read it
+(/proc/PID/mem, /proc/PID/fd, ptrace, pidfd_getfd). Files opened by then stay open, and a process
+traced by then obeys its tracer, so no key closes this gap. But a *fork inherits* undumpability. So
+the launcher is started and shielded before any foreign program, and workers are its forks. It has
+one thread and has loaded next to nothing, so it can always fork.
 
 **Why not a library?** `multiprocessing.forkserver` listens on a named socket, to which any process
 of the user can connect, and it shields nothing.
@@ -15,8 +15,8 @@ of the user can connect, and it shields nothing.
 The launcher ends with its parent, and its forks with the launcher. If it is killed after a foreign
 program was started, it is not replaced: a new one would have an unshielded first moment.
 
-What this does not show: a process left over by an *earlier* command runs beside the first moment of
-the launcher. On other systems than Linux nothing is hidden.
+What this does not show: a process left over by an *earlier* command runs beside that first moment.
+On other systems than Linux nothing is hidden.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class Launched:
     """A process started by the launcher; `wait` reaps it.
 
     Attributes:
-        pid: its number, not reused before `wait`.
+        pid: not reused before `wait`.
         channel: the socket to it.
     """
 
@@ -60,7 +60,7 @@ class Launched:
         self._launcher, self.pid, self.channel = launcher, pid, channel
 
     def wait(self) -> int:
-        """Wait for its end. Returns the exit code, or a signal as a negative number."""
+        """Wait for its end; return the exit code, or a signal as a negative number."""
         try:
             return self._launcher.ask(_WAIT, self.pid)
         except _Lost:
@@ -122,7 +122,7 @@ def _absolute(folder: str) -> str | None:
 
 
 class _Lost(Exception):
-    """The launcher has ended."""
+    pass
 
 
 class _Launcher:
@@ -134,7 +134,7 @@ class _Launcher:
     """
 
     def __init__(self) -> None:
-        isolation.shield()  # first, for what its children lose: see there
+        isolation.shield()
         self.owner, self.foreign = os.getpid(), False
         self._orders, self._lock = 0, threading.Lock()
         self._control, theirs = socket.socketpair()
@@ -151,7 +151,7 @@ class _Launcher:
 
     @property
     def lost(self) -> bool:
-        """Whether it has ended."""
+        """Has it ended?"""
         return self._process.poll() is not None
 
     def ask(self, kind: bytes, process: int = 0, files: Sequence[int] = ()) -> int:
@@ -239,7 +239,7 @@ def main() -> None:
                 return
             for file in files:
                 os.close(file)
-            with suppress(OSError):  # here, too: its group exists when its number is known
+            with suppress(OSError):
                 os.setpgid(answer, answer)
         control.sendall(_ANSWER.pack(number, answer))
 
@@ -248,7 +248,7 @@ def _play(channel: int, error: int, *files: int) -> None:
     _forked.append(True)
     for file in (channel, *files):
         os.set_inheritable(file, False)  # noqa: FBT003  its only argument
-    for stream in (1, 2):  # what a mapper prints goes to standard error
+    for stream in (1, 2):
         os.dup2(error, stream)
     os.close(error)
     # Neither is ever closed: a thread may read from one until this process ends.

@@ -29,10 +29,10 @@ SYMBOL = "map_world"
 """The default name of the function."""
 
 VERSION = 1
-"""The version of the interface: `TV_VERSION`."""
+"""`TV_VERSION` of the interface."""
 
 MEMORY = 4 << 30
-"""Address space in bytes that a native mapper may take beyond its process's own."""
+"""Bytes of address space that a native mapper may add to its process's own."""
 
 MOST_DARTS = 1 << 20
 """Most vertices, and darts, of a delivered map."""
@@ -165,7 +165,7 @@ class NativeMapper:
         }
 
     def __call__(self, robot: Robot) -> object:
-        """Run the function. Returns the map that it delivered."""
+        """Run the function; return the map that it delivered."""
         self._robot = robot
         self._stopped: BaseException | None = None
         self._map: dict[str, object] | None = None

@@ -106,7 +106,7 @@ def loaded(values: str = "") -> Loaded:
         path = getattr(module, "__file__", None)
         if isinstance(path, str):
             _enter(files, whole := os.path.abspath(path))  # noqa: PTH100
-            if whole in files and name != "__main__":  # which names the program, not the mapper
+            if whole in files and name != "__main__":
                 modules[name] = whole
             if _is_installed(path):
                 tops.add(name.partition(".")[0])
@@ -149,7 +149,7 @@ def _enter(files: dict[str, str], path: str) -> None:
 
 @cache
 def is_users(path: str) -> bool:
-    """Whether a file belongs to neither Python, an installed distribution, nor topo_verify."""
+    """Does a file belong to neither Python, an installed distribution, nor topo_verify?"""
     if path.startswith(_NO_FILES) or _is_installed(path):
         return False
     real = os.path.realpath(path)
@@ -188,7 +188,6 @@ def _distributions() -> Mapping[str, list[str]]:
 
 
 MOST_VALUES = 10_000
-"""Most values that are read."""
 
 
 def values_hash(mapper: object) -> str:

@@ -71,7 +71,7 @@ def native_function(text: str) -> Any:
 
 
 def is_python(text: str) -> bool:
-    """Whether a native mapper is a function that numba compiles."""
+    """Is this native mapper a function that numba compiles?"""
     return text.startswith(library.LIBRARY) and library.library_file(text)[0].endswith(".py")
 
 
@@ -141,7 +141,7 @@ def _load_file(path: Path, text: str) -> object:
     module = importlib.util.module_from_spec(spec)
     folder = str(path.resolve().parent)
     if folder not in sys.path:
-        sys.path.insert(0, folder)  # so that the file can import modules beside it
+        sys.path.insert(0, folder)
     sys.modules[name] = module  # before it runs: dataclasses look their module up here
     try:
         loader.exec_module(module)
@@ -167,7 +167,7 @@ _lasting: list[object] = []
 
 
 def is_jitted(function: object) -> bool:
-    """Whether numba compiles this function."""
+    """Does numba compile this function?"""
     module = sys.modules.get("numba.core.dispatcher")
     return module is not None and isinstance(function, module.Dispatcher)
 
@@ -223,7 +223,7 @@ def close_name(name: str, known: Iterable[str]) -> str:
 
 
 def close_attribute(whole: object, name: str) -> str:
-    """A hint: the closest attribute, else the first candidates; empty without candidates."""
+    """A hint: the closest attribute, else the first candidates, if any."""
     known = [key for key in _callables(whole) if not key.startswith("_")]
     listed = f"; it has {', '.join(known[:SHOWN])}" if known else ""
     return close_name(name, known) or listed

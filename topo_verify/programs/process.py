@@ -37,8 +37,8 @@ class SharedProcessor:
 
     def __init__(self, process: int) -> None:
         self._process, self._worlds = process, 0
-        self._bound: int | None = None  # the processor to which we have bound it
-        self._ours: set[int] = set()  # where this thread may run, while it is kept on one
+        self._bound: int | None = None
+        self._ours: set[int] = set()
         self.shared = False
 
     def follow(self) -> None:
@@ -90,7 +90,6 @@ class ExitStatus(NamedTuple):
     number: int
 
     def __str__(self) -> str:
-        """In words, as in "the program ended with exit code 1"."""
         if self.code == os.CLD_EXITED:
             return f"ended with exit code {self.number}"
         return f"was ended by {self.signal}"

@@ -77,7 +77,7 @@ class Program:
         self._child: Child | None = None
         self._reaper: ReaperProcess | None = None
         self._idle = True  # the process waits for a world; False while it plays
-        self._halted = False  # the robot does not go on, and the process waits for an answer
+        self._halted = False
         self.misbehaved: Misbehaved | None = None
         self.lines: list[TranscriptLine] = []
         self.validate, self.record = validate, record
@@ -90,7 +90,7 @@ class Program:
         return Target(PREFIX + shlex.join(self.command), self)
 
     def __call__(self, robot: Robot) -> Finish:
-        """Play one world. Returns the program's map, as the event that ends the trace.
+        """Play one world; return the program's map, as the event that ends the trace.
 
         Raises:
             MapperStopped: the program misbehaved, or a limit struck.
@@ -173,7 +173,7 @@ class Program:
             raise Misbehaved("out-of-turn", words)
         if (ended := child.ended_by_itself()) is None:
             self._idle = True
-        elif ended:  # otherwise it ended with success: the next world starts it again
+        elif ended:
             raise crash_report(child, "read the next message")
 
     def _send(self, child: Child, message: ms.ToChild) -> None:
@@ -216,7 +216,7 @@ class Program:
 
     @property
     def process(self) -> int | None:
-        """Its process id, if there is a process."""
+        """The process id, or None."""
         return None if self._child is None else self._child.process
 
     def _ready(self) -> Child:
@@ -253,7 +253,7 @@ class Program:
                 self._child.write(_encode(ms.StopMessage()) + b"\n")
                 self._child.close_input()
             except TooLong:
-                pass  # `end` below stops it by a signal
+                pass
             self._child.end(politely=GRACE)
             self._child = None
         if self._reaper is not None:

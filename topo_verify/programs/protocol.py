@@ -39,7 +39,7 @@ def _tag(class_name: str) -> str:
 
 
 class _Message(msgspec.Struct, frozen=True, tag_field="type", tag=_tag):
-    """Base of the messages of protocol 1: immutable, tagged by `_tag`."""
+    pass
 
 
 # ---------------------------------------------------------------- to the program
@@ -223,12 +223,7 @@ def _unindented(part: Any) -> Any:
 
 
 def unknown_fields(data: Any, message: object, place: str = "$") -> Iterator[str]:
-    """The fields of a message that its schema does not list, each as a path from `$`.
-
-    Args:
-        data: the message as JSON data.
-        message: the decoded message.
-    """
+    """Yield the fields of a message that its schema does not list, each as a path from `$`."""
     if isinstance(message, msgspec.Struct):
         fields = dict(zip(message.__struct_encode_fields__, message.__struct_fields__, strict=True))
         for name in data:

@@ -68,7 +68,7 @@ class RemoteRobot:
         return self._percept
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
-        """Leave by a door. Returns the percept behind it."""
+        """Leave by a door; return the percept behind it."""
         self._require_usable()
         try:
             number = door_number(door, self._percept.degree)
@@ -97,7 +97,6 @@ class RemoteRobot:
         """Declare a decision; it is sent with the next move."""
         self._require_usable()
         try:
-            # The harness finds out whether it is a decision.
             line = _encode({"type": "declare", "event": event})
         except (msgspec.MsgspecError, TypeError, OverflowError) as error:
             why = Misuse(f"{EXPECTED}: {error}")
@@ -118,7 +117,7 @@ LATE = ms.OverMessage | ms.PerceptMessage
 """Messages of a world that may come after the mapper has ended it."""
 
 Player = Callable[[Mapper, RemoteRobot], object]
-"""Plays one world. Returns the message that ends it."""
+"""Plays one world; returns the message that ends it."""
 
 
 def serve(
@@ -192,7 +191,7 @@ def child(text: str) -> None:
     reader, writer = isolation.private_pipes()
     cast("TextIOWrapper", sys.stdout).reconfigure(line_buffering=True)
     if not text.startswith(LIBRARY):  # below a library's function stand lines of ours alone
-        faulthandler.enable()  # what kills the process says in which line
+        faulthandler.enable()
     try:
         mapper = load(text)
     except InputError as error:

@@ -1,8 +1,8 @@
-"""Theorems about all worlds: three engines and what they share (docs/proofs.md).
+"""Theorems about all worlds (docs/proofs.md).
 
-theorem.py     the types that all engines share
+theorem.py     the types that the engines share
 catalogue.py   all theorems, by name and kind
-first_order/   worlds of any size, by induction, put to Z3
+first_order/   worlds of any size, by induction, in Z3
 bounded/       every world with m edges, as clauses
 mechanised/    the Python around Coq; coq/ holds the proofs
 solvers/       Z3 and cvc5 with their limits

@@ -1,13 +1,13 @@
 """All theorems in one order, and the choice among them.
 
-Names are unique, and scripts rely on them. A new theorem is entered in one table of its engine:
+Names are unique and never change. Each engine has its tables:
 
-    kind        table                                          what one entry is
+    kind        table                                          an entry
     inductive   first_order/obligations/<theme>.OBLIGATIONS    an `Obligation`
-    mechanised  mechanised/theorems.STATEMENTS                 a theorem of a file of coq/
+    mechanised  mechanised/theorems.STATEMENTS                 a theorem of coq/
     bounded     bounded/statements.py                          a `BoundedStatement`
     negative    bounded/mutants.SMALLEST                       a `Negative`
-    mutant      `needs` of its obligation                      the premise that is dropped
+    mutant      `needs` of an obligation                       a dropped premise
                 first_order/mutants/<theme>.py                 a `RuleMutant`
                 bounded/mutants.py                             a rule with a `RuleFault`
 """
@@ -26,7 +26,6 @@ from topo_verify.proofs.mechanised.theorems import MECHANISED
 from topo_verify.proofs.theorem import Theorem, TheoremKind
 
 QUICK: tuple[TheoremKind, ...] = ("inductive", "negative", "mutant")
-"""The kinds that take seconds."""
 
 
 @cache
@@ -59,11 +58,11 @@ def choose(
     edges: int | None = None,
     deep: bool = False,
 ) -> tuple[Theorem, ...]:
-    """The theorems with these names, kinds and at most these edges; without names, all quick ones.
+    """The theorems with these names, of these kinds, with at most these edges.
 
     Args:
-        deep: also those that take minutes. A named theorem is always chosen; mechanised ones also
-            if their kind is asked for.
+        names: none: all that take seconds.
+        deep: also those that take minutes; named ones are always chosen, mechanised ones by kind.
     Raises:
         InputError: no such theorem, or too many edges.
     """

@@ -1,14 +1,13 @@
-"""The types that all engines share: a theorem, the budget of its proof, and its result.
+"""What all engines share: a theorem, the budget of its proof, and its result.
 
-    kind        about                                          verdict if all is well
+    kind        about                                          expected verdict
     inductive   worlds of any size                             PROVED
-    mechanised  worlds of any size, proved in Coq              PROVED
+    mechanised  worlds of any size, in Coq                     PROVED
     bounded     every world with m edges, every reachable map  EXHAUSTED
-    negative    a claim that is false, at its smallest size    REFUTED, with a world
+    negative    a false claim, at its smallest size            REFUTED, with a world
     mutant      a theorem with one thing changed               REFUTED, with what breaks
 
-A solver's `unknown` is not a proof. A theorem whose premises cannot all hold is **vacuous**: never
-`ok`, and reported as UNKNOWN.
+A theorem whose premises cannot all hold is **vacuous**: reported as UNKNOWN.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ from topo_verify.errors import plural
 TheoremKind = Literal["inductive", "mechanised", "bounded", "negative", "mutant"]
 
 SolverAnswer = Literal["sat", "unsat", "unknown"]
-"""Compare it with `==`: each counts as true."""
+"""Compare with `==`: as strings, all count as true."""
 
 ResultStatus = Literal["ok", "failed", "open"]
 """`failed`: a definite but unexpected verdict. `open`: no verdict."""
@@ -34,7 +33,7 @@ TheoremProgress = Callable[[str, int, int], None]
 
 
 def no_progress(_theorem: str, _done: int, _total: int) -> None:
-    """The progress callback for callers who want none."""
+    """Report no progress."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,7 +43,7 @@ class Budget:
     Attributes:
         timeout: seconds for each query.
         rlimit: Z3's deterministic resource units for each query; 0: no limit.
-        certify: also make certificates, and have them checked.
+        certify: also make certificates, and check them.
     """
 
     timeout: float = 60.0
@@ -55,13 +54,13 @@ class Budget:
 
     @property
     def milliseconds(self) -> int:
-        """The time limit as solvers take it; at least 1, since 0 means no limit."""
+        """At least 1, since 0 means no limit."""
         return max(1, round(self.timeout * 1000))
 
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """A question to a solver: an SMT-LIB 2 script, and the expected answer."""
+    """An SMT-LIB 2 script as a question."""
 
     name: str
     smt2: str
@@ -71,7 +70,7 @@ class Query:
 def one_query(
     name: str, smt2: Callable[[], str], expected: SolverAnswer
 ) -> Callable[[], Iterator[Query]]:
-    """The `queries` of a theorem with one question, whose script is made when asked for."""
+    """The `queries` of a theorem with one question; `smt2` writes its script on demand."""
     return lambda: iter([Query(name, smt2(), expected)])
 
 
@@ -139,12 +138,10 @@ class Theorem:
     """A statement, the claims that rest on it, and its proof.
 
     Attributes:
-        name: never changes, since scripts use it.
-        claims: those of docs/semantics.md, section 9, that rest on it.
+        claims: of docs/semantics.md, section 9.
         words, symbols: the statement in words, and for the solver.
         argued: the steps in words, by their names in docs/proofs.md.
         assumed: statements that are not proved here.
-        expected: the verdict if all is well.
         prove: a time-out is a result, never an exception.
         queries: the questions, for export and a second solver.
         edges: for a bounded theorem, the most edges of its worlds.
@@ -168,12 +165,11 @@ class Theorem:
     deep: bool = False
 
     def ok(self, outcome: TheoremResult) -> bool:
-        """Is this the expected result, with nothing vacuous, unknown, unreplayed or refused?"""
-        # `expected` is never UNKNOWN; this makes sure.
+        """Is the verdict the expected one, and beyond doubt?"""
         return outcome.verdict == self.expected != "UNKNOWN" and not self._doubt(outcome)
 
     def reported(self, outcome: TheoremResult) -> TheoremResult:
-        """The result as reported: UNKNOWN with the reason if the expected verdict fails."""
+        """The result, but UNKNOWN with the reason if the expected verdict is in doubt."""
         if outcome.verdict != self.expected or not (doubt := self._doubt(outcome)):
             return outcome
         note = "; ".join(filter(None, (outcome.note, doubt)))

@@ -66,7 +66,7 @@ class JudgedSuite(NamedTuple):
 
 
 def suites(named: Iterable[tuple[str, Iterable[JudgedCase]]]) -> tuple[JudgedSuite, ...]:
-    """The suites with these names and cases."""
+    """Make a suite of each name with its cases."""
     return tuple(JudgedSuite(name, tuple(cases)) for name, cases in named)
 
 

@@ -1,9 +1,8 @@
 """What a command says to people, before it takes a form: paragraphs, tables, commands to copy.
 
-Each form escapes the texts, which may hold anything: a world's name, a mapper's exception.
-
-A **tone** says what a verdict settles. It has a colour and, where something failed or is open, a
-mark, so nothing depends on colour.
+Each form escapes the texts, which may hold anything: a world's name, a mapper's exception. A
+**tone** says what a verdict settles; it has a colour and, where something failed or is open, a
+mark.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ TONES: dict[str, Tone] = {
     "incomplete": "open",
     "?": "open",
 }
-"""Of words that fill a cell."""
+"""The tone of a word that fills a cell."""
 
 VERDICTS = ("PROVED", "EXHAUSTED", "SAMPLED", "UNKNOWN", "REFUTED")
 

@@ -122,7 +122,6 @@ def _frame(suite: Suite, x: Axis, y: Axis) -> Iterator[str]:
 
 
 def _names(entry: LeagueEntry, x: Axis) -> Iterator[str]:
-    """Family names in three rows, to avoid overlaps."""
     line = PALETTE["faint"].light
     for number, family in enumerate(sorted(entry.families, key=lambda family: family.edges)):
         at = min(max(x.at(family.edges), LEFT + 60), WIDTH - RIGHT - 20)

@@ -57,12 +57,10 @@ def _paragraph(text: str) -> str:
 
 
 def _cell(cell: str | bl.Cell) -> str:
-    """A table cell, where `|` separates even within code."""
     return re.sub(r"(?<!\\)\|", r"\\|", _escaped(bl.cell_text(cell)))
 
 
 def _inline(text: str) -> str:
-    """Literal text; words that would become links are code."""
     return _escaped(bl.clean(text))
 
 

@@ -1,9 +1,8 @@
 """The report of a run as one self-contained page that makes no request.
 
-Only the section `timing` differs when the same run is repeated.
-
-A content security policy allows by hash the styles and scripts of this page and of the player,
-which runs in sandboxed frames. Everything from a mapper, a world or a file name is escaped.
+Only the section `timing` differs when the same run is repeated. A content security policy allows by
+hash the styles and scripts of this page and of the player, which runs in sandboxed frames. Texts of
+a mapper, a world or a file name are escaped.
 """
 
 from __future__ import annotations
@@ -108,7 +107,6 @@ def _sections(account: Account, run: Ending) -> Iterator[str]:
     exhibits = [*map(_exhibit, count(1), account.exhibits)]
     if account.left_out:
         exhibits.append(f"<p>{account.left_out} more are not shown here.</p>")
-    # Where something is wrong, one looks there first; elsewhere they were expected.
     wrong = account.extent.verdict == "REFUTED"
     if exhibits and wrong:
         yield _section("counterexamples", "Counterexamples", exhibits)
@@ -128,7 +126,6 @@ def _sections(account: Account, run: Ending) -> Iterator[str]:
 
 
 def _flat(timing: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, str]]:
-    """Each figure with its path of names."""
     for name, value in timing.items():
         path = f"{before}, {name}" if before else name
         if isinstance(value, dict):

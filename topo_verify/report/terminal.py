@@ -1,6 +1,6 @@
 """Blocks on a terminal.
 
-A table that is too wide narrows its text columns down to their longest word. It never breaks
+A table that is too wide narrows its text columns down to their longest word, but never breaks
 numbers and verdicts; if they do not fit, each row becomes a list.
 """
 
@@ -42,7 +42,6 @@ def pretty(blocks: Iterable[bl.Block], out: IO[str]) -> None:
             continue
         with console.capture() as printed:
             _print(block, console)
-        # Rich fills its lines with spaces.
         out.writelines(f"{line.rstrip()}\n" for line in printed.get().splitlines())
 
 
@@ -114,7 +113,6 @@ def _most(table: bl.TextTable, place: int) -> int:
 
 
 def _least(table: bl.TextTable, place: int) -> int:
-    """The longest unbreakable part of a column."""
     whole = table.columns[place].startswith(">")
     longest = [_word(_title(table.columns[place])) if table.headed else 0]
     for row in table.rows:
@@ -166,7 +164,6 @@ def _print_list(table: bl.TextTable, row: Sequence[str | bl.Cell], console: Cons
     from rich.table import Table as RichTable
     from rich.text import Text as Line
 
-    # A number alone says nothing.
     title = f"{_title(table.columns[0])} " if table.columns[0].startswith(">") else ""
     console.print(Line(title).append_text(_line(row[0])))
     cells = [(t, c) for t, c in zip(table.columns[1:], row[1:], strict=True) if bl.cell_text(c)]

@@ -1,4 +1,4 @@
-"""A short run as one animated SVG. This part of the room is imported late: it draws.
+"""A short run as one animated SVG. Import it late: it draws.
 
 film.py    the picture: what is shown and what moves, as keyframes of CSS; its captions
 tracks.py  where things lie, and when

@@ -46,11 +46,11 @@ class Badge(NamedTuple):
 
 
 Way = tuple[tuple[Point, ...], ...]
-"""The points of a way. Where a cell of a torus is left, the next part begins on its other side."""
+"""The points of a way; a new part begins where a cell of a torus is re-entered."""
 
 
 class Leg(NamedTuple):
-    """During one moment something goes this way, or stands at the only point."""
+    """The way that something goes during one moment; a single point: it stands there."""
 
     moment: int
     way: Way

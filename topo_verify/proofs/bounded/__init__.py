@@ -2,9 +2,9 @@
 
 cnf.py         clauses over named Booleans, and Z3's answers
 encoding.py    worlds, maps and walks as clauses
-statements.py  the bounded statements
-theorems.py    proves them; lists the worlds of the encoding
-mutants.py     false claims and faulty rules, which must be refuted
+statements.py  the statements
+theorems.py    proves them; lists the encoded worlds
+mutants.py     false claims and faulty rules, to be refuted
 replay.py      repeats a counterexample in the simulator
 drup.py        checked refutations
 """

@@ -1,9 +1,8 @@
-"""Formulas in conjunctive normal form over named Booleans, in named groups of clauses.
+"""Formulas in conjunctive normal form over named Booleans.
 
-Every solver, and the checker of certificates, reads the same clauses, so no translation must be
-trusted. Literal `v` says that Boolean `v` is true, `-v` that it is false. Each premise is a
-**group**, which a core can name. Without group `REFUTED`, the negated conclusion, the formula must
-be satisfiable. A one-hot **row** has exactly one true literal, such as "which door".
+Solvers and the checker of certificates read the same clauses, so no translation must be trusted.
+Literal `v` says that Boolean `v` is true, `-v` that it is false. Each premise is a **group** of
+clauses, which a core can name. Of a one-hot **row** exactly one literal is true.
 """
 
 from __future__ import annotations
@@ -20,10 +19,10 @@ CnfRow = tuple[CnfLiteral, ...]
 Clause = tuple[CnfLiteral, ...]
 
 REFUTED = "refuted"
-"""The group of the negated conclusion."""
+"""The group of the negated conclusion; without it, a formula must be satisfiable."""
 
 MET = "met"
-"""The group that, in the premises alone, requires a case for the conclusion."""
+"""In the premises alone, the group that requires a case for the conclusion."""
 
 
 class Formula:
@@ -35,22 +34,18 @@ class Formula:
         self.met: list[Clause] = []
 
     def boolean(self, name: str) -> CnfLiteral:
-        """A new Boolean."""
         self.names.append(name)
         return len(self.names)
 
     def booleans(self, name: str, size: int) -> CnfRow:
-        """New Booleans `name.0`, `name.1` ...."""
         return tuple(self.boolean(f"{name}.{index}") for index in range(size))
 
     def row(self, group: str, name: str, size: int) -> CnfRow:
-        """A new one-hot row."""
         row = self.booleans(name, size)
         self.exactly_one(group, row)
         return row
 
     def add(self, group: str, *literals: CnfLiteral) -> None:
-        """Add the clause that one of these holds."""
         self.groups.setdefault(group, []).append(literals)
 
     def imply(self, group: str, premises: Sequence[CnfLiteral], *conclusions: CnfLiteral) -> None:
@@ -58,13 +53,11 @@ class Formula:
         self.add(group, *(-premise for premise in premises), *conclusions)
 
     def exactly_one(self, group: str, literals: Sequence[CnfLiteral]) -> None:
-        """Add: exactly one of these holds."""
         self.add(group, *literals)
         for one, other in combinations(literals, 2):
             self.add(group, -one, -other)
 
     def define_and(self, group: str, name: str, literals: Sequence[CnfLiteral]) -> CnfLiteral:
-        """A new Boolean: all of these hold."""
         both = self.boolean(name)
         for literal in literals:
             self.add(group, -both, literal)
@@ -72,18 +65,15 @@ class Formula:
         return both
 
     def define_or(self, group: str, name: str, literals: Sequence[CnfLiteral]) -> CnfLiteral:
-        """A new Boolean: one of these holds."""
-        # De Morgan.
         return -self.define_and(group, name, [-literal for literal in literals])
 
     def equate(self, group: str, guard: Sequence[CnfLiteral], one: CnfRow, other: CnfRow) -> None:
-        """Add: where the guard holds, two rows are equal."""
+        """Add: under the guard the rows are equal."""
         for a, b in zip(one, other, strict=True):
             self.imply(group, (*guard, a), b)
             self.imply(group, (*guard, b), a)
 
     def define_equal(self, group: str, name: str, one: CnfRow, other: CnfRow) -> CnfLiteral:
-        """A new Boolean: the two one-hot rows are equal."""
         equal = self.boolean(name)
         self.equate(group, (equal,), one, other)
         # Rows are one-hot, so one shared place suffices.
@@ -93,7 +83,6 @@ class Formula:
 
     @property
     def clauses(self) -> list[Clause]:
-        """All clauses, group by group."""
         return [clause for clauses in self.groups.values() for clause in clauses]
 
     def premises(self) -> Formula:
@@ -125,12 +114,11 @@ class Formula:
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """A model: the Booleans that are true."""
+    """The Booleans that are true in a model."""
 
     true: frozenset[int]
 
     def holds(self, literal: int) -> bool:
-        """Whether the literal is true."""
         return (abs(literal) in self.true) == (literal > 0)
 
     def index(self, row: CnfRow) -> int:
@@ -141,7 +129,7 @@ class Assignment:
 
 @dataclass(frozen=True, slots=True)
 class SatResult:
-    """Z3's answer, with a model, the reason for unknown, or the groups used (not minimal)."""
+    """Z3's answer, with a model, the reason for `unknown`, or the groups used (not minimal)."""
 
     answer: SolverAnswer
     model: Assignment | None = None
@@ -150,7 +138,6 @@ class SatResult:
 
 
 def solve(formula: Formula, budget: Budget) -> SatResult:
-    """Ask Z3 for a model; a time-out is `unknown`."""
     question = Z3Question(formula.smt2(), budget, setup="clauses", labels=tuple(formula.groups))
     answer = question.check()
     model = _model(formula, question) if answer == "sat" else None
@@ -158,9 +145,9 @@ def solve(formula: Formula, budget: Budget) -> SatResult:
 
 
 def first_model(formula: Formula, over: CnfRow, budget: Budget) -> SatResult:
-    """As `solve`, but the first model in the order of `over`, earliest literals true.
+    """The first model in the order of `over`, earliest literals true.
 
-    Z3's own model may vary; a printed counterexample must not.
+    Z3's choice of a model may vary; a printed counterexample must not.
     """
     question = Z3Question(formula.smt2(), budget, setup="clauses")
     if (answer := question.check()) != "sat":
@@ -181,10 +168,10 @@ def first_model(formula: Formula, over: CnfRow, budget: Budget) -> SatResult:
 
 
 def models(formula: Formula, over: CnfRow, budget: Budget) -> Iterator[Assignment]:
-    """Yield a model for each assignment of `over`.
+    """Yield one model for each assignment of `over`.
 
     Raises:
-        SolverGaveUp: before further models were excluded.
+        SolverGaveUp: further models were not excluded.
     """
     question = Z3Question(formula.smt2(), budget, setup="clauses")
     names = {abs(literal): formula.names[abs(literal) - 1] for literal in over}

@@ -1,9 +1,9 @@
 """Certificates that clauses are unsatisfiable: one program finds the proof, another checks it.
 
-A SAT solver (of python-sat) records a DRUP proof, in which unit propagation derives each line from
-those before it, up to the empty clause. `drup`, a checker extracted from a development verified in
-Why3, follows it. The checker is slow, so the solver first reduces the clauses to those it uses;
-`objection` requires that they are clauses of the formula.
+A SAT solver (python-sat) records a DRUP proof, in which unit propagation derives each line from
+those before it, up to the empty clause. `drup`, a checker extracted from a Why3 development,
+follows it. It is slow, so the solver first reduces the clauses to those it uses; `objection`
+requires that they belong to the formula.
 
 What this does not show: that the clauses say what they should.
 
@@ -29,7 +29,7 @@ PER_SECOND = 100_000
 
 _ROUNDS = 8
 _FEWEST_CLAUSES = 400
-"""The least number of clauses with a long proof: limits the search."""
+"""No long proof has fewer clauses."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,6 @@ class DrupRefutation:
 
 
 def require_tools() -> None:
-    """Raise `InputError` if python-sat or drup cannot be loaded."""
     for package, module in (("python-sat", "pysat.solvers"), ("drup", "drup")):
         try:
             import_module(module)
@@ -54,20 +53,18 @@ def require_tools() -> None:
 
 
 def checker() -> str:
-    """Name and version of the checker."""
     return f"drup {metadata.version('drup')}"
 
 
 def certify(formula: Formula, *, seconds: float = 60.0) -> RefutationCertificate | str:
-    """A checked certificate of unsatisfiability, or why there is none.
+    """A certificate of unsatisfiability, or why there is none.
 
-    `checked` is false if the checker refuses the proof: a bug, not a limit.
+    If the checker refuses the proof, `checked` is false: a bug, not a limit.
 
     Args:
         seconds: the longest estimated time of the checker.
     """
     largest = round(seconds * PER_SECOND)
-    # The checker has no time for more than `largest` clauses times steps.
     refutation = refute(formula, most_steps=largest // _FEWEST_CLAUSES)
     if isinstance(refutation, str):
         return refutation
@@ -144,7 +141,6 @@ def _proof(clauses: list[Clause], name: str) -> tuple[Clause, ...]:
     solvers: Any = import_module("pysat.solvers")
     with solvers.Solver(name=name, bootstrap_with=clauses, with_proof=True) as solver:
         solver.solve()
-        # Without deletions propagation derives no less.
         learned = [line.split() for line in solver.get_proof() if not line.startswith("d")]
     steps = [tuple(map(int, line[:-1])) for line in learned]
     return (*(step for step in steps if step), ())

@@ -11,16 +11,16 @@ it was first entered (docs/semantics.md, section 3); v0 begins with the marked d
 
 **Map.** S and the world share numbers in the order of discovery. The first dart of every vertex but
 v0 is joined with a smaller one (`entry`), by an explored edge if S knows the vertex. So the world
-is connected and S *reachable*: cross the entry edges in order, and other edges once their ends are
-known. Conversely, every S of an exploration is of this form. The other vertices are numbered
-breadth-first, so each pair of a world and a map is one model (`theorems.py` counts them).
+is connected and S *reachable*: cross the entry edges in order, then the other edges. Conversely,
+every S of an exploration is of this form. The other vertices are numbered breadth-first, so each
+pair of a world and a map is one model (`theorems.py` counts them).
 
-**Positions** and doors are one-hot rows. Rows that others determine are constrained to be one-hot
-again: redundant, but it makes words of four doors feasible.
+**Positions** and doors are one-hot rows, also where others determine them: redundant, but it makes
+words of four doors feasible.
 
 **Walks.** The robot crossed the unexplored dart `e` and stands at `vu`, its reference dart
 `alpha(e)`. Hypothesis `h`: this is dart h of S. A word of doors is followed `there`, in the world
-from alpha(e), and `here`, on S from h over explored darts. The rules compare both percepts:
+from alpha(e), and `here`, on S from h. The rules compare percepts of both:
 
     confirm   here ends at v0 and the last percepts are equal            ⇒  h = alpha(e)
     trace     h = alpha(e), every door crosses an explored dart          ⇒  all percepts are equal
@@ -46,8 +46,6 @@ MarkerDetail = Literal["directed", "undirected", "none"]
 
 @dataclass(frozen=True, slots=True)
 class EncodedMap:
-    """A reachable map of the world."""
-
     known: CnfRow
     explored: CnfRow
 
@@ -84,7 +82,6 @@ class Worlds(Formula):
         self.in_v0 = self._first_vertex()
 
     def edge(self, one: int, other: int) -> CnfLiteral:
-        """Whether the two darts are joined."""
         return self.joined[min(one, other), max(one, other)]
 
     def _rotation(self) -> None:
@@ -113,15 +110,14 @@ class Worlds(Formula):
         return tuple(self.define_or("rotation", f"in_v0.{d}", degrees[d:]) for d in self.darts)
 
     def map(self, name: str) -> EncodedMap:
-        """A new reachable map."""
         known = self.booleans(f"{name}.known", len(self.darts))
         explored = self.booleans(f"{name}.explored", len(self.darts))
         group = f"{name}.reachable"
         self.add(group, known[0])
         for d in self.darts[1:]:
-            self.imply(group, [known[d]], known[d - 1])  # a prefix
-            self.imply(group, [known[d - 1], -self.first[d]], known[d])  # of whole vertices
-            self.imply(group, [known[d], self.first[d]], explored[d])  # entered by explored edges
+            self.imply(group, [known[d]], known[d - 1])
+            self.imply(group, [known[d - 1], -self.first[d]], known[d])
+            self.imply(group, [known[d], self.first[d]], explored[d])
         for d in self.darts:
             self.imply(group, [explored[d]], known[d])
         for (a, b), joined in self.joined.items():
@@ -145,7 +141,6 @@ class Worlds(Formula):
                     self.imply(group, [vertex, self.edge(e, g)], *before, known[f])
 
     def include(self, group: str, smaller: EncodedMap, larger: EncodedMap) -> None:
-        """Require that one map is a part of another."""
         for d in self.darts:
             self.imply(group, [smaller.known[d]], larger.known[d])
             self.imply(group, [smaller.explored[d]], larger.explored[d])
@@ -162,7 +157,7 @@ class Worlds(Formula):
             )
             same[a, b] = same[b, a] = literal  # no vertex begins between a and b
         for (a, b), joined in self.joined.items():
-            self.imply(group, [joined], -same[a, b])  # no loop
+            self.imply(group, [joined], -same[a, b])
             # No second edge c-d beside a-b.
             for c in self.darts if world_class == "simple" else ():
                 for d in self.darts:
@@ -170,7 +165,6 @@ class Worlds(Formula):
                         self.add(group, -joined, -self.edge(c, d), -same[a, c], -same[b, d])
 
     def position(self, group: str, name: str) -> CnfRow:
-        """A new one-hot row over darts."""
         return self.row(group, name, len(self.darts))
 
     def turn(
@@ -187,7 +181,6 @@ class Worlds(Formula):
             for x in range(f, f + degree):
                 for k in self.darts:
                     here = (*guard, at[x], vertex)
-                    # Doors beyond the degree do not exist.
                     if k < degree:
                         place = k if absolute else (x - f + k) % degree
                         self.imply(group, (*here, door[k]), leave[f + place])
@@ -201,7 +194,6 @@ class Worlds(Formula):
             self.imply(group, [*guard, leave[b], joined], arrive[a])
 
     def at_one_of(self, group: str, at: CnfRow, darts: CnfRow, name: str) -> CnfLiteral:
-        """Whether the position is one of these darts."""
         held = self.boolean(name)
         for place, member in zip(at, darts, strict=True):
             self.imply(group, [place, member], held)
@@ -209,7 +201,6 @@ class Worlds(Formula):
         return held
 
     def sense(self, group: str, at: CnfRow, name: str) -> EncodedPercept:
-        """The percept of a robot with this reference dart."""
         degree = self.row(group, f"{name}.degree", len(self.darts))
         marker = self.booleans(f"{name}.marker", len(self.darts))
         here = self.at_one_of(group, at, self.in_v0, f"{name}.here")
@@ -219,7 +210,6 @@ class Worlds(Formula):
                 # From dart x of v0 the marked dart is door -x.
                 if f == 0:
                     self.imply(group, [at[x], vertex], marker[-x % doors])
-        # Away from v0 all of `marker` is false.
         for one, other in combinations(marker, 2):
             self.add(group, -one, -other)
         for door in marker:
@@ -234,7 +224,6 @@ class Worlds(Formula):
         name: str,
         marker: MarkerDetail = "directed",
     ) -> CnfLiteral:
-        """Whether two percepts are equal in what is compared."""
         parts = [self.define_equal(group, f"{name}.degree", one.degree, other.degree)]
         if marker != "none":
             parts.append(
@@ -252,7 +241,7 @@ class Worlds(Formula):
 RuleFault = Literal[
     "", "through-unexplored", "absolute-doors", "shifted", "turned", "one-more", "first-dart"
 ]
-"""One mistake in a rule, so that it fails in a small world; "" is none:
+"""One mistake in a rule, which fails in a small world; "" is none:
 
     through-unexplored  an unexplored dart is traced as if it led back to itself
     absolute-doors      doors on S are counted from the vertex's first dart
@@ -302,7 +291,6 @@ def crossed(world: Worlds, chart: EncodedMap, name: str) -> tuple[CnfRow, CnfRow
 
 
 def open_dart(world: Worlds, chart: EncodedMap, name: str) -> CnfRow:
-    """Any unexplored dart of a map."""
     dart = world.position(name, name)
     for d in world.darts:
         world.add(name, -dart[d], chart.known[d])
@@ -326,7 +314,6 @@ def true_hypothesis(scene: EdgeCrossing) -> CnfRow:
 
 
 def doors(world: Worlds, name: str, steps: int) -> tuple[CnfRow, ...]:
-    """Any word of doors."""
     return tuple(world.row(name, f"{name}.{i}", len(world.darts)) for i in range(steps))
 
 
@@ -378,7 +365,6 @@ def trace(
     *,
     fault: RuleFault = "",
 ) -> TracedWalk:
-    """The walk along a word on a map."""
     at, leave, senses = [start], list[CnfRow](), [world.sense(name, start, f"{name}.0")]
     # `first[0]` is the constant true.
     alive, ends = [world.first[0]], list[CnfLiteral]()
@@ -390,7 +376,6 @@ def trace(
         on = world.define_and(name, f"{name}.on.{i + 1}", [alive[i], known])
         ends.append(world.define_and(name, f"{name}.ends.{i}", [alive[i], -known]))
         world.cross(name, leave[i], at[i + 1], on)
-        # After its end the walk stays in place.
         world.equate(name, (-alive[i],), at[i], at[i + 1])
         through = fault == "through-unexplored"
         world.equate(name, (ends[i],), leave[i] if through else at[i], at[i + 1])

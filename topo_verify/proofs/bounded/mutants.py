@@ -1,10 +1,9 @@
-"""Theorems that a world must refute: the negatives, and rules with one mistake (`RuleFault`).
+"""Theorems that a world must refute: negatives, and rules with one mistake (`RuleFault`).
 
-The solver finds a world, a map and doors; the simulator repeats them, and the checkers must find
-that the claim fails (`replay.py`).
+The solver finds a world, a map and doors; in the simulator the claim must fail (`replay.py`).
 
-**Negatives.** A mapper behind e walks a shortest way on S from hypothesis h to v0. Of the marker it
-compares only the presence (`undirected`) or nothing (`none`). In some worlds every percept is as
+**Negatives.** Behind e a mapper walks a shortest way on S from hypothesis h to v0. It compares only
+the marker's presence (`undirected`), or nothing of it (`none`). In some worlds every percept is as
 expected although h is false. The smallest have this many edges, for any policy:
 
     class       undirected   none
@@ -49,12 +48,10 @@ class Negative:
 
     @property
     def name(self) -> str:
-        """The theorem's name, such as `undirected-simple`."""
         return f"{self.marker}-{self.world_class}"
 
     @property
     def statement(self) -> str:
-        """The false claim, in words."""
         compared = {
             "directed": "compares all of the marker",
             "undirected": "looks only at the presence of the marker",
@@ -75,7 +72,6 @@ SMALLEST = (
 
 
 def premises(edges: int, world_class: str) -> Formula:
-    """Any unexplored dart of any map of any world of the class."""
     # Without h: the loopless world with one edge has none, but counts.
     return enc.behind_an_edge(edges, world_class=world_class).world
 
@@ -133,7 +129,6 @@ def depths(world: enc.Worlds, chart: enc.EncodedMap) -> tuple[CnfRow, ...]:
             for t in levels[1:]:
                 joined = (world.edge(a, b), depth[x][t])
                 world.imply(group, (*joined, down[x]), depth[y][t - 1])
-                # So depths are distances.
                 farther = depth[y][t - 1 : t + 2]
                 world.imply(group, (*joined, chart.explored[x]), *farther)
     return depth
@@ -151,8 +146,6 @@ def _one_nearer(
 
 @dataclass(frozen=True, slots=True)
 class _FaultyRule:
-    """A rule with one mistake, and the edges of its smallest counterexample."""
-
     rule: str
     fault: enc.RuleFault | enc.MarkerDetail
     edges: int
@@ -223,7 +216,6 @@ _MUTANTS = (
 def _mutant(case: _FaultyRule) -> Theorem:
     confirms = case.rule == "confirm"
     name = f"words-{case.rule}-{case.fault}"
-    # Words of m doors, as in the changed theorem.
     mistake = {"marker" if confirms else "fault": case.fault}
     build = partial(_RULES[case.rule], case.edges, case.edges, **mistake)
     return Theorem(
@@ -242,7 +234,6 @@ def _mutant(case: _FaultyRule) -> Theorem:
 
 
 def _replay_of(case: _FaultyRule) -> Callable[[BoundedCounterexample], ReplayedCounterexample]:
-    # A fault of `confirm` is a `MarkerDetail`, any other a `RuleFault`.
     match case.fault:
         case "directed" | "undirected" | "none" as marker:
             return partial(replay_confirmation, marker=marker, whole=False)

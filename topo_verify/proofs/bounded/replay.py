@@ -2,10 +2,9 @@
 
 The simulated robot draws the map edge by edge, crosses e and takes the doors; the checkers judge.
 
-    false confirmation   all percepts are as expected; the mapper confirms h, and claim
-                         `no-false-confirm` must fail at this event
+    false confirmation   all percepts are as expected; confirming h must fail `no-false-confirm`
     false rejection      the faulty rule, written a second time as code on the map, finds an
-                         unexpected percept; it rejects h, and `true-hypothesis-kept` must fail
+                         unexpected percept; rejecting h must fail `true-hypothesis-kept`
 """
 
 from __future__ import annotations
@@ -73,12 +72,10 @@ def decode_table(world: Worlds, model: Assignment) -> Table:
 
 
 def decode_world(world: Worlds, model: Assignment) -> World:
-    """The world of an assignment."""
     return World.from_code(decode_table(world, model))
 
 
 def decoded_booleans(encoded: EncodedCounterexample) -> CnfRow:
-    """The Booleans that `decode` reads."""
     # Their order decides which counterexample comes first: append new ones.
     maps = [encoded.chart] if encoded.earlier is None else [encoded.earlier.chart, encoded.chart]
     rows = [encoded.world.first, tuple(encoded.world.joined.values())]
@@ -90,11 +87,8 @@ def decoded_booleans(encoded: EncodedCounterexample) -> CnfRow:
 
 
 def decode(encoded: EncodedCounterexample, model: Assignment) -> BoundedCounterexample:
-    """The counterexample of an assignment."""
     world = decode_world(encoded.world, model)
     steps = sum(map(model.holds, encoded.made)) if encoded.made is not None else None
-    # In `prefix`, `steps` is about the own way, and the executed word
-    # is taken whole.
     own = encoded.own or encoded.executed
     behind = encoded.earlier
     return BoundedCounterexample(
@@ -195,7 +189,6 @@ def replay_rejection(
 def _compared(
     run: _Replayer, example: BoundedCounterexample, rule: str, fault: RuleFault
 ) -> PerceptPairs:
-    """The pairs of percepts that the rule compares for h, in its order."""
     if rule == "records":
         return _records(run, example)
     if rule == "prefix":
@@ -244,7 +237,6 @@ def _way(chart: Chart, at: ev.MapDart, word: DoorWord) -> list[ev.MapDart]:
 def _traced(
     chart: Chart, at: ev.MapDart, word: DoorWord, fault: RuleFault = ""
 ) -> list[ev.MapDart]:
-    """The reference darts while a word is traced, up to an unexplored dart."""
     way = [at]
     for door in word:
         here = chart.first[chart.vertex[way[-1]]] if fault == "absolute-doors" else way[-1]
@@ -275,7 +267,6 @@ class _Replayer:
         self.chart = Chart(self.robot.percept)
         self.pilot = Pilot(self.robot)
         self.at: ev.MapDart = 0
-        # The recorded dart, and the index of its first percept.
         self.recorded: tuple[ev.MapDart, int] | None = None
         self.recorded_percepts: tuple[Percept, ...] = ()
         if example.earlier is not None:

@@ -1,14 +1,11 @@
-"""The statements of the bounded theorems, in words, in symbols, and as clauses.
-
-A function returns the clauses of a failure; the statement is that nothing satisfies them. A new
-statement is one entry of a table below.
+"""The statements of the bounded theorems, in words, in symbols, and as clauses of a failure.
 
     S, U        a reachable map; its unexplored darts               W     the world
     p, r        corresponding: a dart of S, a reference dart        p',r' behind the same door
     e, h        the dart that is crossed; a hypothesis for its other end
 
-Statements about one arbitrary door cover words of any length by induction (docs/proofs.md). Those
-about whole words of up to `steps` doors need none. With a `fault` the rule fails in some world.
+Statements about one arbitrary door cover words of any length by induction (docs/proofs.md); those
+about whole words of up to `steps` doors need none.
 """
 
 from __future__ import annotations
@@ -77,7 +74,6 @@ def record(edges: int) -> enc.Worlds:
     world = enc.Worlds(edges)
     earlier, later = world.map("earlier"), world.map("later")
     world.include("grows", earlier, later)
-    # The earlier map is a prefix of the later one.
     world.number_the_rest(later.known)
     q, p = _known(world, earlier, "q"), _known(world, later, "p")
     wrote = enc.walk(world, "wrote", q, enc.doors(world, "wrote.door", 1))
@@ -266,7 +262,6 @@ def records(
     world.number_the_rest(later.known)
     written, read = enc.doors(world, "wrote", steps), enc.doors(world, "door", steps)
     e1, entry = enc.crossed(world, before, "e1")
-    # `earlier` is `before` with just the edge e1-entry explored as well.
     for d in world.darts:
         for dart in (before.explored[d], e1[d], entry[d]):
             world.imply("augment", [dart], earlier.explored[d])

@@ -1,13 +1,13 @@
 """The bounded theorems: they hold in every world with m edges, on every reachable map.
 
-    one-door   one door at any place, m = 1 … 6; words of any length by induction
+    one-door   one door at any place, m = 1 … 6
     words      whole words of up to m doors, m = 1 … 3; with --deep m = 4, where feasible
     below      no false confirmation without the marker's direction, below the sizes of `mutants.py`
     worlds     the worlds of the encoding are the canonical codes, each once
 
-EXHAUSTED: the clauses are unsatisfiable, and the premises satisfiable, for each m. REFUTED: a model
-is decoded to a world. "Every world" is every world: with S = v0 the models are compared with the
-codes of `world.enumeration`: 2, 10, 74, 706, 8162 with 1 … 5 edges.
+EXHAUSTED: for each m the clauses are unsatisfiable, and the premises satisfiable. "Every world" is
+checked: with S = v0 the models are compared with the codes of `world.enumeration`: 2, 10, 74, 706,
+8162 with 1 … 5 edges.
 """
 
 from __future__ import annotations
@@ -34,11 +34,10 @@ from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.rank_order import Table
 
 LISTED_EDGES = 4
-"""Up to this size worlds are counted in the encoding; beyond, by formulas."""
+"""Up to this size encoded worlds are counted one by one; beyond, by formulas."""
 
 
 def every_world(edges: int, world_class: str = "any") -> Worlds:
-    """The worlds of a class, in breadth-first numbering."""
     world = Worlds(edges)
     world.restrict(world_class)
     world.number_the_rest()
@@ -46,9 +45,7 @@ def every_world(edges: int, world_class: str = "any") -> Worlds:
 
 
 def codes(edges: int, world_class: str = "any", budget: th.Budget | None = None) -> Iterator[Table]:
-    """Yield the (degrees, alpha) of each model."""
     world = every_world(edges, world_class)
-    # These determine the world.
     over = (*world.first, *world.joined.values())
     for model in models(world, over, budget or th.Budget()):
         yield decode_table(world, model)
@@ -85,7 +82,7 @@ def another_world(edges: int) -> Worlds:
 
 @cache
 def worlds_encoded(edges: int, world_class: str = "any") -> int | None:
-    """The number of worlds of the class; None if the solver gave up."""
+    """None: the solver gave up."""
     if edges > LISTED_EDGES:
         return WorldClass.parse(world_class).count(edges)
     try:
@@ -123,7 +120,6 @@ def bounded(edges: int = MOST_EDGES) -> tuple[th.Theorem, ...]:
             if statement.least <= edges
         ),
         *(
-            # `catalogue.choose` leaves out what is larger than `edges`.
             theorem(statement, deep, name=f"{statement.name}-deep", deep=True)
             for statement in WHOLE_WORD_STATEMENTS
             if not statement.name.startswith("words-records")
@@ -137,7 +133,6 @@ def bounded(edges: int = MOST_EDGES) -> tuple[th.Theorem, ...]:
 def theorem(
     statement: BoundedStatement, sizes: range, *, name: str | None = None, deep: bool = False
 ) -> th.Theorem:
-    """The statement as a theorem about worlds of these sizes."""
     name = name or statement.name
     sizes = range(max(sizes[0], statement.least), sizes[-1] + 1)
     return th.Theorem(
@@ -222,7 +217,6 @@ def _prove(
 
 
 def _not_proved(formula: Worlds, result: SatResult, m: int) -> tuple[Verdict, str, str | None]:
-    """Verdict, note and counterexample if the clauses were not unsatisfiable."""
     if result.model is not None:
         world = decode_world(formula, result.model).id
         return "REFUTED", f"it is false in {world}: `--smt2` writes the question", world

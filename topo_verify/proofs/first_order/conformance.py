@@ -1,9 +1,8 @@
 """Conformance: the terms of `theory.py`, evaluated on real runs, decide as the code does.
 
 At each decision of a trace the terms tell which darts are hypotheses, which of them the rule
-rejects and when, and where the motion stops; `compare` yields every difference. No world is needed:
-dart b of the terms is the number of a percept; `rot(b, i) = root` means that the marker was sensed
-at door i.
+rejects and when, and where the motion stops. No world is needed: dart b of the terms is the number
+of a percept; `rot(b, i) = root` means that the marker was sensed at door i.
 
 What this does not show: policies, walks and costs; rule `folding`, which is compared with
 `checkers/folding.py`; and `planar`, which is not sound.
@@ -34,14 +33,12 @@ class RecordTrie:
         self.records: dict[MapDart, int] = {}
 
     def node(self, percept: Percept) -> int:
-        """Add a node; return its number."""
         self.percepts.append(percept)
         self.behind.append({})
         return len(self.percepts) - 1
 
 
 def points(percept: Percept, door: Door) -> bool:
-    """Whether the marker points at this door."""
     return percept.marker is not None and (door - percept.marker) % percept.degree == 0
 
 
@@ -95,25 +92,20 @@ def _of_records(trie: RecordTrie) -> dict[str, Function]:
 
 
 def nullary(value: Value) -> Function:
-    """A constant."""
     return lambda: value
 
 
 def unary(function: Callable[[int], Value]) -> Function:
-    """A function of one element."""
     # This tells type checkers the number of arguments.
     return function
 
 
 def binary(function: Callable[[int, int], Value]) -> Function:
-    """A function of two elements."""
     return function
 
 
 @dataclass(frozen=True, slots=True)
 class RuleRejection:
-    """A rejection by a rule at a step of the executed sequence."""
-
     hypothesis: MapDart
     rule: str
     step: int
@@ -135,7 +127,6 @@ class DescribedRule:
     trie: RecordTrie = field(default_factory=RecordTrie)
 
     def posed(self, chart: Chart, e: MapDart, seen: Percept) -> set[MapDart]:
-        """The hypotheses for e with this percept behind it."""
         place = structure(chart, [seen], self.trie)
         open_darts = [d for d in range(len(chart.alpha)) if chart.alpha[d] is None]
         return {h for h in open_darts if place.holds(self.terms["posed"], e=e, h=h, b=0)}
@@ -172,7 +163,7 @@ class DescribedRule:
         for step, (own, door) in enumerate(zip(h.doors, doors, strict=False), 1):
             if place.holds(self.terms["prefix"], x=h.arrivals[step - 1], own=own, k=door, b=step):
                 return step
-            if own != door:  # the common prefix ends here
+            if own != door:
                 return None
         return None
 
@@ -209,7 +200,7 @@ class DescribedRule:
         entry: MapDart,
         words: Iterable[tuple[list[Door], list[Percept]]],
     ) -> None:
-        """Record one edge, whose entry dart is known now."""
+        """Record what was executed behind an edge, whose entry dart is known now."""
         if self.rule != "records":
             return
         # Nothing is traced out of S through an explored edge.
@@ -256,7 +247,6 @@ class TraceReader:
             self.turned = self.doors.pop()
             self.seen.pop()
         else:
-            # Validation.
             self.doors.append((move.door + self.turned) % self.seen[-1].degree)
             self.seen.append(move.percept)
             self.turned = 0
@@ -272,7 +262,6 @@ class TraceReader:
 
     @property
     def at_vu(self) -> Percept:
-        """The percept directly behind the edge."""
         return self.seen[0]
 
 
@@ -303,12 +292,10 @@ def compare(trace: Sequence[Event], described: DescribedRule) -> Iterator[str]:
                 remaining.remove(dart)
                 # After a mismatch the rule judges all remaining hypotheses.
                 if reading.doors:
-                    # The next moves change both lists.
                     words.append((reading.doors.copy(), reading.seen.copy()))
                     expected = list(_sifted(described, reading, remaining, tree))
             case Reject(_, dart, rule, evidence):
                 declared = RuleRejection(dart, rule, evidence.step)
-                # Rejections must come in the described order, each once.
                 if not expected or expected.pop(0) != declared:
                     yield f"event {when}: {declared} is not the rejection that the rule describes"
                 remaining.remove(dart)

@@ -57,7 +57,6 @@ def model(formulas: Sequence[terms.Term], sizes: Mapping[str, int], budget: Budg
     reply = z3_solver.find_values(grounded(formulas, sizes), sorts, budget)
     if reply.answer != "sat":
         return FiniteModel(reply.answer, why=reply.why)
-    # The constants' values tell which element is which.
     number = {
         sort: {reply.values[element(sort, n).symbol.name]: n for n in range(size)}
         for sort, size in sizes.items()
@@ -78,12 +77,10 @@ def model(formulas: Sequence[terms.Term], sizes: Mapping[str, int], budget: Budg
 
 
 def element(sort: str, number: int) -> terms.App:
-    """The constant that names an element."""
     return terms.Symbol(f"{sort}!{number}", (), sort)()
 
 
 def ground(term: terms.Term, sizes: Mapping[str, int]) -> terms.Term:
-    """The formula with its quantifiers expanded."""
     match term:
         case terms.Var():
             return term
@@ -109,7 +106,6 @@ FunctionValue = tuple[terms.App, terms.Symbol, tuple[int, ...], terms.App]
 def _entries(formulas: Sequence[terms.Term], sizes: Mapping[str, int]) -> Iterator[FunctionValue]:
     found = {symbol.name: symbol for formula in formulas for symbol in terms.symbols(formula)}
     named = {element(sort, n).symbol.name for sort, size in sizes.items() for n in range(size)}
-    # Elements name themselves.
     for name in sorted(found.keys() - named):
         symbol = found[name]
         for row in product(*(range(sizes[sort]) for sort in symbol.arguments)):
@@ -119,7 +115,6 @@ def _entries(formulas: Sequence[terms.Term], sizes: Mapping[str, int]) -> Iterat
 
 
 def _domains(entries: Sequence[FunctionValue], sizes: Mapping[str, int]) -> Iterator[terms.Term]:
-    """Elements are different, and every value is one of them."""
     for sort, size in sizes.items():
         for one, other in combinations(range(size), 2):
             yield terms.differ(element(sort, one), element(sort, other))
@@ -140,7 +135,6 @@ def question(assertions: Mapping[str, terms.Term]) -> str:
 
 
 def grounded(formulas: Sequence[terms.Term], sizes: Mapping[str, int]) -> str:
-    """The SMT-LIB script for these numbers of elements."""
     entries = list(_entries(formulas, sizes))
     rows = [*(ground(formula, sizes) for formula in formulas), *_domains(entries, sizes)]
     # No symbol is called c0, c1, ...

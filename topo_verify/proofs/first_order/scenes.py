@@ -4,9 +4,6 @@ Formulas make a tiny structure a world with a reachable map: doors are the numbe
 all degrees up to 4 divide; turns come round after `degree` doors and no sooner; the world is
 connected; S consists of v0 and of vertices entered by their first dart, `mfirst`, over an explored
 edge; malpha maps an unexplored dart to itself.
-
-`SceneReplay` repeats a scene in the simulator, without a solver; the rule is evaluated on S and on
-the percepts sensed behind e.
 """
 
 from __future__ import annotations
@@ -40,7 +37,6 @@ AXIOMS = tuple(name for name in t.CORRESPONDENCE if name not in t.LEMMAS)
 
 
 def door(number: int) -> terms.App:
-    """The constant for a door."""
     return element("K", number % DOORS)
 
 
@@ -70,7 +66,6 @@ def _degrees() -> dict[str, terms.Term]:
 
 
 def _connected(darts: int) -> dict[str, terms.Term]:
-    """Every dart is near the root: fewer turns and crossings than darts."""
     reached = [terms.Symbol(f"reached{n}", ("W",), terms.BOOL) for n in range(darts)]
     a = t.a
     rows = [terms.forall(a, terms.eq(reached[0](a), terms.eq(a, t.root)))]
@@ -131,7 +126,6 @@ def find(
 
 
 def question(given: Mapping[str, terms.Term], *, edges: int, known: int) -> str:
-    """The SMT-LIB script that asks for such a scene."""
     sizes = {"W": 2 * edges, "M": known, "K": DOORS, "G": MOST_DEGREE}
     return finite_models.grounded([*exact(2 * edges, known).values(), *given.values()], sizes)
 
@@ -151,7 +145,6 @@ def _decoded(
         tuple(int(of["sigma"](d)) for d in range(darts)),
         int(of["root"]()),
     )
-    # Element n - 1 of G stands for degree n.
     for d in range(darts):
         if of["deg"](d) != world.degrees[world.vertex_of[d]] - 1:
             raise InternalError(f"the model's degree at dart {d} is not that of its world")
@@ -229,15 +222,12 @@ class SceneReplay:
         self.at = other
 
     def dart(self, name: str) -> MapDart:
-        """The dart of the chart that a constant names."""
         return self.number[self.scene.constants[name]]
 
     def first(self, dart: MapDart) -> MapDart:
-        """The first dart of a vertex."""
         return self.chart.first[self.chart.vertex[dart]]
 
     def door(self, name: str, degree: int) -> Door:
-        """The door of a constant at this degree."""
         return self.scene.constants[name] % degree
 
     def behind(self, name: str) -> Percept:
@@ -260,25 +250,22 @@ class SceneReplay:
         self.at = self.chart.turn(entry, self.pilot.turned)
 
     def hypothesis(self, name: str) -> Hypothesis:
-        """The dart as a hypothesis, with its way home."""
         return Hypothesis(self.dart(name), self.chart, self.chart.tree(0))
 
     def says(self, rule: terms.Term, *seen: Percept, **values: int) -> bool:
-        """Whether a term is true of S and percepts, for which b = 0, 1, ... stand."""
+        """Is a term true of S and percepts, for which b = 0, 1, ... stand?"""
         return structure(self.chart, seen, self.trie).holds(rule, **values)
 
     def truth(self, e: str, h: str) -> bool:
-        """Whether e ends in h."""
+        """Does e end in h?"""
         place, constants = self.scene.place, self.scene.constants
         return self.scene.world.alpha[place[constants[e]]] == place[constants[h]]
 
     @cached_property
     def root(self) -> int:
-        """The marked dart."""
         assert self.scene.world.root is not None
         return self.scene.world.root
 
     @property
     def history(self) -> tuple[Door, ...]:
-        """The doors so far."""
         return tuple(event.door for event in self.robot.events if isinstance(event, Move))

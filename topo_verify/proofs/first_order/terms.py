@@ -1,13 +1,11 @@
 """Formulas of many-sorted first-order logic.
 
-A term is written as SMT-LIB 2, expanded over tiny domains (`finite_models.py`), and evaluated in
-concrete structures (`Structure`), so the proved and the tested formula are the same.
-
     Var     x, bound by a quantifier or free         App   f(a, b), also `and`, `=>`, `=`, ...
     Symbol  a function: name, sorts, result           Forall for all x ...: body
 
-The elements of a sort are the integers from 0. Every model of a solver is evaluated before it
-counts.
+One term is written as SMT-LIB 2, expanded over tiny domains (`finite_models.py`), and evaluated in
+a `Structure`, so the proved and the tested formula are the same. The elements of a sort are the
+integers from 0.
 """
 
 from __future__ import annotations
@@ -28,11 +26,7 @@ class Symbol:
     result: str
 
     def __call__(self, *arguments: Term) -> App:
-        """The application to these arguments.
-
-        Raises:
-            TypeError: a sort is wrong.
-        """
+        """Raise TypeError if a sort is wrong."""
         sorts = tuple(argument.sort for argument in arguments)
         if sorts != self.arguments:
             raise TypeError(f"{self.name} takes {self.arguments}, not {sorts}")
@@ -41,22 +35,17 @@ class Symbol:
 
 @dataclass(frozen=True, slots=True)
 class Var:
-    """A variable of a sort."""
-
     name: str
     sort: str
 
 
 @dataclass(frozen=True, slots=True)
 class App:
-    """A function applied to terms."""
-
     symbol: Symbol
     arguments: tuple[Term, ...] = ()
 
     @property
     def sort(self) -> str:
-        """The sort of its value."""
         return self.symbol.result
 
 
@@ -70,7 +59,6 @@ class Forall:
 
     @property
     def sort(self) -> str:
-        """Bool."""
         return BOOL
 
 
@@ -78,17 +66,14 @@ Term = Var | App | Forall
 
 
 def conj(*parts: Term) -> Term:
-    """All of them hold."""
     return parts[0] if len(parts) == 1 else _connect("and", *parts)
 
 
 def disj(*parts: Term) -> Term:
-    """One of them holds."""
     return parts[0] if len(parts) == 1 else _connect("or", *parts)
 
 
 def neg(part: Term) -> Term:
-    """It does not hold."""
     return _connect("not", part)
 
 
@@ -98,7 +83,7 @@ def implies(*parts: Term) -> Term:
 
 
 def eq(one: Term, other: Term) -> Term:
-    """They are equal; for formulas: equivalent."""
+    """Equal terms, equivalent formulas."""
     if one.sort != other.sort:
         raise TypeError(f"= between {one.sort} and {other.sort}")
     # One symbol `=` for each sort, so sorts are checked.
@@ -106,7 +91,6 @@ def eq(one: Term, other: Term) -> Term:
 
 
 def differ(one: Term, other: Term) -> Term:
-    """They are not equal."""
     return neg(eq(one, other))
 
 
@@ -123,7 +107,6 @@ def _connect(name: str, *parts: Term) -> Term:
 
 
 def constant(name: str, sort: str) -> App:
-    """A new constant."""
     return Symbol(name, (), sort)()
 
 
@@ -134,7 +117,6 @@ def symbols(term: Term) -> Iterator[Symbol]:
             pass
         case Forall(_, body, patterns):
             yield from symbols(body)
-            # A pattern may hold other symbols than the body.
             for group in patterns:
                 for hint in group:
                     yield from symbols(hint)
@@ -146,7 +128,6 @@ def symbols(term: Term) -> Iterator[Symbol]:
 
 
 def sorts_of(term: Term) -> set[str]:
-    """The sorts in a term."""
     match term:
         case Var(_, sort):
             return {sort}
@@ -211,7 +192,7 @@ def shown(term: Term, *, inner: bool = False) -> str:
 
 
 def declarations(terms: Iterator[Term] | list[Term]) -> list[str]:
-    """The declarations of all sorts and symbols, in a fixed order.
+    """The declarations of all sorts and symbols, sorted, so the same terms give the same text.
 
     Raises:
         TypeError: two symbols have one name.
@@ -223,7 +204,6 @@ def declarations(terms: Iterator[Term] | list[Term]) -> list[str]:
         for symbol in symbols(term):
             if known.setdefault(symbol.name, symbol) != symbol:
                 raise TypeError(f"two symbols are called {symbol.name}")
-    # Sorted: the same terms give the same text.
     lines = [f"(declare-sort {sort} 0)" for sort in sorted(sorts - {BOOL})]
     return lines + [
         f"(declare-fun {symbol.name} ({' '.join(symbol.arguments)}) {symbol.result})"
@@ -257,11 +237,10 @@ class Structure:
     functions: Mapping[str, Function]
 
     def holds(self, term: Term, **values: Value) -> bool:
-        """Whether a formula is true for these values of its free variables."""
+        """Is the formula true for these values of its free variables?"""
         return bool(self.value(term, values))
 
     def value(self, term: Term, values: Mapping[str, Value]) -> Value:
-        """The value of a term."""
         match term:
             case Var(name):
                 return values[name]
@@ -299,7 +278,6 @@ CONNECTIVES: Mapping[str, Callable[[Iterator[Value]], Value]] = {
 def of_tables(
     sizes: Mapping[str, int], tables: Mapping[str, Mapping[tuple[int, ...], Value]]
 ) -> Structure:
-    """The structure given by tables."""
 
     def reading(table: Mapping[tuple[int, ...], Value]) -> Function:
         return lambda *arguments: table[arguments]

@@ -1,9 +1,9 @@
 """The obligations as theorems, and for each a mutant that lacks one of its premises.
 
-**Theorem**: Z3 shows that premises and negated goal have no model. A tiny structure
-(`finite_models.py`) satisfies the premises; without one the theorem is vacuous, and not `ok`.
-**Mutant**: without one needed premise a structure, evaluated without a solver, refutes the goal.
-**Mutant of a rule**: a scene refutes it (`mutants/`), which the simulator replays.
+**Theorem**: premises and negated goal have no model. A tiny structure (`finite_models.py`)
+satisfies the premises; without one the theorem is vacuous. **Mutant**: without one needed premise a
+structure, evaluated without a solver, refutes the goal. **Mutant of a rule**: a scene refutes it
+(`mutants/`), which the simulator replays.
 """
 
 from __future__ import annotations
@@ -24,7 +24,6 @@ from topo_verify.proofs.theorem import Budget, Theorem, TheoremResult, one_query
 
 
 def theorem(obligation: Obligation) -> Theorem:
-    """The obligation as a theorem."""
     given = tuple(obligation.given.values())
     statement = implies(conj(*given), obligation.goal) if given else obligation.goal
     return Theorem(
@@ -58,7 +57,6 @@ def _prove(obligation: Obligation, budget: Budget) -> TheoremResult:
         return z3_solver.z3_result(
             verdict="UNKNOWN", note=f"{z3_solver.name()} answers {reply.answer}: {why}"
         )
-    # A tiny model of the premises is sought.
     premises = finite_models.smallest(obligation.premises(), budget).answer
     satisfiable = {"sat": True, "unsat": False, "unknown": None}[premises]
     return z3_solver.z3_result(
@@ -69,7 +67,7 @@ def _prove(obligation: Obligation, budget: Budget) -> TheoremResult:
 
 
 def refute(assertions: dict[str, Term], budget: Budget) -> z3_solver.Z3Reply:
-    """Z3's reply: can all of these hold? The core has their names."""
+    """Can all of these hold? The core has their names."""
     return z3_solver.refute(script(assertions), assertions, budget)
 
 
@@ -111,7 +109,6 @@ def mutant(obligation: Obligation, lost: str) -> Theorem:
 
 
 def _telling(obligation: Obligation) -> str:
-    """The first axiom or lemma that is needed, if any."""
     return next((n for n in obligation.needs if n in obligation.theory), obligation.needs[0])
 
 

@@ -13,9 +13,9 @@
     phi: M -> W, which dart of the world a dart of S is
 
 Doors are not integers, about which Z3 answers `unknown`. `wraps(g,i,j)`: i = j modulo g.
-`toroot(a)`, a door that leads from a to the root within v0, replaces an existential quantifier. The
-percept at a is deg(a), inv0(a), and for each door i whether rot(a,i) = root. No axiom says that W
-is finite or connected; steps that need it are argued in words (docs/proofs.md).
+`toroot(a)`, a door from a to the root within v0, replaces an existential quantifier. The percept at
+a is deg(a), inv0(a), and for each door i whether rot(a,i) = root. No axiom says that W is finite or
+connected; steps that need it are argued in words (docs/proofs.md).
 
 **Rules.** A term is one step of a rule: dart x of S, door k, dart b where the compared percept was
 sensed. `conformance.py` compares terms and code.
@@ -137,7 +137,7 @@ AXIOMS: dict[str, Term] = {
     # lemmas, by induction over words
     "trace": forall((x, w), stays(x, w), eq(phi(mwalk(x, w)), walk(phi(x), w))),
 }
-"""Every axiom and lemma by name. A lemma is proved before it is used."""
+"""Every axiom and lemma. A lemma is proved before it is used."""
 
 LEMMAS = {
     "rot-injective": "rot-injective",
@@ -147,7 +147,7 @@ LEMMAS = {
     "turning-adds": "turning-adds",
     "trace": "word-trace",
 }
-"""The lemmas, and the induction (`-base` and `-step`) of each."""
+"""The induction (`-base` and `-step`) of each lemma."""
 
 WORLD = (
     "sigma-injective",
@@ -203,7 +203,6 @@ def marker_alike(x: Term, b: Term) -> Term:
 
 
 def alike(x: Term, b: Term) -> Term:
-    """The percepts are equal."""
     return conj(signature_alike(x, b), marker_alike(x, b))
 
 
@@ -218,7 +217,6 @@ def beyond(b: Term, door: Term) -> Term:
 
 
 def record_alike(r: Term, b: Term) -> Term:
-    """The recorded percept is that sensed at b."""
     same = eq(rpoints(r, i), eq(rot(b, i), root))
     return conj(eq(rdeg(r), deg(b)), eq(rinv0(r), inv0(b)), forall(i, rinv0(r), same))
 

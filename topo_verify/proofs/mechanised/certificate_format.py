@@ -1,7 +1,7 @@
 """The format of certificates: a first line, `HEADER`, then natural numbers and nothing else.
 
 So a certificate can hold a log, a claim and evidence, but cannot define or prove anything.
-coq/Certificate.v gives their meaning. Trusted here: `parse`, `data_file`, and `log_lines`.
+coq/Certificate.v gives the numbers' meaning. Trusted here: `parse`, `data_file`, and `log_lines`.
 """
 
 from __future__ import annotations
@@ -20,13 +20,11 @@ from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 
 HEADER = "topo-verify/certificate 1"
-"""The format and its version."""
 
 LARGEST = 2**60
-"""The largest number in a certificate."""
 
 WIDEST = 1_000_000
-"""Limit of the sum of degrees of a log. Coq counts doors one by one."""
+"""Largest sum of the degrees of a log. Coq counts doors one by one."""
 
 CertifiedStatement = Literal["map", "undetermined", "impossible"]
 
@@ -119,12 +117,10 @@ def data_file(numbers: Sequence[int]) -> str:
 
 
 def text_of(certificate: CoqCertificate) -> str:
-    """The certificate as text."""
     return "\n".join([HEADER, *(" ".join(map(str, line)) for line in lines_of(certificate)), ""])
 
 
 def lines_of(certificate: CoqCertificate) -> Iterator[Line]:
-    """Yield the numbers of a certificate, line by line."""
     yield from log_lines(certificate.log)
     yield from _claim(certificate)
     decisions = certificate.decisions
@@ -143,7 +139,7 @@ _DECISIONS = (ev.Reject, ev.Confirm, ev.Augment)
 
 
 def stated_log(trace: Sequence[ev.Event]) -> tuple[ev.Event, ...]:
-    """Return the events of a trace that a certificate is about.
+    """The events of a trace that a certificate is about.
 
     Left out: poses; all decisions from the first on that names a number no dart has; a delivered
     value that is no map. Darts outside 0..`LARGEST` are renumbered.
@@ -182,7 +178,6 @@ def left_out(trace: Sequence[ev.Event]) -> str:
 
 
 def decisions_in(log: Sequence[ev.Event]) -> int:
-    """The number of declared decisions."""
     return sum(isinstance(event, _DECISIONS) for event in log)
 
 
@@ -232,7 +227,6 @@ def _with_natural_darts(delivered: ev.MapData) -> ev.MapData:
 
 
 def _event(event: ev.Event) -> Line | None:
-    """The numbers of an event that is stated here."""
     match event:
         case ev.Move(door, percept):
             return (0, door, *_percept(percept))

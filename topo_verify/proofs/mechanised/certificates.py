@@ -43,7 +43,6 @@ from topo_verify.robot.events import Event, Finish, MapData, Move, Start, requir
 from topo_verify.robot.percept import Percept
 
 LIBRARY = "Certificate"
-"""The file that the check builds on."""
 
 LONG = 200_000
 """Longer certificates go to the extracted program, if OCaml is installed."""
@@ -74,7 +73,7 @@ class CertificateCheck:
 
 
 def certificate_of(trace: Sequence[Event]) -> CoqCertificate:
-    """Return the certificate of what a log proves.
+    """The certificate of what a log proves.
 
     Raises:
         InputError: the trace is out of order, has numbers below 0, or too many doors.
@@ -97,7 +96,7 @@ def certificate_of(trace: Sequence[Event]) -> CoqCertificate:
 
 
 def is_about(numbers: Sequence[int], trace: Sequence[Event]) -> bool:
-    """Whether the numbers of a certificate begin with the log of this trace.
+    """Do the numbers of a certificate begin with the log of this trace?
 
     Raises:
         InputError: as `certificate_of`.
@@ -182,7 +181,6 @@ class _Checker:
         if why := toolchain.missing():
             return CertificateCheck(accepted=None, by="", why=why)
         try:
-            # It is compiled last.
             if not (self.folder / f"{LIBRARY}.vo").exists():
                 self.progress("compiling the proofs")
                 build(self.folder, timeout=self.timeout)
@@ -211,7 +209,6 @@ def build(folder: Path, *, timeout: float) -> None:
 
 
 UNPROVED = "its numbers are no certificate, or their evidence does not prove what they state"
-"""Why a checker refuses numbers."""
 
 _SUMMARY = re.compile(r"= Some \((\d), (\d), \((\d+), (\d+)\)\)")
 

@@ -1,11 +1,11 @@
 """Fold a log and record every merge, as evidence for the checker in Coq.
 
-The fold of a log (docs/semantics.md, section 11) by union-find; coq/Checker.v repeats it. Visits
-are counted from 1. An **arc** is a move taken forwards or backwards, from one place (visit, dart)
-to another. Two arcs that leave by one dart **meet**: they arrive at one dart. Evidence is a list of
-meetings, each of which follows from those before it. A mistake here makes a certificate that is
-refused. The smaller class is linked under the larger, since the checker follows 40 links.
-Complexity: nearly linear in the number of moves.
+The fold of a log (docs/semantics.md, section 11) by union-find. Visits are counted from 1. An
+**arc** is a move taken forwards or backwards, from one place (visit, dart) to another. Two arcs
+that leave by one dart **meet**: they arrive at one dart. Evidence is a list of meetings, each of
+which follows from those before it. The smaller class is linked under the larger, since the checker
+(coq/Checker.v) follows 40 links. A mistake here makes a certificate that is refused. Complexity:
+nearly linear in the number of moves.
 
 **Decisions** rest on facts about two places: an edge joins them (evidence: an arc), or none does
 (evidence: the merges that it would imply, up to a conflict).
@@ -46,28 +46,28 @@ LogPlace = tuple[int, int]
 
 @dataclass(frozen=True, slots=True)
 class Arrive:
-    """Conflict: arcs that leave by one dart arrive at two."""
+    """Arcs that leave by one dart arrive at two."""
 
     meeting: Meeting
 
 
 @dataclass(frozen=True, slots=True)
 class Marked:
-    """Conflict: the visit saw the marker, but not at the marked dart."""
+    """The visit saw the marker, but not at the marked dart."""
 
     visit: int
 
 
 @dataclass(frozen=True, slots=True)
 class Alone:
-    """Conflict: the move would leave and arrive by one dart."""
+    """The move would leave and arrive by one dart."""
 
     visit: int
 
 
 @dataclass(frozen=True, slots=True)
 class Illegal:
-    """Conflict: the log has a door or a marker beyond the degree, or no marker at the start."""
+    """The log has a door or a marker beyond the degree, or no marker at the start."""
 
 
 Conflict = Arrive | Marked | Alone | Illegal
@@ -91,7 +91,7 @@ class FoldedLog:
 
     @property
     def closed(self) -> bool:
-        """Whether no dart is open: the log determines the map."""
+        """Is no dart open, so that the log determines the map?"""
         return all(row.other is not None for row in self.table)
 
 
@@ -144,7 +144,6 @@ class ProofProducingFold:
         self.offset += [0] * len(visits)
         self.size += [1] * len(visits)
         self.leaving += [{} for _ in visits]
-        # Move v arrives at visit v + 1 by dart 0.
         self.edges += [((v, door), (v + 1, 0)) for v, door in zip(moves, doors, strict=True)]
         # These merges follow from the percepts alone, and need no evidence.
         for visit, percept in zip(visits, percepts, strict=True):
@@ -195,11 +194,9 @@ class ProofProducingFold:
         return self.find(self.edges[edge][1])
 
     def end(self, arc: Arc) -> LogPlace:
-        """Where an arc arrives."""
         return self._arrives(arc.visit) if arc.forwards else self._leaves(arc.visit)
 
     def find(self, place: LogPlace) -> LogPlace:
-        """The representative of a place."""
         visit, dart = place
         while self.parent[visit] != visit:
             dart += self.offset[visit]
@@ -207,7 +204,7 @@ class ProofProducingFold:
         return visit, dart % self.seen[visit].degree
 
     def _apart(self, one: LogPlace, other: LogPlace) -> bool:
-        """Whether two representatives cannot be one dart."""
+        """Can two representatives not be one dart?"""
         if one[0] == other[0]:
             return one != other
         return self.seen[one[0]].signature != self.seen[other[0]].signature
@@ -299,8 +296,6 @@ MOST = 2_000_000
 
 @dataclass(frozen=True, slots=True)
 class EdgeRefutation:
-    """Why no edge joins two places: the conflict that it implies."""
-
     meetings: tuple[Meeting, ...]
     conflict: Conflict
 
@@ -337,12 +332,11 @@ class EntailedDecisions:
 
     @property
     def too_long(self) -> bool:
-        """Whether the evidence exceeds MOST steps."""
         return self.steps > MOST
 
 
 def evidence_for_decisions(trace: Sequence[Event]) -> EntailedDecisions:
-    """Return the decisions of a trace that follow, with evidence.
+    """The decisions of a trace that follow, with evidence.
 
     Raises:
         InternalError: a decision follows, but lacks evidence.
@@ -392,7 +386,6 @@ class LogSoFar:
 
     @property
     def visit(self) -> int:
-        """The last visit."""
         return len(self.fold.seen) - 1
 
     def catch_up(self, trace: Sequence[Event], when: int) -> None:

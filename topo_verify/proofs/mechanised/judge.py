@@ -1,6 +1,6 @@
 """A second opinion on a trace by the judge of coq/Judge.v, extracted to OCaml.
 
-Coq proves that the judge says `failed` exactly where a definition of coq/Claims.v is violated. How
+Coq proves that the judge says `failed` exactly where a definition of coq/Claims.v is violated; how
 much is judged, `judged` of `of`, is not proved. Trusted besides Coq: its extraction, in which
 natural numbers become OCaml's integers; the OCaml compiler; `numbers` and coq/judge_driver.ml,
 which pass the trace.
@@ -38,7 +38,6 @@ LARGEST = 2**60
 """OCaml's integers have 63 bits."""
 
 TracedRun = tuple[World, Sequence[ev.Event]]
-"""A world, and what happened there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +105,6 @@ def build(folder: Path, *, timeout: float) -> Path:
 
 
 def judged_claims(trace: Sequence[ev.Event]) -> tuple[str, ...]:
-    """The claims that are judged of this trace."""
     planar = any(isinstance(event, ev.Reject) and event.rule == "planar" for event in trace)
     return PROVED_CLAIMS[:-1] if planar or len(trace) > LONG else PROVED_CLAIMS
 
@@ -196,7 +194,6 @@ def _ending(finish: ev.Finish) -> list[int]:
     head = [1, *_optional(finish.cost)]
     if any(len(edge) != 2 for edge in edges) or (marker is None) == any(vertices):
         return [*head, 0]
-    # Darts are renumbered by first appearance.
     number: dict[int | None, int] = {}
     rows = [[number.setdefault(label, len(number)) for label in row] for row in (*vertices, *edges)]
     rotations, pairs = rows[: len(vertices)], rows[len(vertices) :]

@@ -26,8 +26,6 @@ LONGER = 10
 
 @dataclass(frozen=True, slots=True)
 class MechanisedStatement:
-    """A theorem of coq/, and the claims that rest on it."""
-
     name: str
     file: str
     theorem: str
@@ -316,7 +314,6 @@ def asked(folder: Path, *, timeout: float) -> str:
     """Coq's answer about the axioms of all theorems together."""
     imports = " ".join(dict.fromkeys(one.file for one in STATEMENTS))
     theorems = ", ".join(f"@{one.file}.{one.theorem}" for one in STATEMENTS)
-    # One `Print Assumptions` of a tuple covers all theorems.
     text = f"From Topo Require {imports}.\nDefinition every := ({theorems}).\n"
     (folder / "asked.v").write_text(f"{text}Print Assumptions every.\n", encoding="utf-8")
     return toolchain.compile_one(folder, "asked", timeout=timeout).output
@@ -331,7 +328,6 @@ def summary(output: str) -> str:
 
 
 def theorem(statement: MechanisedStatement) -> Theorem:
-    """The statement as a theorem of the catalogue."""
     return Theorem(
         name=statement.name,
         kind="mechanised",

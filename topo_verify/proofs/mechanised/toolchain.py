@@ -17,7 +17,6 @@ from functools import cache
 from pathlib import Path
 
 SOURCES = Path(__file__).parents[1] / "coq"
-"""The folder of the sources."""
 
 HOW_TO_GET_IT = (
     "apt-get install --no-install-recommends coq (Debian, Ubuntu), or opam install coq; the proofs"
@@ -47,8 +46,6 @@ _SHELL_SIGNALS = range(129, 160)
 
 @dataclass(frozen=True, slots=True)
 class ProgramRun:
-    """The output of a program, and whether it accepted its input."""
-
     accepted: bool
     output: str
 
@@ -61,7 +58,6 @@ def missing() -> str:
 
 @cache
 def version() -> str:
-    """Name and version of the compiler."""
     output = subprocess.run(
         ["coqc", "-print-version"],  # noqa: S607  the one on PATH is meant
         capture_output=True, text=True, check=False,
@@ -70,7 +66,7 @@ def version() -> str:
 
 
 def files() -> tuple[str, ...]:
-    """The library's files, in an order of compilation."""
+    """In an order of compilation."""
     lines = (SOURCES / "_CoqProject").read_text(encoding="utf-8").splitlines()
     return tuple(line.removesuffix(".v") for line in lines if line.endswith(".v"))
 
@@ -98,7 +94,6 @@ def claims_unproved(text: str) -> tuple[str, ...]:
 
 
 def copy_library(folder: Path, names: Iterable[str]) -> None:
-    """Copy these sources into the folder."""
     for name in names:
         shutil.copy(SOURCES / f"{name}.v", folder / f"{name}.v")
 
@@ -122,7 +117,6 @@ def compile_all(
 def compile_one(
     folder: Path, name: str, *, timeout: float, flags: Sequence[str] = ()
 ) -> ProgramRun:
-    """Compile one source of the folder."""
     return run(["coqc", *flags, "-q", "-Q", ".", "Topo", f"{name}.v"], folder, timeout=timeout)
 
 

@@ -1,4 +1,4 @@
-"""Solvers with their limits: an SMT-LIB script goes in, one of three answers comes out.
+"""Solvers with their limits: a script goes in, `sat`, `unsat` or `unknown` comes out.
 
 z3_solver.py    for all proofs but the mechanised ones
 cvc5_solver.py  a second solver for the same scripts

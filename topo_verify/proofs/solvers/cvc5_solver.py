@@ -1,7 +1,7 @@
-"""cvc5, the second solver, reads the same SMT-LIB 2 script as Z3.
+"""cvc5, the second solver, reads the same scripts as Z3.
 
-It agrees, disagrees (an error: one solver is wrong), or gives up, which counts neither way. A
-question with quantifiers that it leaves open is asked again with `full-saturate-quant`.
+Disagreement is an error: one solver is wrong. `unknown` counts neither way; questions with
+quantifiers are then asked again with `full-saturate-quant`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Agreement = Literal["agrees", "disagrees", "unknown"]
 
 @dataclass(frozen=True, slots=True)
 class SecondAnswer:
-    """The answer of cvc5; `why`: the reason for `unknown`, or the option that the answer took."""
+    """cvc5's answer; `why`: the reason for `unknown`, or the option that it took."""
 
     query: str
     solver: str
@@ -31,7 +31,7 @@ class SecondAnswer:
 
     @property
     def agreement(self) -> Agreement:
-        """Whether the answer is the expected one."""
+        """Does cvc5 give the expected answer?"""
         if self.answer == "unknown":
             return "unknown"
         return "agrees" if self.answer == self.expected else "disagrees"
@@ -47,7 +47,6 @@ class SecondAnswer:
 
 
 def require_tools() -> None:
-    """Raise `InputError` if cvc5 cannot be loaded."""
     try:
         import_module("cvc5")
     except (ImportError, OSError) as error:
@@ -58,17 +57,14 @@ def require_tools() -> None:
 
 
 def ask(query: Query, *, timeout: float = 60.0) -> SecondAnswer:
-    """Ask cvc5.
+    """Ask cvc5, at most twice with `timeout` seconds each.
 
-    Args:
-        timeout: seconds for each of two tries.
     Raises:
         InputError: cvc5 is missing, or cannot read the script.
     """
     require_tools()
     began = perf_counter()
     answer, why = _check(query, timeout, {})
-    # The option concerns quantifiers only.
     if answer == "unknown" and "forall" in query.smt2:
         answer, why = _check(query, timeout, {"full-saturate-quant": "true"})
         why = why or "full-saturate-quant"

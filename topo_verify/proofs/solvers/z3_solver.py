@@ -1,11 +1,9 @@
-"""Z3: a script goes in, one of three answers comes out; every limit on Z3 is set here.
+"""Z3, with every limit set here. Each question has its own context, so answers are independent.
 
     quantified   E-matching alone: with `auto_config` and `mbqi`, questions that take milliseconds
                  can come back unknown
     ground       equality without quantifiers, which Z3 decides
-    clauses      the solver for finite domains, the fastest tried on clauses
-
-Each question has its own context, so answers do not depend on earlier ones.
+    clauses      the solver for finite domains, the fastest tried
 
 What this does not show: that Z3 is right (see `cvc5_solver`, `bounded/drup.py`).
 """
@@ -20,7 +18,6 @@ from typing import Any, Literal
 
 from topo_verify.proofs.theorem import Budget, SolverAnswer, TheoremResult
 
-# The z3 package has no types.
 _z3: Any = import_module("z3")
 
 Z3Setup = Literal["quantified", "ground", "clauses"]
@@ -34,12 +31,11 @@ def name() -> str:
 
 
 z3_result = partial(TheoremResult, solver=name())
-"""A `TheoremResult` from Z3."""
 
 
 @dataclass(frozen=True, slots=True)
 class Z3Reply:
-    """Z3's answer, with the reason for `unknown`, a core that is not minimal, or values as text."""
+    """Z3's answer, with the reason for `unknown`, a core (not minimal), or values as text."""
 
     answer: SolverAnswer
     why: str = ""
@@ -48,14 +44,14 @@ class Z3Reply:
 
 
 def refute(smt2: str, labels: Iterable[str], budget: Budget) -> Z3Reply:
-    """Ask a script with quantifiers for a core of its labels."""
+    """Ask a script with quantifiers; `unsat` comes with a core of its labels."""
     question = Z3Question(smt2, budget, setup="quantified", labels=tuple(labels))
     answer = question.check()
     return Z3Reply(answer, why=question.why, core=question.core)
 
 
 def find_values(smt2: str, wanted: Mapping[str, str], budget: Budget) -> Z3Reply:
-    """Ask a script without quantifiers for the values of constants of these sorts."""
+    """Ask a script without quantifiers for the values of constants, given with their sorts."""
     question = Z3Question(smt2, budget, setup="ground")
     answer = question.check()
     values = question.values(wanted) if answer == "sat" else {}
@@ -63,7 +59,7 @@ def find_values(smt2: str, wanted: Mapping[str, str], budget: Budget) -> Z3Reply
 
 
 class Z3Question:
-    """A script put to Z3, to be asked again with assumptions; answers are about the last `check`.
+    """A script in Z3; answers are about the last `check`.
 
     Args:
         labels: one for each assertion, in order; without them there is no core.
@@ -104,7 +100,7 @@ class Z3Question:
         return self._answer
 
     def forbid(self, values: Mapping[str, bool]) -> None:
-        """Require that one of these Booleans has the other value."""
+        """Require another value of at least one of these Booleans."""
         others = [self._literal(name, not value) for name, value in values.items()]
         self._solver.add(_z3.Or(others))
 
@@ -127,7 +123,7 @@ class Z3Question:
         return frozenset(str(name) for name in model.decls() if _z3.is_true(model[name]))
 
     def values(self, wanted: Mapping[str, str]) -> dict[str, str]:
-        """The values of constants, given with their sorts, in the model."""
+        """The values of constants, given with their sorts."""
         model = self._solver.model()
         return {
             name: str(model.eval(_z3.Const(name, self._sort(sort)), model_completion=True))

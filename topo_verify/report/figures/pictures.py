@@ -70,7 +70,7 @@ def picture(figure: Figure, points: Sequence[FigurePoint], kind: Literal["svg", 
     import matplotlib as mpl
     from matplotlib.figure import Figure as Canvas
 
-    library: Any = mpl  # its own types are partly unknown
+    library: Any = mpl
     with library.rc_context(SETTINGS):
         canvas: Any = Canvas(figsize=INCHES, facecolor=CARD, layout="constrained")
         _draw(canvas.add_subplot(), figure, points)

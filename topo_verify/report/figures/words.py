@@ -87,7 +87,6 @@ def _stated(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
 
 
 def _first_beyond(figure: Figure, basic: _Line) -> Iterator[str]:
-    """The first size at which basic costs what the paper states for 10×10."""
     stated = figure.stated.get(("basic", 10))
     if stated is None or not basic:
         return
@@ -122,7 +121,6 @@ def _sizes(sizes: Sequence[int]) -> str:
 
 
 def _reduction(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
-    """What the figure's strongest enhancement saves."""
     best = [name for name in LADDER if name in figure.lines][-1]
     both = [size for size in lines["basic"] if size in lines[best]]
     if best == "basic" or not both:
@@ -148,7 +146,6 @@ def _growths(lines: dict[str, _Line]) -> Iterator[str]:
 
 
 def _yardsticks(lines: dict[str, _Line]) -> Iterator[str]:
-    """The largest size beside m and the least cost."""
     basic, folding, least = lines["basic"], lines["folding"], lines["least-cost"]
     shared = [size for size in basic if size in folding and size in least]
     if shared:
@@ -163,7 +160,6 @@ def _yardsticks(lines: dict[str, _Line]) -> Iterator[str]:
 
 
 def _policies(figure: Figure, points: Sequence[FigurePoint]) -> Iterator[str]:
-    """At 10×10, or at the largest size."""
     pairs = {point.pair for point in points} - {None}
     if len(pairs) < 2:
         return

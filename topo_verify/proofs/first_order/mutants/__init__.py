@@ -1,7 +1,7 @@
-"""Rules with one mistake: each fails in some world, of which the smallest is found.
+"""Rules with one mistake, each refuted by a scene.
 
-A scene refutes a mutant: an exact world, a reachable map S, an edge e with a hypothesis h, and the
-moves behind e. In the simulator the faulty rule must reject what is true or confirm what is false.
+A scene is an exact world, a reachable map S, an edge e with a hypothesis h, and the moves behind e.
+In the simulator the faulty rule must reject what is true or confirm what is false.
 
 What this does not show: that the reference policies make these moves. Claims hold for every
 history.
@@ -39,8 +39,8 @@ class RuleMutant:
         of: the obligation that the right rule meets.
         words: the mistake.
         rule: the faulty rule, as in `theory.py`; for a fold step, its wrong conclusion.
-        scene: formulas; with the right rule they contradict.
-        plays: makes the moves, and tells whether the rule fails.
+        scene: formulas that contradict the right rule.
+        plays: makes the moves; does the rule fail?
         size: edges of the world and darts of S.
         without: darts of S whose edges are left for `plays`.
     """

@@ -61,7 +61,6 @@ GROWTH: tuple[RuleMutant, ...] = (
         of="new-is-new",
         words="one hypothesis is skipped before a new vertex is added",
         claims=MAPPED,
-        # Never true: the hypothesis is skipped.
         rule=conj(t.POSED, neg(t.POSED)),
         scene={**TRUE, **AWAY},
         plays=_plays_not_posed,
@@ -94,7 +93,6 @@ GROWTH: tuple[RuleMutant, ...] = (
 
 
 def _plays_fold(replay: SceneReplay, doors: tuple[str | int, ...], one: int, other: int) -> bool:
-    """Whether two places that the rule identifies are two darts."""
     world, at = replay.scene.world, replay.root
     arrivals = [at]
     for door in doors:
@@ -196,4 +194,4 @@ PLANAR = RuleMutant(
     },
     plays=_plays_planar,
 )
-"""A rule that is not sound, so it must not be provable."""
+"""Not sound, so it must not be provable."""

@@ -14,7 +14,6 @@ from topo_verify.robot.percept import Percept
 
 
 def _one(replay: SceneReplay, rule: Term, door: str) -> bool:
-    """Whether the rule, after one door behind e, rejects the true h."""
     vu = replay.behind("e")
     sensed = replay.forward(door)
     k_, own_ = (replay.scene.constants.get(name, 0) for name in (door, "own1"))
@@ -162,7 +161,6 @@ _DEGREES = eq(t.mdeg(x), t.deg(b))
 
 
 def _plays_confirm(replay: SceneReplay, rule: Term, doors: tuple[str, ...] = ()) -> bool:
-    """Whether h is confirmed by its way home although it is false."""
     at, percepts = replay.dart("h"), [replay.behind("e")]
     matches = replay.says(rule, *percepts, x=at, b=0)
     for name in doors:
@@ -174,7 +172,6 @@ def _plays_confirm(replay: SceneReplay, rule: Term, doors: tuple[str, ...] = ())
 
 
 def _plays_taken(replay: SceneReplay, rule: Term) -> bool:
-    """Whether h is taken for true behind e although it is false."""
     vu = replay.behind("e")
     darts = range(len(replay.chart.alpha))
     posed = [h for h in darts if replay.says(t.POSED, vu, e=replay.dart("e"), h=h, b=0)]
@@ -290,7 +287,6 @@ def _unlike(one: Term, other: Term) -> Term:
 def _plays_records(
     replay: SceneReplay, *, entry: Callable[[SceneReplay], int], late: int, early: int
 ) -> bool:
-    """Whether records made behind e_before reject the true h."""
     vu = replay.behind("e_before")
     sensed = replay.forward("d_before")
     replay.close("e_before", "h_before")
@@ -309,7 +305,6 @@ def _plays_records(
 def _recording(
     name: str, of: str, words: str, under: Term, kept: Term, met: Term, **how: int
 ) -> RuleMutant:
-    """A mutant of records: kept under a dart, with the percept at `kept`, compared at `met`."""
     # Kept under another dart than the crossed one.
     stale = under != t.mrot(H1, D1)
 

@@ -36,8 +36,7 @@ class Obligation:
         theory: names of axioms, and of lemmas proved earlier.
         given: further premises by name.
         argued: the steps in words that use it, by their names in docs/proofs.md.
-        needs: premises without each of which some structure refutes the goal; the most telling one
-            gives a mutant.
+        needs: premises without each of which some structure refutes the goal.
     """
 
     name: str
@@ -50,7 +49,6 @@ class Obligation:
     needs: tuple[str, ...]
 
     def premises(self, *, without: str | None = None) -> dict[str, Term]:
-        """The premises, without the one left out."""
         known = {**AXIOMS, **TRUE_RECORDS}
         row = {name: known[name] for name in self.theory} | self.given
         if without is not None:
@@ -58,7 +56,6 @@ class Obligation:
         return row
 
     def negation(self) -> dict[str, Term]:
-        """The premises and the negated goal."""
         return self.premises() | {"goal-fails": neg(self.goal)}
 
 

@@ -6,10 +6,8 @@ maps door k of the entry dart to door k of the place. When no dart is unexplored
 is closed under sigma and alpha; the world is connected, so phi is an isomorphism.
 
 **Folding.** A place (sort P) is a visit of the robot and a door there. In a world that shows the
-history it is a dart, `pi`. `same` is what folding has identified, `joined` what it knows to be an
-edge.
+history it is a dart, `pi`. `same` is what folding has identified, `joined` a known edge.
 
-    symbol               what it is
     pturn(p), prot(p,k)  the next place clockwise, the k-th next
     pdeg, pinv0          degree of the visit; did it see the marker?
     ppoints(p)           the marker that was seen there points at p
@@ -44,12 +42,10 @@ TRUE_LOOP = {"e-ends-in-h": eq(t.alpha(t.phi(E)), t.phi(H))}
 
 
 def is_posed(dart: Term) -> Term:
-    """The dart is among the hypotheses for e, behind which b was sensed."""
     return substitute(t.POSED, {t.e: E, t.h: dart, t.b: B})
 
 
 def _joined(one: Term, other: Term) -> dict[str, Term]:
-    """The edges of S after these two darts were joined."""
     rest = conj(differ(t.x, one), differ(t.x, other))
     return {
         "explored-then": forall(
@@ -164,7 +160,7 @@ GROWTH_OBLIGATIONS: tuple[Obligation, ...] = (
             "explored-are-old": forall(t.x, t.explored(t.x), old(t.x)),
             "e-is-old": old(E),
             "nothing-moves": forall(t.x, old(t.x), eq(phi2(t.x), t.phi(t.x))),
-            "entry-is-there": ENTRY_THERE,  # by `new-entry`
+            "entry-is-there": ENTRY_THERE,
             "is-explored": explored2(X),
         },
         goal=conj(eq(phi2(malpha2(X)), t.alpha(phi2(X))), explored2(malpha2(X))),
@@ -234,7 +230,6 @@ FITS: dict[str, Term] = {
 """The world shows the percepts of the history."""
 
 PI_ROT: dict[str, Term] = {"pi-rot": forall((p, t.k), eq(pi(prot(p, t.k)), t.rot(pi(p), t.k)))}
-"""The lemma of `fold-turn-base` and `fold-turn-step`."""
 
 SAME: dict[str, Term] = {"identified": eq(pi(P), pi(Q))}
 

@@ -1,7 +1,6 @@
 """No rule rejects a true hypothesis, and none confirms a false one.
 
-**Doors.** Invariants of turning, by induction. Door 0 undoes a move but for a turn, which is added
-to the next door.
+**Doors.** Door 0 undoes a move but for a turn, which is added to the next door.
 
 **Traces** keep the correspondence with the world. Base: if e ends in h, then vu is h's place. Step:
 across an explored edge, S and the world arrive at corresponding places. So the compared percepts
@@ -128,7 +127,6 @@ _confirms = partial(Obligation, claims=CONFIRMED)
 _confirms_by_words = partial(_confirms, argued=BY_WORDS)
 
 HERE = {"corresponds": eq(t.phi(X), B)}
-"""Dart x of S corresponds to b, where the robot stands."""
 
 ACROSS = {"on-explored-edges": t.explored(t.mrot(X, D))}
 
@@ -139,7 +137,6 @@ def applied(rule: Term) -> Term:
 
 
 def _traced(word: Term) -> Term:
-    """From corresponding darts, this word leads to corresponding darts."""
     return forall(
         (t.x, t.a),
         eq(t.phi(t.x), t.a),
@@ -216,7 +213,6 @@ TRACE_OBLIGATIONS: tuple[Obligation, ...] = (
 
 
 def _confirmed(word: Term) -> Term:
-    """If this word ends at corresponding darts, it began at such."""
     return forall(
         (t.x, t.a),
         t.stays(t.x, word),
@@ -290,7 +286,6 @@ recorded2 = Symbol("recorded2", ("M",), BOOL)
 
 
 def _followed(word: Term) -> Term:
-    """From a record, this word leads to the record of the spot where it leads."""
     return forall(
         (t.r, t.a),
         eq(t.spot(t.r), t.a),
