@@ -1,7 +1,7 @@
 """The compiled twin: the algorithms of the catalogue for numba, over one array of integers.
 
-It is not trusted: tests compare every event of every run with `topo_verify/algorithms/`. Functions
-keep the names of the file that theirs mirrors.
+It is not trusted: tests compare every event of every run with `topo_verify/algorithms/`. A function
+has the name of the one that it mirrors, whose docstring holds for both.
 
     kernel.py       what a kernel is; from sources to cached machine code
     names.py        names for words: `chart.first[v]`, and their offsets
@@ -30,11 +30,10 @@ from topo_verify.errors import InputError
 
 
 def available() -> bool:
-    """Whether numba is installed."""
     return find_spec("numba") is not None
 
 
 def require(what: str) -> None:
-    """Raise an InputError, whose sentence has the subject `what`, unless numba is installed."""
+    """Raise an InputError with the subject `what` unless numba is installed."""
     if not available():
         raise InputError(f"{what} needs numba: pip install 'topo-verify[fast]'")

@@ -1,8 +1,8 @@
-"""The map S that the mapper draws while it explores.
+"""The map S that the mapper draws. Twin of algorithms/chart.py, `Chart`.
 
-Mirrors: algorithms/chart.py, `Chart`. Differs: U is a mark at each dart with a count at each
-vertex. The tree rooted at v0 is kept (`chart.has_tree`) over edges that cannot change it: to a new
-vertex, which hangs at vk, and between vertices at one distance.
+Differs: U is a mark at each dart with a count at each vertex. The tree rooted at v0 is kept
+(`chart.has_tree`) over edges that cannot change it: to a new vertex, which hangs at vk, and between
+vertices at one distance.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ from topo_verify.compiled.workspace import *
 
 @kernel
 def start_chart(run: RunWords, percept: int) -> None:
-    """Start with v0 alone; the marked dart is dart 0."""
     chart = run.chart
     chart.vertices = 0
     chart.darts = 0
@@ -27,12 +26,11 @@ def start_chart(run: RunWords, percept: int) -> None:
 
 @kernel
 def add_vertex(run: RunWords, percept: int) -> int:
-    """Add a vertex; return its first dart."""
     chart = run.chart
     v = chart.vertices
     first = chart.darts
     degree = percept >> SHIFT
-    if first + degree > CHART_DARTS:  # so is room for vertices
+    if first + degree > CHART_DARTS:
         run.stop = STOP_FULL + FULL_CHART
         return 0
     marker = percept & MASK  # 1 + marker
@@ -60,7 +58,6 @@ def add_vertex(run: RunWords, percept: int) -> int:
 
 @inlined
 def leave_u(chart: ChartWords, dart: int) -> None:
-    """Take a dart out of U."""
     if chart.in_u[dart] != 0:
         chart.in_u[dart] = 0
         chart.unexplored -= 1
@@ -69,7 +66,6 @@ def leave_u(chart: ChartWords, dart: int) -> None:
 
 @inlined
 def join(chart: ChartWords, e: int, other: int) -> None:
-    """Record two darts as the ends of one edge."""
     chart.alpha[e] = other
     chart.alpha[other] = e
     leave_u(chart, e)
@@ -85,7 +81,6 @@ def join(chart: ChartWords, e: int, other: int) -> None:
 
 @inlined
 def turn(chart: ChartWords, dart: int, door: int) -> int:
-    """The dart behind a door: sigma^door(dart)."""
     v = chart.vertex[dart]
     beyond = chart.first[v] + chart.degree[v]
     turned = dart + door
@@ -96,7 +91,6 @@ def turn(chart: ChartWords, dart: int, door: int) -> int:
 
 @inlined
 def door(run: RunWords, dart: int, exit_dart: int) -> int:
-    """The door from `dart` to `exit_dart`."""
     chart = run.chart
     doors = exit_dart - dart
     if planted(run.task, COUNTS_DOORS_ANTICLOCKWISE):
@@ -162,7 +156,6 @@ def tree_of_v0(chart: ChartWords) -> None:
 
 @kernel
 def first_in_u(chart: ChartWords, v: int) -> int:
-    """The lowest dart of U at a vertex that has one."""
     dart = chart.first[v]
     while chart.in_u[dart] == 0:
         dart += 1
@@ -185,7 +178,7 @@ def reach(chart: ChartWords, root: int) -> int:
         v = chart.reached[head]
         head += 1
         if best >= 0 and chart.near[v] > distance:
-            break  # the search goes outward
+            break
         if chart.open[v] > 0:
             opened = first_in_u(chart, v)
             if best < 0 or opened < best:

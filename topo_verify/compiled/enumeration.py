@@ -1,9 +1,9 @@
-"""Lists the worlds of a rank range inside the kernel, in place.
+"""Lists the worlds of a rank range inside the kernel.
 
-The twin of `world/enumeration/rank_order.py` (class `any`) and `pruned.py` (other classes): the
-same growth, order, ranks and letters: `u` open darts, `r` darts to create, `e` the smallest open
-dart, `c` its partner, F(u, r) the number of completions; `n` darts and `nv` vertices so far, `m2`
-darts at the end. Differs: ONE map grows in the workspace, and a step back undoes the last step:
+Twin of `world/enumeration/rank_order.py` (class `any`) and `pruned.py` (other classes), with their
+letters: `u` open darts, `r` darts to create, `e` the smallest open dart, `c` its partner, F(u, r)
+the number of completions; `n` darts and `nv` vertices so far, `m2` darts at the end. Differs: ONE
+map grows in the workspace, and a step back undoes the last step:
 
     walk = WalkWords(prepare(8, WorldClass.parse("planar"), 0, 1000))
     while next_world(world, walk) >= 0:      # the rank; -1: no further world
@@ -90,7 +90,6 @@ def next_pruned(world: WorldWords, walk: WalkWords) -> int:  # noqa: PLR0912  sp
 
 @inlined
 def begin_next_root(world: WorldWords, walk: WalkWords) -> int:
-    """Begin with the next root of the class; return its rank, or -1."""
     m2 = walk.darts
     rank = walk.root_after
     for degree in range(walk.root + 1, m2 + 1):
@@ -111,10 +110,9 @@ def begin_next_root(world: WorldWords, walk: WalkWords) -> int:
 def join_from(
     world: WorldWords, walk: WalkWords, k: int, e: int, c: int, m2: int, n: int, u: int, nv: int
 ) -> int:
-    """Join e with the first open dart from c on that is not pruned; return it.
+    """Join e with the first open dart from c on that is not pruned; return it (n or c: none).
 
     `rank`: before, that of the step with c; after, of the step made.
-    Returns: n or c if none is left.
     """
     ways = 0
     if c < n and u > 1:
@@ -142,9 +140,9 @@ def join_from(
 def new_vertex_from(
     world: WorldWords, walk: WalkWords, k: int, e: int, c: int, m2: int, n: int, u: int, nv: int
 ) -> int:
-    """Hang a vertex on e whose last dart is the first not pruned from c on; return it.
+    """Hang a vertex on e whose last dart is the first not pruned from c on; return it (m2: none).
 
-    `rank`: as in `join_from`. Returns: m2 if none is left.
+    `rank`: as in `join_from`.
     """
     rank = walk.rank
     while c < m2 and rank < walk.stop:
@@ -166,7 +164,6 @@ def new_vertex_from(
 
 @entry
 def count_worlds(world: WorldWords, walk: WalkWords) -> int:
-    """The number of worlds to come."""
     count = 0
     while next_world(world, walk) >= 0:
         count += 1
@@ -234,7 +231,7 @@ def ranked_tables(
     *,
     layout: WordLayout = SMALL,
 ) -> Iterator[tuple[int, rank_order.Table]]:
-    """The worlds of `pruned.ranked_tables`.
+    """Twin of `pruned.ranked_tables`.
 
     Raises:
         InputError: numba is missing, or there are too many edges.
@@ -260,7 +257,7 @@ def next_of_all(world: WorldWords, walk: WalkWords) -> int:
         return -1
     m2, k, n, u, nv = walk.darts, walk.depth, walk.created, walk.opened, walk.vertices
     while True:
-        if k > 0:  # undo; the next sibling follows
+        if k > 0:
             k -= 1
             e, c = walk.dart[k], walk.partner[k]
             world.alpha[e] = -1
@@ -306,7 +303,6 @@ def next_of_all(world: WorldWords, walk: WalkWords) -> int:
 
 @inlined
 def next_partner(world: WorldWords, c: int, m2: int, n: int, u: int) -> int:
-    """The next open dart from c on, or a new vertex's last dart."""
     # A dead end: no dart would be open while darts remain.
     while c < m2:
         if c < n:
@@ -320,7 +316,6 @@ def next_partner(world: WorldWords, c: int, m2: int, n: int, u: int) -> int:
 
 @inlined
 def next_root(walk: WalkWords) -> int:
-    """The degree of the next root with worlds in the range."""
     degree = walk.root + 1
     ways = walk.completions[degree * G_ROW + walk.darts - degree]
     while walk.skip >= ways:
@@ -345,7 +340,6 @@ def skipped(walk: WalkWords, c: int, m2: int, n: int, u: int) -> bool:
 
 @inlined
 def plant(world: WorldWords, walk: WalkWords, degree: int) -> None:
-    """Begin with a root vertex of this degree."""
     for d in range(walk.darts):
         world.alpha[d] = -1
     world.first[0] = 0
@@ -357,7 +351,6 @@ def plant(world: WorldWords, walk: WalkWords, degree: int) -> None:
 
 @inlined
 def new_vertex(world: WorldWords, e: int, first: int, degree: int, vertex: int) -> None:
-    """Hang a new vertex on e by its first dart."""
     world.first[vertex] = first
     world.degree[vertex] = degree
     for d in range(first, first + degree):

@@ -11,8 +11,7 @@
 
 A percept is `degree * P`, plus 1 + marker if present; -1 means absent. `length` is 13 + k.
 `purpose`, `rule` and `contradiction` are indices of `PURPOSES`, `RULES` and `CONTRADICTIONS`;
-`kind` is 1 (new) or 2 (loop). `record` is the dart before a record, followed by doors. `digest` is
-a 64-bit hash.
+`kind` is 1 (new) or 2 (loop). `record` is the dart before a record, followed by doors.
 """
 
 from __future__ import annotations
@@ -61,15 +60,11 @@ PerWord = Annotated[Words, "TRACE"]
 
 @cursor("W")
 class EventWords(WordView):
-    """An event of the trace."""
-
     kind: int
 
 
 @cursor("W")
 class MoveWords(EventWords):
-    """A move."""
-
     door: int
     percept: int
     purpose: int
@@ -84,16 +79,12 @@ class DecisionWords(EventWords):
 
 @cursor("W")
 class PoseWords(DecisionWords):
-    """A pose."""
-
     number: int
     h: PerWord
 
 
 @cursor("W")
 class RejectionWords(DecisionWords):
-    """A rejection."""
-
     h: int
     size: int
     rule: int
@@ -110,16 +101,12 @@ class RejectionWords(DecisionWords):
 
 @cursor("W")
 class ConfirmationWords(DecisionWords):
-    """A confirmation."""
-
     h: int
     rule: int
 
 
 @cursor("W")
 class AugmentationWords(DecisionWords):
-    """An augmentation."""
-
     growth: int
     dart: int
     degree: int
@@ -127,7 +114,6 @@ class AugmentationWords(DecisionWords):
 
 @entry
 def digest(trace: TraceWords) -> int:
-    """A 64-bit hash of the trace."""
     h = 1469598103934665603
     for i in range(trace.size):
         h = (h ^ trace.word[i]) * 1099511628211
@@ -149,7 +135,6 @@ def percept_word(percept: Percept | None) -> int:
 
 
 def words(events: Iterable[ev.Event]) -> list[int]:
-    """The words of a trace, without start and map."""
     row: list[int] = []
     for event in events:
         match event:
@@ -194,13 +179,11 @@ def _reject_words(event: ev.Reject) -> tuple[int, ...]:
 
 @lru_cache(maxsize=2**12)
 def percept_of(word: int) -> Percept:
-    """The percept of a word."""
     marker = word % P
     return Percept(word // P, marker - 1 if marker else None)
 
 
 def spans(trace: Sequence[int]) -> Iterator[tuple[int, int]]:
-    """Yield where each event begins and ends."""
     at = 0
     while at < len(trace):
         kind = trace[at]
@@ -216,7 +199,6 @@ def spans(trace: Sequence[int]) -> Iterator[tuple[int, int]]:
 
 
 def decoded(trace: Sequence[int]) -> Iterator[ev.Event]:
-    """Yield the events, without start and finish."""
     for at, end in spans(trace):
         kind, *rest = trace[at:end]
         if kind == MOVE:

@@ -1,6 +1,6 @@
 """The rules that refute a hypothesis from what was seen; the complete rule is in folding.py.
 
-rule      mirrors of algorithms/              what differs
+rule      twins in algorithms/                what differs
 prefix    enhancement_i.py, `PrefixRule`      the last sequence is the excursion itself
 history   enhancement_ii.py, `HistoryRule`    the same; `beyond` is that of enhancement_iii.py
 records   enhancement_iii.py, `RecordsRule`   a record is four words, in a list for each place
@@ -30,7 +30,6 @@ def cite(evidence: EvidenceWords, step: int, expected: int, observed: int, at: i
 
 @kernel
 def refute_by_prefix(run: RunWords, h: int) -> bool:
-    """Whether the common prefix contradicts h."""
     excursion, chart = run.excursion, run.chart
     at = h
     for step in range(1, excursion.size + 1):
@@ -48,14 +47,12 @@ def refute_by_prefix(run: RunWords, h: int) -> bool:
 
 @kernel
 def refute_by_history(run: RunWords, h: int) -> bool:
-    """Whether S or T contradicts h along the sequence; the first percept is cited."""
     chart, excursion = run.chart, run.excursion
     at = h  # A3.10
     if planted(run.task, TRACES_FROM_THE_FIRST_DART):
         at = chart.first[chart.vertex[h]]
     for step in range(1, excursion.size + 1):
         exit_dart = turn(chart, at, excursion.door[step - 1])
-        # Negative also for e and h.
         at = chart.alpha[exit_dart]  # A3.11
         if at < 0:
             if planted(run.task, TAKES_UNKNOWN_FOR_A_MISMATCH):
@@ -73,7 +70,6 @@ def refute_by_history(run: RunWords, h: int) -> bool:
 
 @kernel
 def observe_sequence(run: RunWords) -> None:
-    """Keep the excursion as a sequence."""
     excursion, sequences = run.excursion, run.sequences
     n = excursion.size
     first = sequences.steps
@@ -91,7 +87,7 @@ def observe_sequence(run: RunWords) -> None:
 
 @kernel
 def beyond(run: RunWords, exit_dart: int, step: int) -> bool:
-    """Whether a record behind the dart contradicts the sequence."""
+    """Does a record behind the dart contradict the sequence?"""
     records, evidence, excursion = run.records, run.evidence, run.excursion
     place = records.of_dart[exit_dart]  # A3.14
     first = step
@@ -120,7 +116,6 @@ def behind(records: RecordWords, place: int, door: int) -> int:
 
 @kernel
 def learn_records(run: RunWords, e: int, entry: int) -> None:
-    """Record what sequences showed behind unexplored darts."""
     records, sequences, chart = run.records, run.sequences, run.chart
     # Both are explored now, and get no new record below.
     records.of_dart[e] = -1
@@ -145,7 +140,6 @@ def learn_records(run: RunWords, e: int, entry: int) -> None:
 
 @kernel
 def record(run: RunWords, exit_dart: int, sequence: int, step: int) -> None:
-    """Record the percepts from this step on."""
     sequences, records = run.sequences, run.records
     # A place shows the same percept each time.
     first = sequences.first[sequence]
@@ -184,7 +178,6 @@ def seen(records: RecordWords, percept: int, door: int) -> int:
 
 @kernel
 def face(run: RunWords, e: int) -> None:
-    """Mark the darts on the face of e."""
     faces, chart = run.faces, run.chart
     faces.number += 1
     dart = e
@@ -201,7 +194,6 @@ def face(run: RunWords, e: int) -> None:
 
 @kernel
 def refute_by_face(run: RunWords, h: int) -> bool:
-    """Whether h lies on another face."""
     faces = run.faces
     if faces.face[h] == faces.number:
         return False

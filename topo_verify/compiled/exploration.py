@@ -5,7 +5,7 @@
     e', e''            h: a hypothesis, the dart by which vu would have been entered
     H                  `remaining.dart`, in the order of the order policy, and how many there are
 
-Mirrors: algorithms/exploration.py, line by line. Differs: H is a row of darts; only `folding` and
+Twin of algorithms/exploration.py, line by line. Differs: H is a row of darts; only `folding` and
 `planar` are asked before the first motion. Where the reference may raise, this looks at `stop`.
 """
 
@@ -47,7 +47,6 @@ def explore_rounds(run: RunWords, at: int, rounds: int) -> int:
 
 @kernel
 def start(run: RunWords) -> int:
-    """Start with S as v0; return the reference dart on S."""
     robot = run.robot
     robot.dart = 0
     robot.cost = 0
@@ -101,7 +100,6 @@ def settle(run: RunWords, at: int) -> int:
 
 @inlined
 def hypotheses(run: RunWords, e: int, percept: int) -> int:
-    """H: the unexplored darts that look like vu, in order."""
     chart = run.chart
     signature = 2 * (percept >> SHIFT) + ((percept & MASK) > 0)
     number = 0
@@ -116,7 +114,6 @@ def hypotheses(run: RunWords, e: int, percept: int) -> int:
                     run.remaining.dart[number] = dart
                     number += 1
     if number > 0:
-        # S does not change while e is validated.
         tree_of_v0(chart)
         shortest(run, number)
     if planted(run.task, TRIES_ONLY_THE_NEAREST_TWO) and number > 2:
@@ -129,7 +126,6 @@ def validate(run: RunWords, e: int, remaining: int) -> int:
     """The confirmed hypothesis, or -1."""
     task, excursion = run.task, run.excursion
     if task.rule >= RULE_FOLDING:
-        # Only `folding` and `planar` can reject before a motion.
         remaining = sift(run, e, remaining)
     while remaining > 0 and run.stop == 0:  # A1.7 A2.10 A2.20 A2.21 A3.8
         h = concluded(run, remaining)
@@ -149,7 +145,7 @@ def validate(run: RunWords, e: int, remaining: int) -> int:
             return h
         # The percepts differ: A1.14 A2.14 A3.23. The robot stays: A2.15.
         declare_reject(run, e, h, BY_MOTION)
-        if excursion.size == 0:  # vu shows the marker: nothing was executed
+        if excursion.size == 0:
             continue
         run.sequences.number += 1
         if task.rule != RULE_NONE:
@@ -170,7 +166,6 @@ def concluded(run: RunWords, remaining: int) -> int:
 
 @kernel
 def sift(run: RunWords, e: int, remaining: int) -> int:
-    """Keep the hypotheses not refuted; return how many."""
     kept = 0
     for i in range(remaining):  # A2.16
         h = run.remaining.dart[i]
@@ -216,7 +211,7 @@ def execute(run: RunWords, h: int, shared: int) -> int:
 
 @kernel
 def overlooked(run: RunWords, at: int, step: int, length: int) -> bool:
-    """Whether a planted mistake takes this mismatch for none."""
+    """Does a planted mistake take this mismatch for none?"""
     chart, excursion = run.chart, run.excursion
     alike = chart.signature[chart.vertex[at]] == 2 * (excursion.percept[step] >> SHIFT) + (
         (excursion.percept[step] & MASK) > 0
@@ -241,7 +236,6 @@ def localise(run: RunWords, entered: int) -> int:
         back(run, 0)
         return entered
     if marker > 0:
-        # The marker points at dart 0.
         return 0 if marker == 1 else chart.degree[0] - marker + 1
     back(run, 0)
     turned = run.excursion.turned
@@ -252,7 +246,6 @@ def localise(run: RunWords, entered: int) -> int:
 
 @kernel
 def start_rule(run: RunWords) -> None:
-    """Forget the run before."""
     run.records.number = 0
     if run.task.rule >= RULE_FOLDING:
         start_fold(run)
@@ -260,7 +253,6 @@ def start_rule(run: RunWords) -> None:
 
 @kernel
 def arrive(run: RunWords, e: int, percept: int) -> None:
-    """The robot has crossed e and senses this at vu."""
     task = run.task
     if task.rule >= RULE_FOLDING:
         if task.rule == RULE_PLANAR:
@@ -270,7 +262,6 @@ def arrive(run: RunWords, e: int, percept: int) -> None:
 
 @kernel
 def observe(run: RunWords) -> None:
-    """A sequence ended in a mismatch."""
     task = run.task
     if task.rule >= RULE_FOLDING:
         observe_fold(run)
@@ -295,7 +286,6 @@ def refute(run: RunWords, h: int) -> int:
 
 @kernel
 def learn(run: RunWords, e: int, entry: int, new: int) -> None:
-    """S has grown; the robot came in by `entry`."""
     task = run.task
     if task.rule >= RULE_FOLDING:
         learn_fold(run, entry, new)

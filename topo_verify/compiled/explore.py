@@ -3,8 +3,8 @@
     run = run_world(world, "enhancement-ii", trace=True)     # -> CompiledRun
 
 Worlds of up to 12 edges run in the small layout, others in the large one, whose words of trace
-become events between rounds. A round that fills the trace is made again with four times the room; a
-run that needs more of anything else, in the large layout. A trace may take half of the free memory.
+become events between rounds. A round that fills the trace is made again with four times the room,
+up to half of the free memory; a run that needs more of anything else, in the large layout.
 """
 
 from __future__ import annotations
@@ -36,8 +36,6 @@ RETRACE, OVERLAP = 0, 1
 
 
 class Kernel(NamedTuple):
-    """An algorithm's rule and motion."""
-
     rule: int
     motion: int
 
@@ -54,7 +52,6 @@ KERNELS = {
     "folding": Kernel(ws.RULE_FOLDING, OVERLAP),
     "folding+planar": Kernel(ws.RULE_PLANAR, OVERLAP),
 }
-"""Every algorithm of the catalogue."""
 
 KEPT = (
     "the map S",
@@ -66,10 +63,8 @@ KEPT = (
 """What a full buffer keeps, by the number of `FULL_…`."""
 
 MOST_EDGES = 1 << 16
-"""The most edges in the large layout."""
 
 TRACE_ROOM = 1 << 20
-"""Initial words of trace in the large layout."""
 
 WORD_BYTES = 40
 """Bytes for a word of trace as an event; 3 (moves) to 36 (poses) are needed."""
@@ -92,12 +87,10 @@ class CompiledRun:
 
     @property
     def trace(self) -> tuple[int, ...] | None:
-        """The words of its trace (events.py), if traced."""
         return None if self.decoded is None else tuple(words(self.decoded))
 
     @property
     def events(self) -> tuple[Event, ...]:
-        """The events from the first move to the map."""
         if self.decoded is None:
             return ()
         finish = () if self.map is None else (Finish(self.reported, self.map),)
@@ -119,7 +112,7 @@ def run_world(
         fault: a mistake to plant, by its name in `PLANTED`.
     Raises:
         InputError: numba is missing, a name is unknown, the world, the run or the trace is too
-        large.
+            large.
     """
     require("the compiled engine")
     require_kernel(algorithm, fault or None)
@@ -138,7 +131,7 @@ def run_world(
         space = job.run(layout, room if trace else 1)
         stop = space[layout.at("stop")]
         if stop == ws.STOP_FULL + ws.FULL_TRACE:
-            del space  # its memory is free before more is taken
+            del space
             room = _more_room(job, layout, room)
         elif stop >= ws.STOP_FULL and layout is ws.SMALL:
             layout = ws.LARGE
@@ -231,7 +224,6 @@ class CompiledJob:
     events: list[Event] = field(default_factory=list[Event])
 
     def run(self, layout: ws.WordLayout, room: int) -> Workspace:
-        """The workspace after the run, with `room` words of trace."""
         explore: Callable[[Workspace, int, int], int] = compiled(explore_rounds, layout)
         space = workspace(layout, room)
         place_world(space, layout, self.world)
@@ -252,7 +244,6 @@ class CompiledJob:
         return space
 
     def result(self, space: Workspace, layout: ws.WordLayout) -> CompiledRun:
-        """The run in a finished workspace."""
         stop = int(space[layout.at("stop")])
         if stop >= ws.STOP_FULL:
             raise InputError(
@@ -275,7 +266,6 @@ class CompiledJob:
 
 
 def workspace(layout: ws.WordLayout, room: int) -> Workspace:
-    """A workspace with `room` words of trace."""
     import numpy as np
 
     size = layout.at("trace.word") + room
@@ -289,13 +279,11 @@ def workspace(layout: ws.WordLayout, room: int) -> Workspace:
 
 
 def write(space: Workspace, layout: ws.WordLayout, part: str, **words: int) -> None:
-    """Write single words of a part of a workspace, by their names."""
     for name, word in words.items():
         space[layout.at(f"{part}.{name}")] = word
 
 
 def trace_of(space: Workspace, layout: ws.WordLayout) -> list[int]:
-    """The trace in a workspace."""
     at = layout.at("trace.word")
     row: list[int] = space[at : at + int(space[layout.at("trace.size")])].tolist()
     return row
@@ -342,7 +330,6 @@ def place_map(space: Workspace, layout: ws.WordLayout, delivered: MapData) -> bo
 
 
 def map_of(space: Workspace, layout: ws.WordLayout) -> MapData:
-    """The map S in a workspace."""
 
     def row_of(name: str, length: int) -> list[int]:
         at = layout.at(f"chart.{name}")

@@ -1,7 +1,6 @@
 """Mistakes to plant in the compiled mapper: some of those of topo_verify/faults, by number.
 
 `if planted(task, SETS_OUT_UNTURNED)` is decided at compilation, and costs nothing outside `FAULTY`.
-docs/faults.md describes each mistake.
 """
 
 from __future__ import annotations
@@ -63,5 +62,4 @@ PLANTED: dict[str, tuple[int, str]] = {
 
 @kernel
 def planted(task: TaskWords, number: int) -> bool:
-    """Whether the mapper makes this mistake."""
     return FAULTS != 0 and task.fault == number

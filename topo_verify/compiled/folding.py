@@ -1,6 +1,6 @@
 """Folding, the complete rule: it keeps a hypothesis exactly if some world that fits makes it true.
 
-Mirrors: algorithms/folding.py, `SeenPlaces`, `PartialFold` and `FoldingRule`, with the same dart
+Twin of algorithms/folding.py, `SeenPlaces`, `PartialFold` and `FoldingRule`, with the same dart
 numbers and the same order of identifications, which decides the first contradiction. Differs: there
 is one fold, and a **layer** is a list of changes, each one word: where, and what stands there.
 Changes are undone unless they follow from what was seen. A kept layer is made again before it folds
@@ -44,14 +44,12 @@ def add_place(run: RunWords, percept: int, known: int) -> int:
 
 @kernel
 def turn_at_place(places: PlaceWords, dart: int, door: int) -> int:
-    """The dart `door` doors clockwise."""
     first = places.node[dart]
     return first + (dart - first + door) % (places.looks[dart] >> 1)
 
 
 @kernel
 def resolve(places: PlaceWords, dart: int) -> int:
-    """The dart's representative."""
     up = places.leader[dart]
     while up != 0:
         dart = up
@@ -67,13 +65,11 @@ def across(places: PlaceWords, dart: int) -> int:
 
 @kernel
 def join_seen(run: RunWords, one: int, other: int) -> None:
-    """Join two darts, without an assumption."""
     take_for_seen(run, join_places(run, one, other))
 
 
 @kernel
 def identify_seen(run: RunWords, one: int, other: int) -> None:
-    """Identify two darts, without an assumption."""
     places = run.places
     places.waiting[0] = one
     places.waiting[1] = other
@@ -94,7 +90,6 @@ def join_places(run: RunWords, one: int, other: int) -> int:
         change(run, places.place_of("behind") + one, other)
     if has == 0:
         change(run, places.place_of("behind") + other, one)
-    # The last pair is folded first.
     waiting = 0
     if had != 0:
         places.waiting[0] = had
@@ -134,7 +129,7 @@ def fold(run: RunWords, waiting: int, one_partner: int) -> int:
         elif places.known[n] == 0:
             light = places.weight[s]
             heavy = places.weight[n]
-            if light > heavy:  # path halving
+            if light > heavy:
                 small, large = large, small
                 n = s
             change(run, places.place_of("weight") + n, light + 1 + heavy)
@@ -216,7 +211,6 @@ def take_for_seen(run: RunWords, wrong: int) -> None:
 
 @kernel
 def take_back(run: RunWords) -> None:
-    """Undo every change, last first."""
     places = run.places
     for i in range(places.changed - 1, -1, -1):
         changed = places.changes[i]
@@ -227,13 +221,11 @@ def take_back(run: RunWords) -> None:
 
 @kernel
 def layers_of(layers: LayerWords, stage: int) -> int:
-    """The field with the layers of a stage."""
     return layers.place_of("odd") if stage & 1 else layers.place_of("even")
 
 
 @kernel
 def keep_layer(run: RunWords, h: int) -> None:
-    """Keep the changes as a hypothesis' layer."""
     layers, places = run.layers, run.places
     end = layers.size
     if end + places.changed > LAYER_WORDS:
@@ -251,7 +243,6 @@ def keep_layer(run: RunWords, h: int) -> None:
 
 @kernel
 def lay_again(run: RunWords, h: int) -> None:
-    """Make the changes of a kept layer again."""
     layers = run.layers
     base = layers_of(layers, layers.stage - 1)
     for i in range(base + layers.first[h], base + layers.end[h]):
@@ -260,7 +251,6 @@ def lay_again(run: RunWords, h: int) -> None:
 
 @kernel
 def start_fold(run: RunWords) -> None:
-    """Start with v0 alone."""
     places = run.places
     places.darts = 1
     places.changed = 0
@@ -272,7 +262,6 @@ def start_fold(run: RunWords) -> None:
 
 @kernel
 def node_dart(run: RunWords, dart: int) -> int:
-    """The dart of a node for a dart of S."""
     chart = run.chart
     v = chart.vertex[dart]
     return turn_at_place(run.places, run.places.entry[v], dart - chart.first[v])
@@ -306,7 +295,6 @@ def cross_fold(run: RunWords, exit_place: int, percept: int) -> int:
 
 @kernel
 def observe_fold(run: RunWords) -> None:
-    """Keep every percept of the excursion."""
     places, layers, excursion = run.places, run.layers, run.excursion
     merges = places.merges
     joined = 0
@@ -330,13 +318,12 @@ def observe_fold(run: RunWords) -> None:
 
 @kernel
 def refute_by_folding(run: RunWords, h: int) -> bool:
-    """Whether no world allows the hypothesis."""
     layers = run.layers
     wrong = 0
     if layers.anew != 0:
         wrong = join_places(run, run.places.e, node_dart(run, h))
     elif layers.joined == 0:
-        return False  # its layer does not change
+        return False
     else:
         wrong = follow_layer(run, h)
     if wrong == 0:

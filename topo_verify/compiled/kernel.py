@@ -11,8 +11,8 @@ makes machine code:
    and Python, and the processor. Numba keeps machine code there, with checksums.
 
 Why so: numba's own cache does not notice changes in called functions of other files. `_nrt=False`
-switches off reference counting, which took more than half of the time. Functions never travel as
-arguments, which miss the cache in every process: an integer in the workspace selects.
+switches off reference counting, which took more than half of the time. Functions as arguments miss
+the cache in every process, so an integer in the workspace selects.
 
 The cache: `$TOPO_VERIFY_CACHE`, or `topo-verify` in `$XDG_CACHE_HOME` or `~/.cache`; else a folder
 for this process. It may be deleted at any time. Processes that need a folder wait for its lock.
@@ -48,16 +48,12 @@ F = TypeVar("F", bound=Callable[..., object])
 
 
 class WordTable(Protocol):
-    """A table of 64-bit integers, by row and column."""
-
     def __getitem__(self, at: tuple[int, int], /) -> int: ...
 
     def __setitem__(self, at: tuple[int, int], word: int, /) -> None: ...
 
 
 class WordCube(Protocol):
-    """Tables of 64-bit integers, by number, row and column."""
-
     def __getitem__(self, at: tuple[int, int, int], /) -> int: ...
 
     def __setitem__(self, at: tuple[int, int, int], word: int, /) -> None: ...
@@ -71,7 +67,6 @@ SOURCES = [
         "judging.truth", "judging.fold", "judging.entailed", "judging.verdict", "tally",
     )
 ]  # fmt: skip
-"""The modules of the twin's kernels and constants."""
 
 
 def kernel(function: F) -> F:
@@ -115,7 +110,6 @@ def compiled(
 
 @cache
 def address_of(function: Callable[..., int], layout: WordLayout) -> int:
-    """The address of a callback's machine code."""
     from numba import cfunc, types
 
     module, name = machine_code(layout, False), CALLED + function.__name__  # noqa: FBT003  part of the key
@@ -129,7 +123,6 @@ def address_of(function: Callable[..., int], layout: WordLayout) -> int:
 
 
 CALLED = "called_"
-"""Prefix of a callback's name."""
 
 _lasting: list[object] = []
 """Keeps the callbacks' machine code alive."""
@@ -152,7 +145,6 @@ def _make(module: ModuleType, name: str, make: Callable[[], Any]) -> Any:
 
 @contextmanager
 def _alone(path: Path, name: str) -> Generator[None]:
-    """Hold the lock of a cache folder."""
     with (path.parent / "lock").open("a") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -181,7 +173,6 @@ def _signature(function: Callable[..., object]) -> str:
 
 @cache
 def machine_code(layout: WordLayout, checked: bool) -> ModuleType:  # noqa: FBT001  the key of the cache
-    """The module of all kernels for a layout."""
     require("the compiled engine")
     name = f"kernels_{layout.name}{'_checked' if checked else ''}"
     source = module_source(layout, checked=checked)
@@ -193,7 +184,6 @@ def machine_code(layout: WordLayout, checked: bool) -> ModuleType:  # noqa: FBT0
 
 
 def module_source(layout: WordLayout, *, checked: bool = False) -> str:
-    """The text of a module with a layout's constants and every kernel."""
     numbers: dict[str, int] = {}
     functions: list[ast.FunctionDef] = []
     for name in layout.sources or SOURCES:
@@ -207,7 +197,7 @@ def module_source(layout: WordLayout, *, checked: bool = False) -> str:
     options = f"boundscheck={checked}, _nrt={checked}, error_model='numpy'"
     lines = ["import numpy as np", "from numba import njit", ""]
     lines += [f"from {__package__}.native_call import call_address, row_at", ""]
-    inner = f"{options}, no_cpython_wrapper=True, no_cfunc_wrapper=True"  # compiles in less time
+    inner = f"{options}, no_cpython_wrapper=True, no_cfunc_wrapper=True"
     lines += [f"kernel = njit({inner})", f"inlined = njit(forceinline=True, {inner})"]
     lines += [f"entry = njit(cache=True, {options})", ""]
     lines += [f"{name} = {number}" for name, number in numbers.items() if name in used]
@@ -216,7 +206,6 @@ def module_source(layout: WordLayout, *, checked: bool = False) -> str:
 
 
 def _constants(module: ModuleType) -> Mapping[str, int]:
-    """The upper-case integers of a module, and the offsets of its fields."""
     numbers = {k: v for k, v in vars(module).items() if k.isupper() and type(v) is int}
     for laid_out in vars(module).values():
         if isinstance(laid_out, Fields):
@@ -245,7 +234,6 @@ def _kernels(module: ModuleType) -> Iterator[ast.FunctionDef]:
 
 
 def _called(kernel: ast.FunctionDef) -> ast.FunctionDef:
-    """The function for an outside caller."""
     given = ", ".join(argument.arg for argument in kernel.args.args[1:])
     called = f"{kernel.name}(row_at(place, SIZE), {given})"
     (node,) = ast.parse(f"def {CALLED}{kernel.name}(place, {given}): return {called}").body
@@ -328,7 +316,7 @@ class _KeptCode:
         self._sums = folder / f"{path.stem}.sums"
 
     def is_whole(self, name: str) -> bool:
-        """Whether an entry's machine code is there with its checksums."""
+        """Is an entry's machine code there with its checksums?"""
         files, sums = self._files(name), self._known()
         index = any(file.suffix == ".nbi" for file in files)
         try:
@@ -385,7 +373,6 @@ class _KeptCode:
 
 @cache
 def cache_folder() -> Path:
-    """The writable cache folder of this user."""
     folder = _wanted_folder()
     if folder is None:
         why = "no home folder is known"

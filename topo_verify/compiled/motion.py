@@ -1,9 +1,9 @@
 """Motion: excursions from vu, and which edge and which hypothesis is walked next.
 
-Mirrors: algorithms/motion.py, `Pilot`, `Hypothesis`, `retrace`, `overlap`; algorithms/policies.py,
-`nearest` and `shortest`, the policies of the reference costs. Differs: a hypothesis is its dart;
-its way home is followed along `up`. Few hypotheses are sorted by insertion, many by counting
-distances.
+Twin of algorithms/motion.py, `Pilot`, `Hypothesis`, `retrace`, `overlap`, and of
+algorithms/policies.py, `nearest` and `shortest`, the policies of the reference costs. Differs: a
+hypothesis is its dart; its way home is followed along `up`. Few hypotheses are sorted by insertion,
+many by counting distances.
 """
 
 from __future__ import annotations
@@ -22,7 +22,6 @@ def walk(run: RunWords, at: int, v: int) -> int:
     chart = run.chart
     if chart.vertex[at] == v:
         return at
-    # Rooted at the end of the walk.
     tree(chart, v, chart.vertex[at])
     while chart.vertex[at] != v:
         exit_dart = chart.towards[chart.vertex[at]]
@@ -35,7 +34,6 @@ def walk(run: RunWords, at: int, v: int) -> int:
 
 @inlined
 def cross(run: RunWords, at: int, e: int) -> int:
-    """Leave the known world by e; return the percept at vu."""
     excursion = run.excursion
     percept = move(run, door(run, at, e), CROSS)
     excursion.turned = 0
@@ -46,7 +44,6 @@ def cross(run: RunWords, at: int, e: int) -> int:
 
 @inlined
 def forward(run: RunWords, door: int) -> None:
-    """Walk one more door, relative to the dart of entry."""
     excursion, world = run.excursion, run.world
     relative = door if planted(run.task, SETS_OUT_UNTURNED) else door - excursion.turned
     degree = world.degree[world.vertex[run.robot.dart]]
@@ -72,7 +69,6 @@ def back(run: RunWords, steps: int) -> None:
     if planted(run.task, RETRACES_IN_THE_WRONG_ORDER):
         turn_round(excursion, steps)
     while excursion.size > steps:
-        # The dart of entry leads back.
         relative = -excursion.turned
         degree = world.degree[world.vertex[run.robot.dart]]
         while relative < 0:
@@ -84,7 +80,6 @@ def back(run: RunWords, steps: int) -> None:
             return
         n = excursion.size - 1
         excursion.size = n
-        # It arrives by the dart that this door left by.
         excursion.turned = excursion.door[n]
         if planted(run.task, FORGETS_ITS_ORIENTATION):
             excursion.turned = 0
@@ -126,7 +121,6 @@ def choice(run: RunWords, remaining: int) -> int:
 
 @kernel
 def common_prefix(run: RunWords, h: int) -> int:
-    """Doors that the way home from h shares with the last sequence."""
     excursion, chart = run.excursion, run.chart
     n = excursion.size
     at = h
@@ -144,7 +138,6 @@ FEW = 24
 
 @inlined
 def nearest(chart: ChartWords, at: int) -> int:
-    """The dart of U nearest on S to the robot; ties: the lowest."""
     root = chart.vertex[at]
     if chart.open[root] > 0:
         return first_in_u(chart, root)
@@ -153,7 +146,6 @@ def nearest(chart: ChartWords, at: int) -> int:
 
 @kernel
 def shortest(run: RunWords, number: int) -> None:
-    """Sort H by length of the validation path, then by dart."""
     remaining, chart = run.remaining, run.chart
     if number > FEW:
         counted(run, number)

@@ -64,7 +64,6 @@ class WordView:
         return len(self.array)
 
     def place_of(self, name: str) -> int:
-        """The place of a field's first word."""
         named: Field = inspect.getattr_static(type(self), name)
         return self.origin + named.offset
 
@@ -92,8 +91,6 @@ class Field:
 
 
 class WordField(Field):
-    """A single word."""
-
     def __get__(self, view: WordView | None, owner: type[WordView]) -> int | Self:
         return self if view is None else view.array[view.origin + self.offset]
 
@@ -129,7 +126,6 @@ class Fields:
         return {**places, "SIZE": end}
 
     def constants(self, offsets: Mapping[str, int] | None = None) -> dict[str, int]:
-        """Offsets by their names in compiled code."""
         places = self.offsets() if offsets is None else offsets
         return {field.constant: places[field.name] for field in self.all}
 
@@ -182,7 +178,6 @@ class Flat(ast.NodeTransformer):
         self._stands: dict[str, str] = {}  # cursor -> its place
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.FunctionDef:
-        """Replace each view parameter by its array."""
         self._views, self._stands = {}, {}
         for argument in node.args.args:
             view = self._namespace.get(getattr(argument.annotation, "id", ""))
@@ -192,7 +187,6 @@ class Flat(ast.NodeTransformer):
         return node
 
     def visit_arg(self, node: ast.arg) -> ast.arg:
-        """Convert the annotation of a parameter."""
         view = self._views.get(node.arg)
         return node if view is None or view.is_cursor else ast.arg(view.letter)
 
@@ -219,7 +213,6 @@ class Flat(ast.NodeTransformer):
         return None
 
     def visit_Name(self, node: ast.Name) -> ast.Name:
-        """A view is its array; a cursor is its place."""
         view = self._views.get(node.id)
         if view is None:
             return node
@@ -227,7 +220,6 @@ class Flat(ast.NodeTransformer):
         return ast.Name(name, node.ctx)
 
     def visit_Attribute(self, node: ast.Attribute) -> ast.expr:
-        """A word of a view, or a part."""
         view = self._view(node.value)
         if view is None:
             return node
@@ -242,7 +234,6 @@ class Flat(ast.NodeTransformer):
         return self._word(node.value, view, named, None, node.ctx)
 
     def visit_Subscript(self, node: ast.Subscript) -> ast.expr:
-        """A word in a row, or by its place."""
         row = node.value
         view = self._view(row)
         if view is not None and view.is_cursor:

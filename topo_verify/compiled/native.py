@@ -1,6 +1,6 @@
 """A native mapper in the place of `explore`: called by its address, it calls back.
 
-Mirrors: programs/library.py; both refuse the same things. What is declared and delivered is written
+Twin of programs/library.py; both refuse the same things. What is declared and delivered is written
 as robot.py writes it. After a refusal, or the map, each callback does nothing and returns
 `REFUSED`. Declarations are checked as far as Python takes them for an index or an event.
 """
@@ -16,19 +16,14 @@ from topo_verify.compiled.workspace import *
 
 if TYPE_CHECKING:  # native_call.py needs numba
 
-    def call_address(address: int, argument: int) -> int:
-        """Call the function at this address."""
-        ...
+    def call_address(address: int, argument: int) -> int: ...
 
-    def row_at(address: int, size: int) -> Any:
-        """The row of `size` words at this address."""
-        ...
+    def row_at(address: int, size: int) -> Any: ...
 
 
 SIZE = SMALL.at("SIZE")
 
 REFUSED = -1
-"""The answer after a refusal."""
 
 MOST = 1 << 62
 """The range of declared numbers."""
@@ -95,7 +90,6 @@ def mark(run: RunWords, darts: int, vertices: int) -> int:
 
 @inlined
 def is_torn(run: RunWords) -> bool:
-    """Whether the words before the workspace changed."""
     F = row_at(run.native.self - 8 * FENCE_WORDS, FENCE_WORDS)
     torn = False
     for k in range(FENCE_WORDS):
@@ -105,25 +99,21 @@ def is_torn(run: RunWords) -> bool:
 
 @inlined
 def is_over(run: RunWords) -> bool:
-    """Whether nothing counts any more."""
     return run.stop != 0 or run.native.delivered != 0
 
 
 @inlined
 def is_number(number: int) -> bool:
-    """Whether an event can hold this number."""
     return -MOST <= number <= MOST
 
 
 @callback
 def native_look(run: RunWords) -> int:
-    """The percept where the robot stands."""
     return REFUSED if is_over(run) else sensed(run.world, run.robot.dart)
 
 
 @callback
 def native_move(run: RunWords, door: int, purpose: int) -> int:
-    """Leave by a door; return the percept."""
     if is_over(run):
         return REFUSED
     B = row_at(run.native.beats, 2)
@@ -134,7 +124,6 @@ def native_move(run: RunWords, door: int, purpose: int) -> int:
 
 @callback
 def native_pose(run: RunWords, e: int, number: int, hypotheses: int) -> int:
-    """Declare the hypotheses for e."""
     if is_over(run):
         return REFUSED
     sound = is_number(e) and 0 <= number <= MOST_WORDS
@@ -160,7 +149,7 @@ def native_pose(run: RunWords, e: int, number: int, hypotheses: int) -> int:
 def native_reject(
     run: RunWords, e: int, h: int, by: int, evidence: int, number: int, way: int
 ) -> int:
-    """Declare a rejection; evidence: seven words; way: a record's doors."""
+    """Evidence: seven words; way: a record's doors."""
     if is_over(run):
         return REFUSED
     if not is_rejection(e, h, by, evidence, number, way):
@@ -186,7 +175,6 @@ def native_reject(
 
 @kernel
 def is_rejection(e: int, h: int, by: int, evidence: int, number: int, way: int) -> bool:
-    """Whether a rejection can be an event."""
     E = row_at(evidence, 7)
     if number < 0 or number > MOST_WORDS or by < 0 or by > BY_PLANAR:
         return False
@@ -206,7 +194,6 @@ def is_rejection(e: int, h: int, by: int, evidence: int, number: int, way: int) 
 
 @callback
 def native_confirm(run: RunWords, e: int, h: int, by: int) -> int:
-    """Declare that e ends in h."""
     if is_over(run):
         return REFUSED
     if by < 0 or by > BY_PLANAR or not (is_number(e) and is_number(h)):
@@ -218,7 +205,6 @@ def native_confirm(run: RunWords, e: int, h: int, by: int) -> int:
 
 @callback
 def native_augment(run: RunWords, e: int, kind: int, dart: int, degree: int) -> int:
-    """Declare that S has grown."""
     if is_over(run):
         return REFUSED
     sound = is_number(e) and is_number(dart) and is_number(degree)
@@ -298,7 +284,7 @@ def place_vertices(run: RunWords, vertices: int, degrees: int) -> int:
             return -1
         if v >= CHART_DARTS or D[v] > CHART_DARTS - darts:
             return -1
-        run.chart.first[v] = darts  # temporarily: where the vertex begins
+        run.chart.first[v] = darts
         for k in range(D[v]):
             run.native.given[darts + k] = v
             run.native.named[darts + k] = -1
@@ -308,7 +294,6 @@ def place_vertices(run: RunWords, vertices: int, degrees: int) -> int:
 
 @kernel
 def is_paired(run: RunWords, alpha: int, darts: int) -> bool:
-    """Whether the other ends of darts are mutual."""
     A = row_at(alpha, darts)
     for d in range(darts):
         if A[d] < 0 or A[d] >= darts or A[d] == d or A[A[d]] != d:
@@ -319,7 +304,6 @@ def is_paired(run: RunWords, alpha: int, darts: int) -> bool:
 
 @kernel
 def is_in_order(run: RunWords, A: Any, darts: int) -> bool:
-    """Whether each vertex is met from a lower dart, as in S."""
     met = 0
     for d in range(darts):
         if run.native.given[d] > met:
@@ -330,7 +314,6 @@ def is_in_order(run: RunWords, A: Any, darts: int) -> bool:
 
 @kernel
 def rename_darts(run: RunWords, vertices: int, D: Any, A: Any, darts: int, marker: int) -> None:
-    """Number the darts in order of discovery."""
     named = name_vertex(run, D, marker, 0)
     found = 1
     d = 0
@@ -341,7 +324,7 @@ def rename_darts(run: RunWords, vertices: int, D: Any, A: Any, darts: int, marke
             found += 1
         d += 1
     if named < darts or found < vertices:
-        return  # it falls apart
+        return
     v = -1
     last = -1
     for at in range(darts):

@@ -6,7 +6,7 @@
 
 Each row ends at a page without access and begins behind a fence; the robot is read-only. The system
 ends a mapper that runs over a row's end; the kernels (native.py) end one that writes before it or
-over the world. Other writes that hit one of our rows, or Python, are not noticed.
+over the world. Other stray writes are not noticed.
 """
 
 from __future__ import annotations
@@ -37,10 +37,8 @@ NAMES = ("look", "move", "pose", "reject", "confirm", "augment", "deliver", "ski
 VERSION = 1
 
 ROOM = 1 << 16
-"""Initial words of trace."""
 
 MOST_ROOM = 1 << 24
-"""The most words of trace."""
 
 STOPPED: Mapping[int, str] = {
     ws.STOP_DOOR: "the mapper asked for a door that is not there",
@@ -65,7 +63,6 @@ class Guarded:
         self._system: Any = ctypes.CDLL(None)
 
     def row(self, name: str, given: Row) -> Row:
-        """The row of this name, with the words of another one."""
         key = (name, *given.shape)
         if key not in self._rows:
             self._rows[key] = self._made(given)
@@ -89,12 +86,10 @@ class Guarded:
         return words[end - given.size : end].reshape(given.shape)
 
     def lock(self, row: Row) -> None:
-        """Make the page of a short row read-only."""
         self._protect(row.ctypes.data // _PAGE * _PAGE, _READ_ONLY)
 
     @property
     def torn(self) -> bool:
-        """Whether the words before a row were overwritten."""
         return any((fence != native.FENCE).any() for fence in self._fences)
 
     def _protect(self, page: int, mode: int) -> None:
@@ -117,7 +112,6 @@ class NativeCalls:
         self._spaces: dict[tuple[str, int], Row] = {}
 
     def space(self, use: str, room: int = ws.TRACE) -> Row:
-        """The workspace for a use, the same each time."""
         if (use, room) not in self._spaces:
             import numpy as np
 
@@ -160,19 +154,17 @@ def _addresses() -> list[int]:
 
 
 def warm() -> None:
-    """Compile what a native mapper needs."""
     for function in (tally.examine_worlds, tally.enter_open, native.run_native):
         compiled(function, ws.SMALL)
     _addresses()
 
 
 def is_open(space: Row) -> bool:
-    """Whether the mapper declined, or had no room."""
+    """Did the mapper decline, or had it no room?"""
     return bool(space[_at("stop")] >= ws.STOP_SKIP)
 
 
 def made_by(space: Row, world: World) -> CompiledRun:
-    """The run in a finished workspace."""
     stop, reported = int(space[_at("stop")]), int(space[_at("native.reported")])
     is_map = stop == 0 and space[_at("native.delivered")] != 0
     why: str | None = None

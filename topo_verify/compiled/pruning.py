@@ -1,9 +1,9 @@
 """Stops a branch of the enumeration as soon as no completion is in the class.
 
-The twin of the pruners of `world/enumeration/pruned.py`, where the theory stands. Differs:
-`…_join` and `…_hang` change a pruner in place, or nothing if no completion is left; `…_undo_…`
-turns it back. A boundary word is a linked cyclic list (`next`, `before`); a join cuts one word in
-two, or joins two, as the parity of the partner's place tells.
+Twin of the pruners of `world/enumeration/pruned.py`, where the theory stands. Differs: `…_join` and
+`…_hang` change a pruner in place, or nothing if no completion is left; `…_undo_…` turns it back. A
+boundary word is a linked cyclic list (`next`, `before`); a join cuts one word in two, or joins two,
+as the parity of the partner's place tells.
 
 `left`: darts still to create after the step; `opened`: open darts after it.
 """
@@ -16,7 +16,7 @@ from topo_verify.compiled.workspace import *
 
 @inlined
 def begin_pruned(walk: WalkWords, degree: int, left: int) -> bool:
-    """Begin; whether the class may have a world with this root."""
+    """Begin; False: the class has no world with this root."""
     if degree > walk.most_degree:
         return False
     walk.open_at[0] = degree
@@ -59,7 +59,6 @@ def join_pruned(
 
 @inlined
 def undo_join_pruned(world: WorldWords, walk: WalkWords, k: int, e: int, c: int) -> None:
-    """Undo `join_pruned`."""
     if walk.has_genus != 0:
         genus_undo_join(walk, k, e, c)
     if walk.loopless != 0:
@@ -92,7 +91,6 @@ def hang_pruned(
 
 @inlined
 def undo_hang_pruned(world: WorldWords, walk: WalkWords, k: int, e: int, fresh: int) -> None:
-    """Undo `hang_pruned`."""
     if walk.has_genus != 0:
         genus_undo_hang(walk, k, e)
     if walk.loopless != 0:
@@ -119,7 +117,6 @@ def look_around(walk: WalkWords, k: int, e: int) -> None:
 
 @inlined
 def word_is_odd(walk: WalkWords, c: int) -> int:
-    """1 if the word of c has an odd length."""
     odd = 1
     d = walk.next[c]
     while d != c:
@@ -132,7 +129,6 @@ def word_is_odd(walk: WalkWords, c: int) -> int:
 def genus_feasible(
     walk: WalkWords, handles: int, odd_words: int, words: int, opened: int, left: int
 ) -> bool:
-    """`GenusPruner.feasible`."""
     if handles < 0 or odd_words > left + 2 * handles:
         return False
     if walk.exact == 0:
@@ -147,7 +143,7 @@ def genus_feasible(
 
 @inlined
 def genus_join(walk: WalkWords, k: int, e: int, c: int, opened: int, left: int) -> bool:
-    """`GenusPruner.join`: cut a word, or join two by a handle."""
+    """Cut a word, or join two by a handle."""
     handles = walk.handles
     odd_words = walk.odd_words
     words = walk.words
@@ -191,14 +187,12 @@ def genus_join(walk: WalkWords, k: int, e: int, c: int, opened: int, left: int) 
 
 @inlined
 def link_boundary(walk: WalkWords, d: int, after: int) -> None:
-    """Let `after` follow d on a boundary."""
     walk.next[d] = after
     walk.before[after] = d
 
 
 @inlined
 def genus_undo_join(walk: WalkWords, k: int, e: int, c: int) -> None:
-    """Undo `genus_join`."""
     walk.handles = walk.was_handles[k]
     walk.odd_words = walk.was_odd_words[k]
     walk.words = walk.was_words[k]
@@ -212,7 +206,6 @@ def genus_undo_join(walk: WalkWords, k: int, e: int, c: int) -> None:
 def genus_hang(
     walk: WalkWords, k: int, e: int, first: int, degree: int, opened: int, left: int
 ) -> bool:
-    """`GenusPruner.hang`: the new vertex's other darts replace e."""
     is_odd = walk.word_odd[k]
     odd_words = walk.odd_words - is_odd + ((is_odd + degree) & 1)
     after = walk.next[e]
@@ -244,7 +237,6 @@ def genus_hang(
 
 @inlined
 def genus_undo_hang(walk: WalkWords, k: int, e: int) -> None:
-    """Undo `genus_hang`."""
     walk.odd_words = walk.was_odd_words[k]
     walk.words = walk.was_words[k]
     link_boundary(walk, walk.dart_before[k], e)
@@ -255,7 +247,7 @@ def genus_undo_hang(walk: WalkWords, k: int, e: int) -> None:
 def neighbours_join(
     world: WorldWords, walk: WalkWords, e: int, c: int, opened: int, left: int, vertices: int
 ) -> bool:
-    """`NeighbourPruner.join`: no loop and, if simple, no double edge."""
+    """No loop and, if simple, no double edge."""
     a = world.vertex[e]
     b = world.vertex[c]
     # Without `simple` the masks stay 0.
@@ -276,7 +268,6 @@ def neighbours_join(
 
 @inlined
 def neighbours_undo_join(world: WorldWords, walk: WalkWords, e: int, c: int) -> None:
-    """Undo `neighbours_join`."""
     a = world.vertex[e]
     b = world.vertex[c]
     walk.open_at[a] += 1
@@ -289,7 +280,6 @@ def neighbours_undo_join(world: WorldWords, walk: WalkWords, e: int, c: int) -> 
 def neighbours_hang(
     world: WorldWords, walk: WalkWords, e: int, degree: int, opened: int, left: int, fresh: int
 ) -> bool:
-    """`NeighbourPruner.hang`."""
     a = world.vertex[e]
     walk.open_at[a] -= 1
     walk.open_at[fresh] = degree - 1
@@ -305,7 +295,6 @@ def neighbours_hang(
 
 @inlined
 def neighbours_undo_hang(world: WorldWords, walk: WalkWords, e: int, fresh: int) -> None:
-    """Undo `neighbours_hang`."""
     a = world.vertex[e]
     walk.open_at[a] += 1
     walk.near[a] &= ~(1 << fresh)
@@ -313,7 +302,6 @@ def neighbours_undo_hang(world: WorldWords, walk: WalkWords, e: int, fresh: int)
 
 @inlined
 def neighbours_feasible(walk: WalkWords, opened: int, left: int, vertices: int) -> bool:
-    """`NeighbourPruner.feasible`."""
     if walk.simple == 0:
         most = 0
         for v in range(vertices):
@@ -332,7 +320,6 @@ def neighbours_feasible(walk: WalkWords, opened: int, left: int, vertices: int) 
 
 @inlined
 def bit_count(mask: int) -> int:
-    """The number of set bits, of 32."""
     mask = mask - ((mask >> 1) & 0x55555555)
     mask = (mask & 0x33333333) + ((mask >> 2) & 0x33333333)
     mask = (mask + (mask >> 4)) & 0x0F0F0F0F

@@ -1,6 +1,6 @@
 """The robot: moves through the world of the workspace, counts, and records.
 
-Mirrors: robot/simulator.py, `SimulatedRobot`. Differs: the world's darts are numbered in order of
+Twin of robot/simulator.py, `SimulatedRobot`. Differs: the world's darts are numbered in order of
 discovery, so a vertex is an interval, sigma the next dart of it, and the marker dart 0. Where the
 reference raises, `stop` is set.
 """
@@ -14,7 +14,6 @@ from topo_verify.compiled.workspace import *
 
 @inlined
 def sensed(world: WorldWords, dart: int) -> int:
-    """The percept at a dart of the world."""
     v = world.vertex[dart]
     percept = world.degree[v] << SHIFT
     if v == 0:  # from dart d of v0, dart 0 is door -d
@@ -61,7 +60,6 @@ def took(run: RunWords, words: int) -> int:
 
 @inlined
 def declare(run: RunWords, kind: int, first: int, second: int, third: int) -> None:
-    """Record an event of four words."""
     if run.task.tracing != 0:
         i = run.trace.place_of("word") + took(run, 4)
         if run.stop == 0:
@@ -73,7 +71,6 @@ def declare(run: RunWords, kind: int, first: int, second: int, third: int) -> No
 
 @kernel
 def declare_pose(run: RunWords, e: int, remaining: int) -> None:
-    """Record the remaining hypotheses."""
     if run.task.tracing != 0:
         i = run.trace.place_of("word") + took(run, 3 + remaining)
         if run.stop == 0:
@@ -87,7 +84,6 @@ def declare_pose(run: RunWords, e: int, remaining: int) -> None:
 
 @kernel
 def declare_reject(run: RunWords, e: int, h: int, by: int) -> None:
-    """Record a rejection with the cited evidence."""
     evidence = run.evidence
     if run.task.tracing != 0:
         step = evidence.step
@@ -118,13 +114,11 @@ def declare_reject(run: RunWords, e: int, h: int, by: int) -> None:
 
 @kernel
 def declare_confirm(run: RunWords, e: int, h: int, by: int) -> None:
-    """Record that e ends in h."""
     declare(run, CONFIRM, e, h, by)
 
 
 @kernel
 def declare_augment(run: RunWords, e: int, kind: int, dart: int, degree: int) -> None:
-    """Record that S has grown."""
     if run.task.tracing != 0:
         i = run.trace.place_of("word") + took(run, 5)
         if run.stop == 0:

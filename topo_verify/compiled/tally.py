@@ -1,6 +1,6 @@
 """Runs algorithms in every world of a rank range, judges each run, and counts the verdicts.
 
-Mirrors `Counts` in campaign/tally.py. Differs: each algorithm has its row; ranks are kept, no
+Twin of `Counts` in campaign/tally.py. Differs: each algorithm has its row; ranks are kept, no
 findings. An open verdict interrupts the walk: Python has the checkers judge the run, and
 `enter_open` counts it. The walk also pauses after any number of worlds.
 """
@@ -28,15 +28,11 @@ PerStatus = Annotated[Words, "STATUSES"]
 
 
 class TableWords(WordView):
-    """A row of counts for each algorithm."""
-
     letter = "T"
 
 
 @cursor("T", {"KEPT_RANKS": KEPT_RANKS, "CLAIM_COUNT": CLAIM_COUNT, "STATUSES": 5 * CLAIM_COUNT})
 class CountWords(WordView):
-    """An algorithm and its counts."""
-
     rule: int
     motion: int
     fault: int
@@ -75,7 +71,7 @@ class ControlWords(WordView):
     stop_at_first: int
     pause: int  # worlds until the pause; 0: none
     rank: int
-    row: int  # the next one; 0: the next world
+    row: int
     failed: int  # mask of claims that fail in an earlier row
 
 
@@ -157,7 +153,6 @@ def examine_run(
 
 @kernel
 def enter(case: CaseWords, control: ControlWords, table: TableWords, wrong: int) -> None:
-    """Count a judged run in its row."""
     at = control.row * COLUMNS
     counts = CountWords(table, at)
     rank = control.rank
@@ -215,7 +210,6 @@ def close(control: ControlWords, table: TableWords, rows: int) -> int:
 
 @kernel
 def compare_costs(table: TableWords, rank: int) -> None:
-    """Compare the costs of two algorithms, if no claim fails."""
     first, second = 0, COLUMNS
     counts = CountWords(table, first)
     cost = counts.cost

@@ -33,7 +33,6 @@ class WordLayout:
     sources: tuple[str, ...] = ()
 
     def at(self, name: str) -> int:
-        """The offset of a field."""
         return self.places[name]
 
 
@@ -47,7 +46,6 @@ CAPACITIES = {
     "LAYER_WORDS": 65536,
     "TRACE": 65536,
 }
-"""The sizes of rows in `SMALL`."""
 
 WORLD_DARTS = CAPACITIES["WORLD_DARTS"]
 CHART_DARTS = CAPACITIES["CHART_DARTS"]
@@ -58,7 +56,6 @@ CHANGED = CAPACITIES["CHANGED"]
 LAYER_WORDS = CAPACITIES["LAYER_WORDS"]
 TRACE = CAPACITIES["TRACE"]
 FAULTS = 0
-"""Whether mistakes can be planted."""
 
 SHIFT = 16
 P = 1 << SHIFT
@@ -76,25 +73,19 @@ PerTraceWord = Annotated[Words, "TRACE"]
 
 
 class EndWords(WordView):
-    """Why the run ended early."""
-
     stop: int  # STOP_…; 0: it did not
 
 
 class TaskWords(EndWords):
-    """What the caller asks for."""
-
     rule: int  # RULE_…
     motion: int  # 0: retrace, 1: overlap
     fault: int  # 0: none
-    budget: int  # number of moves allowed
+    budget: int
     tracing: int
     room: int
 
 
 class WorldWords(EndWords):
-    """The world."""
-
     alpha: PerWorldDart
     vertex: PerWorldDart
     first: PerWorldDart
@@ -102,18 +93,14 @@ class WorldWords(EndWords):
 
 
 class RobotWords(EndWords):
-    """The robot: robot.py."""
-
-    dart: int  # the reference dart
-    cost: int  # edge traversals
+    dart: int
+    cost: int
 
 
 class ChartWords(EndWords):
-    """The map S: chart.py."""
-
     vertices: int
     darts: int
-    unexplored: int  # size of U
+    unexplored: int
     has_tree: int  # are `depth` and `up` current?
     alpha: PerDart  # -1: unexplored
     vertex: PerDart
@@ -122,14 +109,14 @@ class ChartWords(EndWords):
     first: PerDart
     degree: PerDart
     signature: PerDart  # 2 * degree, and 1 if the marker is here
-    open: PerDart  # number of darts in U
+    open: PerDart
     depth: PerDart  # distance from v0
     up: PerDart  # dart towards v0; -1: v0
     queue: PerDart
     seen: PerDart  # searches from other roots: the last that met v
-    near: PerDart  # its distance
+    near: PerDart
     towards: PerDart  # its dart towards the root; -1: the root
-    reached: PerDart  # its queue
+    reached: PerDart
     search: int
 
 
@@ -200,9 +187,9 @@ class PlaceWords(EndWords):
     changes: PerChange  # where, and the old word
     laid: int  # nodes identified by these changes
     merges: int
-    entry: PerDart  # of each vertex of S
+    entry: PerDart
     e: int
-    vu: int  # dart of entry
+    vu: int
 
 
 class LayerWords(EndWords):
@@ -216,7 +203,7 @@ class LayerWords(EndWords):
     odd: PerLayerWord  # of every other stage
     stage: int
     size: int
-    first: PerDart  # by hypothesis
+    first: PerDart
     end: PerDart
 
 
@@ -224,12 +211,10 @@ class FaceWords(EndWords):
     """The faces of S: evidence.py."""
 
     face: PerDart  # the last e on whose face the dart was
-    number: int  # the number of this e
+    number: int
 
 
 class NativeWords(EndWords):
-    """A native mapper: native.py."""
-
     mapper: int  # addresses follow
     robot: int
     self: int
@@ -240,19 +225,17 @@ class NativeWords(EndWords):
     delivered: int
     reported: int  # reported cost; -1: none
     given: PerDart  # vertex of each delivered dart
-    named: PerDart  # its number on the chart
+    named: PerDart
 
 
 class TraceWords(EndWords):
-    """The trace; last, since it may be longer."""
+    """Last, since it may be longer."""
 
     size: int
     word: PerTraceWord
 
 
 class RunWords(EndWords):
-    """The workspace."""
-
     task: TaskWords
     world: WorldWords
     robot: RobotWords
@@ -270,7 +253,6 @@ class RunWords(EndWords):
 
 
 RUN = Fields("W", RunWords, CAPACITIES)
-"""Offsets for the capacities of `SMALL`."""
 
 RULE_NONE, RULE_PREFIX, RULE_HISTORY, RULE_ONE, RULE_ALL, RULE_FOLDING, RULE_PLANAR = range(7)
 RULE_NATIVE = 7

@@ -7,7 +7,6 @@
     entailed.py     claims 9 and 10                                   checkers/entailment.py
     verdict.py      status and share of each claim; `judge`           claims.py, coverage.py
 
-The judge reads the world, the trace and the delivered map only. Tests compare it with `checkers/`.
-Where a buffer is full, a number is out of range, or a planar witness is needed, the verdict is
-**open**: the checkers must be asked.
+Tests compare the judge with `checkers/`. Where a buffer is full, a number is out of range, or a
+planar witness is needed, the verdict is **open**: the checkers must be asked.
 """

@@ -1,6 +1,6 @@
 """Claims 9 and 10: what the mapper concluded must follow from its history.
 
-Mirrors: checkers/entailment.py and map_on_fold.py. Differs: there is no witness; under the planar
+Twin of checkers/entailment.py and map_on_fold.py. Differs: there is no witness; under the planar
 prior a rejection that only some further folding could refute leaves the verdict open (`full`).
 
 With `level` 10, or where a rejection rests on a contradiction (claim 8), S is drawn on the fold and
@@ -50,7 +50,6 @@ def fold_history(run: RunWords, case: CaseWords) -> bool:
 
 @inlined
 def note_rejection(drawn: DrawnWords, cited_follows: int) -> None:
-    """Note whether the contradiction that a rejection cites follows."""
     number = drawn.rejection + 1
     if number >= JUDGE_STEPS:
         drawn.full = 1
@@ -61,7 +60,6 @@ def note_rejection(drawn: DrawnWords, cited_follows: int) -> None:
 
 @kernel
 def conclude_event(run: RunWords, case: CaseWords, event: DecisionWords) -> None:
-    """Judge one decision, and grow S."""
     drawn = case.drawn
     rejection = RejectionWords(run, event)
     augmentation = AugmentationWords(run, event)
@@ -102,7 +100,6 @@ def conclude_event(run: RunWords, case: CaseWords, event: DecisionWords) -> None
     if follows:
         drawn.open[e] = 0
         drawn.open[other] = 0
-        # The face is cut in two.
         after = drawn.after[e]
         drawn.after[e] = drawn.after[other]
         drawn.after[other] = after
@@ -112,7 +109,6 @@ def conclude_event(run: RunWords, case: CaseWords, event: DecisionWords) -> None
 
 @inlined
 def is_open_on_fold(drawn: DrawnWords, dart: int) -> bool:
-    """Whether this is an unexplored dart of S."""
     return 0 <= dart < drawn.darts and drawn.open[dart] != 0
 
 
@@ -141,7 +137,6 @@ def add_vertex_on_fold(case: CaseWords, node: int, first: int) -> bool:
 
 @inlined
 def slot_of(case: CaseWords, e: int) -> int:
-    """The slot of a dart of S."""
     drawn = case.drawn
     node = drawn.node[e]
     return case.fold.base[find_node(case.fold, node)] + find_dart(case.fold, node, drawn.dart[e])
@@ -149,7 +144,6 @@ def slot_of(case: CaseWords, e: int) -> int:
 
 @inlined
 def grow_on_fold(case: CaseWords, e: int) -> bool:
-    """Add the vertex behind e to S."""
     fold = case.fold
     slot = slot_of(case, e)
     node = fold.end_node[slot]
@@ -159,7 +153,6 @@ def grow_on_fold(case: CaseWords, e: int) -> bool:
 
 @inlined
 def on_face(drawn: DrawnWords, e: int, h: int) -> bool:
-    """Whether h is on the face of e."""
     dart = drawn.after[e]
     while dart not in (e, h):
         dart = drawn.after[dart]
@@ -168,7 +161,7 @@ def on_face(drawn: DrawnWords, e: int, h: int) -> bool:
 
 @inlined
 def may_be_apart(case: CaseWords, e: int, h: int) -> bool:
-    """Folding does not make e and h partners."""
+    """Does folding leave open that e and h are no partners?"""
     fold, drawn = case.fold, case.drawn
     slot = slot_of(case, e)
     node = fold.end_node[slot]
@@ -214,7 +207,7 @@ def may_lead_to(case: CaseWords, e: int, h: int) -> bool:
     slot = slot_of(case, e)
     end = fold.end_node[slot]
     node = find_node(fold, drawn.node[h])
-    if end >= 0:  # the usual case
+    if end >= 0:
         end = find_node(fold, end)
         if fold.degree[end] != fold.degree[node]:
             return False
@@ -229,7 +222,6 @@ def may_lead_to(case: CaseWords, e: int, h: int) -> bool:
 
 @kernel
 def is_met(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:  # noqa: ARG001  it has the rejection's words
-    """Whether the contradiction that a rejection cites follows."""
     fold, drawn = case.fold, case.drawn
     e = rejection.edge
     h = rejection.h
@@ -252,6 +244,6 @@ def is_met(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:  
                 ):
                     found |= 1 << TWO_OF_S
     roll_back(fold, mark)
-    if (found >> cited) & 1 == 0 and found != 0:  # it may still follow
+    if (found >> cited) & 1 == 0 and found != 0:
         found = all_that_follow(case, e, h)
     return (found >> cited) & 1 != 0

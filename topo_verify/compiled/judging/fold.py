@@ -1,7 +1,7 @@
 """The fold of a history, with rollback: what percepts and doors alone prove.
 
-Mirrors: checkers/folding.py. Differs: a contradiction is a value: with `met` = -1 the first one
-ends the folding, otherwise all are collected there as a mask. A place is a node and a dart of it;
+Twin of checkers/folding.py. Differs: a contradiction is a value: with `met` = -1 the first one ends
+the folding, otherwise all are collected there as a mask. A place is a node and a dart of it;
 `end_node` and `end_dart` have the other end of each, node -1: open.
 """
 
@@ -15,7 +15,6 @@ from topo_verify.compiled.workspace import MASK, SHIFT
 
 @inlined
 def start_judge_fold(fold: FoldWords, percept: int) -> None:
-    """The fold without a move."""
     fold.nodes = 0
     fold.doors = 0
     fold.undos = 0
@@ -50,7 +49,6 @@ def visit(fold: FoldWords, percept: int) -> int:
 
 @inlined
 def find_node(fold: FoldWords, node: int) -> int:
-    """The node's representative."""
     while fold.parent[node] != node:
         node = fold.parent[node]
     return node
@@ -58,7 +56,6 @@ def find_node(fold: FoldWords, node: int) -> int:
 
 @inlined
 def find_dart(fold: FoldWords, node: int, dart: int) -> int:
-    """A dart of a node, as a dart of the representative."""
     while fold.parent[node] != node:
         dart += fold.offset[node]
         if dart >= fold.degree[node]:
@@ -99,7 +96,6 @@ def fold_move(fold: FoldWords, door: int, percept: int) -> bool:
         entry += marker - 1
         if entry >= fold.degree[node]:
             entry -= fold.degree[node]
-        # The usual case.
         if find_node(fold, 0) != node or find_dart(fold, 0, 0) != entry:
             wrong = make_one(fold, node, entry, 0, 0)
             fold.undos = 0
@@ -109,7 +105,7 @@ def fold_move(fold: FoldWords, door: int, percept: int) -> bool:
 
 @inlined
 def met(fold: FoldWords, contradiction: int) -> bool:
-    """Note a contradiction; whether it ends the folding."""
+    """Note a contradiction; True if it ends the folding."""
     if fold.met < 0:
         return True
     fold.met |= 1 << contradiction
@@ -118,7 +114,6 @@ def met(fold: FoldWords, contradiction: int) -> bool:
 
 @inlined
 def put_end(fold: FoldWords, node: int, dart: int, end: int, end_dart: int) -> None:
-    """Put an end behind an open dart of a root."""
     slot = fold.base[node] + dart
     fold.end_node[slot] = end
     fold.end_dart[slot] = end_dart
@@ -209,7 +204,6 @@ def join_ends(fold: FoldWords, a: int, i: int, b: int, j: int) -> int:
 
 @kernel
 def roll_back(fold: FoldWords, mark: int) -> None:
-    """Undo all changes after the first `mark`."""
     at = fold.undos
     while at > mark:
         at -= 1
@@ -259,7 +253,6 @@ def lay_out(fold: FoldWords) -> int:
 
 @kernel
 def is_planar_fold(fold: FoldWords) -> bool:
-    """Whether the map of `lay_out` has genus 0."""
     vertices = 0
     open_darts = 0
     faces = 0
@@ -275,7 +268,6 @@ def is_planar_fold(fold: FoldWords) -> bool:
             at = dart
             while (seen >> at) & 1 == 0:
                 seen |= 1 << at
-                # A leaf turns back into its dart.
                 if fold.alpha[at] >= 0:
                     at = fold.alpha[at]
                 node = fold.vertex[at]
@@ -328,7 +320,6 @@ def all_that_follow(case: CaseWords, e: int, h: int) -> int:
 
 @inlined
 def start_consequences(case: CaseWords) -> None:
-    """Start without identifications."""
     consequences, fold = case.consequences, case.fold
     consequences.met = 0
     consequences.waiting = 0
@@ -342,13 +333,11 @@ def start_consequences(case: CaseWords) -> None:
 
 @inlined
 def slot_at(fold: FoldWords, node: int, dart: int) -> int:
-    """The slot of a dart."""
     return fold.base[find_node(fold, node)] + find_dart(fold, node, dart)
 
 
 @inlined
 def turn_slot(fold: FoldWords, slot: int, door: int) -> int:
-    """The slot `door` doors clockwise."""
     base = fold.base[fold.owner[slot]]
     degree = fold.degree[fold.owner[slot]]
     return slot + door if slot + door < base + degree else slot + door - degree
@@ -356,7 +345,6 @@ def turn_slot(fold: FoldWords, slot: int, door: int) -> int:
 
 @inlined
 def find_same(consequences: ConsequenceWords, slot: int) -> int:
-    """The slot's representative."""
     while consequences.same[slot] != slot:
         slot = consequences.same[slot]
     return slot
@@ -364,7 +352,6 @@ def find_same(consequences: ConsequenceWords, slot: int) -> int:
 
 @inlined
 def entry_of(case: CaseWords, v: int) -> int:
-    """The node of a vertex of S."""
     drawn = case.drawn
     e = drawn.entry[v]
     return case.fold.owner[
@@ -374,7 +361,6 @@ def entry_of(case: CaseWords, v: int) -> int:
 
 @inlined
 def add_beyond(consequences: ConsequenceWords, slot: int, end: int) -> None:
-    """Note another end behind a slot."""
     k = consequences.entries
     if k >= JUDGE_DOORS:
         consequences.full = 1

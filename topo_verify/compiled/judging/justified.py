@@ -1,6 +1,6 @@
 """Claim 8: the evidence that a rejection cites, recomputed.
 
-Mirrors: checkers/excursions.py and "what justifies a rejection" of checkers/claims.py. Differs:
+Twin of checkers/excursions.py and "what justifies a rejection" of checkers/claims.py. Differs:
 sequences lie in one arena, and a record points into it. Records are true in the world, so any that
 reaches far enough will do.
 """
@@ -16,7 +16,7 @@ from topo_verify.compiled.workspace import *
 
 @inlined
 def unjustified(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:
-    """Whether the rejection is not justified: `_unjustified` of claims.py."""
+    """Twin of `_unjustified` of claims.py."""
     e = rejection.edge
     h = rejection.h
     rule = rejection.rule
@@ -39,7 +39,7 @@ def unjustified(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bo
 
 @kernel
 def unmet(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:
-    """Whether more than a contradiction is cited: `_unmet`."""
+    """Twin of `_unmet`: is more cited than a contradiction?"""
     expected = rejection.expected
     observed = rejection.observed
     if expected not in (ABSENT, shown(run.world, case.phi[rejection.h])):
@@ -53,7 +53,7 @@ def unmet(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:
         or rejection.record != ABSENT
     ):
         return True
-    if case.rejections >= JUDGE_STEPS:  # `cited` is less
+    if case.rejections >= JUDGE_STEPS:
         case.full = 1
         return True
     case.cited_by[case.cited] = case.rejections
@@ -63,7 +63,6 @@ def unmet(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:
 
 @kernel
 def cites_in_vain(case: CaseWords) -> bool:
-    """Whether a cited contradiction does not follow from the history."""
     for k in range(case.cited):  # noqa: SIM110  numba knows no such generator
         if case.drawn.met[case.cited_by[k]] == 0:
             return True
@@ -72,7 +71,6 @@ def cites_in_vain(case: CaseWords) -> bool:
 
 @kernel
 def percepts_agree(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:
-    """Whether the cited percepts do not disagree as declared."""
     step = rejection.step
     number = rejection.sequence
     doors = case.place_of("word_door")
@@ -147,7 +145,6 @@ def beyond_s(
 
 @inlined
 def keep_sequence(case: CaseWords) -> None:
-    """The word at a mismatch in motion becomes a sequence."""
     s = case.sequences
     begin = case.arena
     size = case.word_size

@@ -28,7 +28,6 @@ JUDGE_DOORS = 65536
 JUDGE_SLOTS = JUDGE_DOORS // 4
 
 JUDGE_CAPACITIES = {name: size for name, size in globals().items() if name.startswith("JUDGE_")}
-"""The sizes of the judge's rows."""
 
 PerClaim = Annotated[Words, "CLAIM_COUNT"]
 PerKind = Annotated[Words, "KINDS_OF_EVENTS"]
@@ -44,14 +43,10 @@ FATE_POSED, FATE_LOOP, FATE_NEW = 1, 2, 3
 
 
 class OpenWords(WordView):
-    """Whether the checkers must be asked."""
-
     full: int
 
 
 class FoldWords(OpenWords):
-    """The fold of the history: fold.py."""
-
     nodes: int
     doors: int
     at: int
@@ -71,27 +66,23 @@ class FoldWords(OpenWords):
     # -1: a contradiction ends the folding. Otherwise a mask of the contradictions met so far
     met: int
     first: PerCaseDart
-    owner: PerSlot  # its node
+    owner: PerSlot
     alpha: PerCaseDart
     vertex: PerCaseDart
     size: int
 
 
 class ConsequenceWords(OpenWords):
-    """What follows of an assumption: `all_that_follow` in fold.py."""
-
     met: int  # mask
     waiting: int
     entries: int
-    same: PerSlot  # union-find
+    same: PerSlot
     first: PerSlot  # first entry behind it, one of each look; -1: open
     end: PerDoor
     next: PerDoor
 
 
 class DrawnWords(OpenWords):
-    """S, drawn on the fold: entailed.py."""
-
     darts: int
     vertices: int
     node: PerCaseDart
@@ -99,8 +90,8 @@ class DrawnWords(OpenWords):
     open: PerCaseDart
     after: PerCaseDart  # next dart on the face; an open dart turns back
     refuted: PerCaseDart  # the last e shown not to end there; -1: none
-    entry: PerCaseDart  # first dart of each vertex
-    stands: int  # is S proved so far?
+    entry: PerCaseDart
+    stands: int
     unproved: int  # does some decision not follow?
     rejection: int
     met: PerCaseStep  # 1 if the cited contradiction follows
@@ -111,7 +102,7 @@ class CaseWords(OpenWords):
 
     darts: int  # 2m
     vertices: int
-    bound: int  # of claim 7
+    bound: int
     level: int  # claims 1 to 8, 9 or 10
     delivered: int
     reported: int  # -1: none
@@ -120,13 +111,13 @@ class CaseWords(OpenWords):
     of: PerClaim
     wrong: int  # bit k: claim k + 1 fails
     cost: int
-    at: int  # reference dart
+    at: int
     legal: int  # does every door so far exist?
     true: int  # is every percept so far the world's?
     spoiled: int  # did S grow by what is false?
-    size: int  # darts of S
+    size: int
     crossed: int  # mask of crossed edges, by lesser dart
-    grown: int  # those along which S grew
+    grown: int
     phi: PerCaseDart
     number: PerCaseDart  # dart of S; -1: none
     alpha: PerCaseDart  # of S; -1: unexplored
@@ -145,7 +136,7 @@ class CaseWords(OpenWords):
     pose_edge: int
     # of each edge of the world, by its lesser dart: 0 not posed, 1 posed, or `FATE_…` below
     fate: PerCaseDart
-    cited_by: PerCaseStep  # their numbers, from 1
+    cited_by: PerCaseStep
     left: PerCaseDart  # mask of undecided hypotheses
     # whether the last pose was made elsewhere than behind its edge: the word stays empty
     is_late: int
@@ -183,7 +174,6 @@ JUDGE_SIZE = CASE.size
 
 @inlined
 def shown(world: WorldWords, dart: int) -> int:
-    """The percept at a dart of the world."""
     v = world.vertex[dart]
     percept = world.degree[v] << SHIFT
     if v == 0:
@@ -195,7 +185,6 @@ def shown(world: WorldWords, dart: int) -> int:
 
 @inlined
 def exit_of(world: WorldWords, dart: int, door: int) -> int:
-    """The dart behind a door, from this reference dart."""
     v = world.vertex[dart]
     end = world.first[v] + world.degree[v]
     dart += door
@@ -206,7 +195,6 @@ def exit_of(world: WorldWords, dart: int, door: int) -> int:
 
 @inlined
 def end_of_trace(trace: TraceWords) -> int:
-    """Where the trace ends."""
     return trace.place_of("word") + trace.size
 
 

@@ -1,6 +1,6 @@
 """Claims 1 to 8 are judged while the trace is replayed in its world.
 
-Mirrors: checkers/replayed_trace.py, map_in_world.py and claims.py. Differs: a claim is asked at the
+Twin of checkers/replayed_trace.py, map_in_world.py and claims.py. Differs: a claim is asked at the
 event; a finding is a bit in `wrong`, bit k for claim k + 1. Positions follow from the doors alone.
 After the first door that does not exist (`legal`) no event is judged; after the first false
 augmentation (`spoiled`) no decision.
@@ -42,7 +42,6 @@ def replay(run: RunWords, case: CaseWords) -> None:
 
 @inlined
 def start_replay(world: WorldWords, case: CaseWords) -> None:
-    """Let S be v0, and forget the run before."""
     for at in range(case.place_of("cost"), case.place_of("phi")):
         case[at] = 0
     for at in range(case.place_of("saw"), case.place_of("fate")):
@@ -67,7 +66,6 @@ def start_replay(world: WorldWords, case: CaseWords) -> None:
 
 @inlined
 def draw_vertex(world: WorldWords, case: CaseWords, entry: int) -> None:
-    """Add a vertex to S, by its first dart in the world."""
     v = world.vertex[entry]
     first = case.size
     dart = entry
@@ -84,13 +82,11 @@ def draw_vertex(world: WorldWords, case: CaseWords, entry: int) -> None:
 
 @inlined
 def is_open(case: CaseWords, dart: int) -> bool:
-    """Whether this is an unexplored dart of S."""
     return 0 <= dart < case.size and case.alpha[dart] < 0
 
 
 @inlined
 def lesser(world: WorldWords, dart: int) -> int:
-    """The lesser dart of an edge of the world."""
     return min(dart, world.alpha[dart])
 
 
@@ -118,7 +114,6 @@ def follow_move(run: RunWords, case: CaseWords, move: MoveWords) -> None:
     if move.percept != percept:
         case.true = 0
         case.wrong |= 1
-    # Going back cancels the last door.
     door += case.turned
     if door >= world.degree[v]:
         door -= world.degree[v]
@@ -137,7 +132,6 @@ def follow_move(run: RunWords, case: CaseWords, move: MoveWords) -> None:
 
 @inlined
 def decide(run: RunWords, case: CaseWords, event: DecisionWords) -> None:
-    """Judge a decision, and note it."""
     kind = event.kind
     e = event.edge
     opened = is_open(case, e)
@@ -203,7 +197,6 @@ def pose(run: RunWords, case: CaseWords, posed: PoseWords, edge: int, truth: int
 
 @inlined
 def settle_hypothesis(case: CaseWords, edge: int, h: int) -> None:
-    """A hypothesis has its fate."""
     if edge >= 0 and 0 <= h < JUDGE_DARTS - 2:
         case.left[edge] &= ~(1 << h)
 

@@ -1,6 +1,6 @@
 """The verdict on one run: status and share of each claim.
 
-Mirrors: checkers/claims.py, `check`, and coverage.py.
+Twin of checkers/claims.py and coverage.py.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def judge(run: RunWords, case: CaseWords) -> int:
             case.wrong |= 1 << 7
     elif case.level >= 9 or case.cited > 0:
         if not fold_history(run, case):
-            case.full = 1  # impossible: the world shows this history
+            case.full = 1
         if cites_in_vain(case):
             case.wrong |= 1 << 7
     if case.level >= 9 and (
@@ -67,7 +67,6 @@ def judge_delivery(run: RunWords, case: CaseWords) -> None:
 
 @inlined
 def is_chart(chart: ChartWords, darts: int, vertices: int) -> bool:
-    """Whether the delivered map is a map of this size."""
     if chart.darts != darts or chart.vertices != vertices:
         return False
     for d in range(darts):
@@ -90,7 +89,6 @@ def is_chart(chart: ChartWords, darts: int, vertices: int) -> bool:
 
 @kernel
 def is_world(run: RunWords, case: CaseWords) -> bool:
-    """Whether the delivered map is the world."""
     world = run.world
     if not is_chart(run.chart, case.darts, case.vertices):
         return False
@@ -108,7 +106,7 @@ def is_world(run: RunWords, case: CaseWords) -> bool:
 
 @kernel
 def proves_map(chart: ChartWords, case: CaseWords) -> bool:
-    """Whether no dart of the fold is open, and the fold is the delivered map."""
+    """Is no dart of the fold open, and is the fold the delivered map?"""
     fold = case.fold
     if lay_out(fold) != 0:  # it is the world, and has room
         return False
@@ -143,7 +141,7 @@ def is_same_map(
     degree: int,
     root: int,
 ) -> bool:
-    """Whether the delivered map is isomorphic to that in M (W or J), dart 0 to the root.
+    """Is the delivered map isomorphic to that in M (W or J), dart 0 to the root?
 
     The image of a dart decides all others. A map of as many darts, onto a connected one, is one to
     one.
@@ -156,7 +154,7 @@ def is_same_map(
         return False
     for d in range(darts):
         if case.image[d] < 0:
-            case.full = 1  # not in the order of discovery
+            case.full = 1
             return False
         other = chart.alpha[d]
         image = M[alpha + case.image[d]]
@@ -186,14 +184,12 @@ def place_image(
 
 @inlined
 def share(case: CaseWords, claim: int, judged: int, of: int) -> None:
-    """How much a claim judged; claims count from 1."""
     case.judged[claim - 1] = judged
     case.of[claim - 1] = of
 
 
 @kernel
 def share_out(case: CaseWords) -> None:
-    """What `coverage` says of each claim."""
     crossed = case.crossed
     edges = bit_count(crossed)
     posed = 0
