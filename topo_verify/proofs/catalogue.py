@@ -4,7 +4,7 @@ Names are unique and never change. Each engine has its tables:
 
     kind        table                                          an entry
     inductive   first_order/obligations/<theme>.OBLIGATIONS    an `Obligation`
-    mechanised  mechanised/theorems.STATEMENTS                 a theorem of coq/
+    mechanised  coq/theorems.csv                               a theorem of coq/
     bounded     bounded/statements.py                          a `BoundedStatement`
     negative    bounded/mutants.SMALLEST                       a `Negative`
     mutant      `needs` of an obligation                       a dropped premise
