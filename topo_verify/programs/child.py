@@ -83,6 +83,7 @@ class Child:
         echo: copy its standard error to ours, each line behind this mark.
     Attributes:
         heard: how often its output was read.
+        processor: follow it before a world, release it after.
     Raises:
         InputError: the program cannot be started.
     """
@@ -125,7 +126,7 @@ class Child:
         self._readers = select.poll()
         self._readers.register(self._in, 0)
         self._head_sent = False
-        self._processor = SharedProcessor(self._process.pid)
+        self.processor = SharedProcessor(self._process.pid)
         sleep_briefly()
         self.heard = 0
         self._lines: deque[bytes] = deque()
@@ -160,8 +161,8 @@ class Child:
             if clock is not None and clock.seconds() > seconds:
                 raise Silent
             # Its last output comes first, so ask for the exit status only after a silent tick.
-            if not self._listen() and self._status() is not None:
-                self._output_ended = True  # though its child may hold the stream open
+            if not self._listen():
+                self._hear_of_end()
         return self._lines.popleft()
 
     def write(self, data: bytes) -> None:
@@ -217,7 +218,7 @@ class Child:
 
     def _listen(self, seconds: float = TICK) -> bool:
         """Read what has come, after waiting a tick at most; True if anything came."""
-        looks = LOOKS if seconds and not self._processor.shared else 0
+        looks = LOOKS if seconds and not self.processor.shared else 0
         # On one processor the program runs only when we sleep.
         ready = [] if seconds and not looks else self._poll.poll(0)
         while not ready and looks:
@@ -280,14 +281,6 @@ class Child:
     def _require_room(self) -> None:
         if len(self._rest) + sum(map(len, self._lines)) > AHEAD * self._longest:
             raise TooLong
-
-    def beside(self) -> None:
-        """Keep a program with a single thread, and this thread, on one processor."""
-        self._processor.follow()
-
-    def apart(self) -> None:
-        """Undo `beside` for this thread."""
-        self._processor.release()
 
     def read_on(self) -> None:
         """Wait until the program reads our next message, whose first bytes are sent now.

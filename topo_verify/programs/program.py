@@ -103,7 +103,7 @@ class Program:
             self.misbehaved = why.copy()
             raise
         self._idle = self._halted = False
-        child.beside()
+        child.processor.follow()
         result: Finish | Misbehaved | None = None
         try:
             with helped_by(child.process, lambda: child.heard):
@@ -236,7 +236,7 @@ class Program:
     def settle(self) -> None:
         """End the process if it misbehaved in its last world. Call this outside of time limits."""
         if self._child is not None:
-            self._child.apart()
+            self._child.processor.release()
             if not self._idle and not (self._halted and self._unwound()):
                 self._child.end()
                 self._child = None

@@ -34,15 +34,18 @@ class FiniteModel:
 def smallest(assertions: Mapping[str, terms.Term], budget: Budget) -> FiniteModel:
     """A model of the first of `SIZES` that has one."""
     formulas = list(assertions.values())
-    sorts = sorted(set[str]().union(*map(terms.sorts_of, formulas)) - {terms.BOOL})
     last = FiniteModel("unknown", why="no size was tried")
     for darts, others in SIZES:
-        sizes = {sort: darts if sort == "W" else others for sort in sorts}
-        last = model(formulas, sizes, budget)
+        last = model(formulas, _sizes(formulas, darts, others), budget)
         # After `unknown` a larger model may not be the smallest.
         if last.answer != "unsat":
             return last
     return last
+
+
+def _sizes(formulas: Sequence[terms.Term], darts: int, others: int) -> dict[str, int]:
+    sorts = sorted(set[str]().union(*map(terms.sorts_of, formulas)) - {terms.BOOL})
+    return {sort: darts if sort == "W" else others for sort in sorts}
 
 
 def model(formulas: Sequence[terms.Term], sizes: Mapping[str, int], budget: Budget) -> FiniteModel:
@@ -129,9 +132,7 @@ def _domains(entries: Sequence[FunctionValue], sizes: Mapping[str, int]) -> Iter
 def question(assertions: Mapping[str, terms.Term]) -> str:
     """The SMT-LIB script for the last of `SIZES`."""
     formulas = list(assertions.values())
-    sorts = sorted(set[str]().union(*map(terms.sorts_of, formulas)) - {terms.BOOL})
-    darts, others = SIZES[-1]
-    return grounded(formulas, {sort: darts if sort == "W" else others for sort in sorts})
+    return grounded(formulas, _sizes(formulas, *SIZES[-1]))
 
 
 def grounded(formulas: Sequence[terms.Term], sizes: Mapping[str, int]) -> str:

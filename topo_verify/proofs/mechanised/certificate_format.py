@@ -22,6 +22,7 @@ from topo_verify.robot.percept import Percept
 HEADER = "topo-verify/certificate 1"
 
 LARGEST = 2**60
+"""The largest number in a certificate; OCaml's integers have 63 bits."""
 
 WIDEST = 1_000_000
 """Largest sum of the degrees of a log. Coq counts doors one by one."""
@@ -185,8 +186,8 @@ def log_lines(log: Sequence[ev.Event]) -> Iterator[Line]:
     """Yield the numbers of a log from `stated_log`, line by line."""
     begin = log[0]
     assert isinstance(begin, ev.Start)
-    yield _percept(begin.percept)
-    yield from _counted(filter(None, map(_event, log)))
+    yield percept_line(begin.percept)
+    yield from _counted(filter(None, map(event_line, log)))
     end = log[-1]
     if not isinstance(end, ev.Finish):
         yield (0,)
@@ -226,10 +227,11 @@ def _with_natural_darts(delivered: ev.MapData) -> ev.MapData:
     )
 
 
-def _event(event: ev.Event) -> Line | None:
+def event_line(event: ev.Event) -> Line | None:
+    """The numbers of a move or a decision; None for other events."""
     match event:
         case ev.Move(door, percept):
-            return (0, door, *_percept(percept))
+            return (0, door, *percept_line(percept))
         case ev.Reject(edge, hypothesis):
             return (1, edge, hypothesis)
         case ev.Confirm(edge, hypothesis):
@@ -244,7 +246,7 @@ def _claim(certificate: CoqCertificate) -> Iterator[Line]:
     fold, numbering = certificate.fold, certificate.numbering
     yield (STATEMENTS.index(certificate.statement),)
     if certificate.statement != "impossible":
-        rows = ((row.following, row.previous, _optional(row.other)) for row in fold.table)
+        rows = ((row.following, row.previous, optional(row.other)) for row in fold.table)
         yield from _counted(rows)
     if certificate.statement != "undetermined":
         yield from _counted(map(_meeting, fold.meetings))
@@ -262,12 +264,13 @@ def _counted(lines: Iterable[Line]) -> Iterator[Line]:
     yield from elements
 
 
-def _optional(number: int | None) -> int:
-    return 0 if number is None else number + 1
+def optional(number: int | None) -> int:
+    """0 for None, else the next number; one below 0 stays so, and is refused."""
+    return 0 if number is None else number + 1 if number >= 0 else number
 
 
-def _percept(percept: Percept) -> Line:
-    return (percept.degree, _optional(percept.marker))
+def percept_line(percept: Percept) -> Line:
+    return (percept.degree, optional(percept.marker))
 
 
 def _arc(arc: evidence.Arc) -> Line:

@@ -21,8 +21,13 @@ from typing import get_args
 from topo_verify.checkers import CLAIMS, Judgement, Status
 from topo_verify.errors import InputError
 from topo_verify.proofs.mechanised import toolchain
+from topo_verify.proofs.mechanised.certificate_format import (
+    LARGEST,
+    event_line,
+    optional,
+    percept_line,
+)
 from topo_verify.robot import events as ev
-from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import World
 
 MISSING = "rejection-justified"
@@ -33,9 +38,6 @@ PROVED_CLAIMS = tuple(claim for claim in CLAIMS if claim != MISSING)
 
 LONG = 400
 """Longer traces are not judged for claim 10, which folds the log at each decision."""
-
-LARGEST = 2**60
-"""OCaml's integers have 63 bits."""
 
 TracedRun = tuple[World, Sequence[ev.Event]]
 
@@ -148,7 +150,7 @@ def numbers(world: World, trace: Sequence[ev.Event]) -> list[int]:
     steps = [_step(event) for event in (trace[1:-1] if delivered else trace[1:])]
     stated = [
         int(judged_claims(trace) == PROVED_CLAIMS),
-        *_listed(world.sigma), *_listed(world.alpha), *_percept(start.percept),
+        *_listed(world.sigma), *_listed(world.alpha), *percept_line(start.percept),
         len(steps), *chain.from_iterable(steps),
         *(_ending(finish) if isinstance(finish, ev.Finish) else [0]),
     ]  # fmt: skip
@@ -164,34 +166,17 @@ def _listed(row: Sequence[int]) -> list[int]:
     return [len(row), *row]
 
 
-def _percept(percept: Percept) -> list[int]:
-    return [percept.degree, *_optional(percept.marker)]
-
-
-def _optional(number: int | None) -> list[int]:
-    # A number below 0 stays so, and is refused.
-    return [0 if number is None else number + 1 if number >= 0 else number]
-
-
-def _step(event: ev.Event) -> list[int]:
-    match event:
-        case ev.Move(door, percept):
-            return [0, door, *_percept(percept)]
-        case ev.Reject(edge, hypothesis):
-            return [1, edge, hypothesis]
-        case ev.Confirm(edge, hypothesis):
-            return [2, edge, hypothesis]
-        case ev.Augment(edge, kind, dart, degree):
-            return [3 if kind == "loop" else 4, edge, dart, degree]
-        case ev.Pose(edge, hypotheses):
-            return [5, edge, *_listed(hypotheses)]
-        case _:  # pragma: no cover: `require_order` lets only the first and the last be others
-            raise AssertionError(event)
+def _step(event: ev.Event) -> Sequence[int]:
+    if isinstance(event, ev.Pose):
+        return [5, event.edge, *_listed(event.hypotheses)]
+    line = event_line(event)
+    assert line is not None, "`require_order` lets only the first and the last be others"
+    return line
 
 
 def _ending(finish: ev.Finish) -> list[int]:
     vertices, edges, marker = finish.map.vertices, finish.map.edges, finish.map.marker
-    head = [1, *_optional(finish.cost)]
+    head = [1, optional(finish.cost)]
     if any(len(edge) != 2 for edge in edges) or (marker is None) == any(vertices):
         return [*head, 0]
     number: dict[int | None, int] = {}
