@@ -1,13 +1,13 @@
 """A run to look at, as text and as a page; what a mapper says stands beside the checkers' replay.
 
-scenes.py    what each event means, beside the world: the model that every view shows
-detours.py   what several moves show together: turns, ways home, circles, tests
-narrator.py  what each event means, in sentences
-remarks.py   what the replay adds to an event; names of darts, doors and percepts
-walk.py      the run as text, S beside the truth
-cards.py     reports and findings as HTML, for notebooks
-recording.py a run as compact data for the page
+scenes.py      what each event means: the model that every view shows
+detours.py     what several moves show together: turns, ways home, circles, tests
 fold_places.py where a fold identifies visits
-page.py      the page, from the parts in page/
-animation/   a run as an animated SVG
+narrator.py    what each event means, in sentences
+remarks.py     what the replay adds to an event; names of darts, doors and percepts
+walk.py        the run as text, S beside the truth
+cards.py       reports and findings as HTML, for notebooks
+recording.py   a run as compact data for the page
+page.py        the page, from the parts in page/
+animation/     a run as an animated SVG
 """

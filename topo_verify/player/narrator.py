@@ -42,7 +42,6 @@ class Saying(NamedTuple):
 
     Attributes:
         kind: its colour: a question, right, wrong, or none.
-        title: the sentence in bold.
         seen, expected: two percepts to compare, or None.
         labels: the words below the two percepts.
     """

@@ -1,7 +1,7 @@
 """A run as compact data for the page: the events of its trace, with what the replay knows.
 
-The page draws S as it grows (`page/model.js`; a test compares it with `scenes.py`). The events are
-one text, a letter and numbers for each:
+The page draws S as it grows (`page/model.js`; a test compares it with `scenes.py`). Each event is a
+letter and numbers:
 
     move       c2: by door 2, to cross (w walk, c cross, v validate, t retrace, m: no purpose)
     pose       p edge, hypotheses
@@ -47,7 +47,6 @@ class GalleryWorld(NamedTuple):
 
     Attributes:
         text: its name as a WORLD.
-        genus: the number of handles of its surface.
         symmetries: the number of its automorphisms without the marker.
     """
 
@@ -81,7 +80,6 @@ class PlayedRun:
     """A run to show.
 
     Attributes:
-        judgements: of the claims; their findings are marked.
         stopped: why the mapper ended without a map, or None.
     """
 
@@ -186,7 +184,6 @@ def _digits(number: int) -> str:
 def _findings(
     playback: Playback, worlds: list[dict[str, Any]], places: dict[str, int]
 ) -> list[dict[str, Any]]:
-    """The findings; the first at an event has the remarks of the text walk."""
     rows: list[dict[str, Any]] = []
     turned, explained = turns(playback), set[int | None]([None])
     for finding in playback.findings:

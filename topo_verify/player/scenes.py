@@ -37,7 +37,7 @@ class Spent(NamedTuple):
 
     @property
     def cost(self) -> int:
-        """Edge traversals for all purposes together."""
+        """Their sum."""
         return sum(self)
 
 
@@ -66,8 +66,7 @@ class Mismatch(NamedTuple):
         doors: the doors from vu to there.
         trail: the reference darts in the world at vu and behind each door.
         traced: the same on S, if the hypothesis were true, as far as S goes.
-        leaves: the unexplored dart by which the doors leave S, so that a record gave the
-            expectation; or None.
+        leaves: the unexplored dart by which the doors leave S, or None.
         evidence: as the mapper cites it.
     """
 
@@ -90,8 +89,8 @@ class Moment:
         left_by: of a move: the dart of the world by which the robot left.
         through: of a move: the same dart on S, or None.
         spent: edge traversals so far.
-        edge: the dart of S whose other end is in question; None: no question is open.
-        hypotheses: the darts posed for it and neither rejected nor confirmed so far.
+        edge: the dart of S whose other end is in question, or None.
+        hypotheses: the darts posed for it and not yet decided.
         growth: of an augmentation.
         recorded: of an augmentation: what is known from now on behind unexplored darts of S.
         mismatch: of a rejection that can be judged.
@@ -131,10 +130,8 @@ class Playback:
     """A run, event by event.
 
     Args:
-        trace: begins with its only `start`, and may end with `finish`.
         stopped: why the mapper ended without a map, or None.
     Attributes:
-        moments: one an event.
         findings: all that is wrong, in the order of the claims.
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`.
@@ -159,7 +156,7 @@ class Playback:
 
     @property
     def cost(self) -> int:
-        """Edge traversals in all."""
+        """The number of moves."""
         return self.replayed.cost
 
     @cached_property

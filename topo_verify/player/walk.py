@@ -68,11 +68,7 @@ BRIEF = Extent()
 
 
 def lines(playback: Playback, width: int = WIDTH, extent: Extent = BRIEF) -> Iterator[str]:
-    """The last moves of a run before its first finding, and S there beside the truth.
-
-    Args:
-        width: the columns of a line.
-    """
+    """The last moves of a run before its first finding, and S there beside the truth."""
     view = _View(playback, max(width, NARROW))
     end = len(playback.trace) - 1
     last = end if extent.to_end else view.focus

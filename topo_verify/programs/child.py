@@ -6,8 +6,6 @@ output is bounded, nothing blocks for longer than a tick, and `end` leaves no pr
 A move is three system calls: write, poll, read. On one processor (process.py) a poll sleeps at
 once. Otherwise an idle processor takes tens of microseconds to wake up, so a poll looks some
 hundred times before it sleeps.
-
-A *line* is a message without its line end; the *tail* is the end of standard error.
 """
 
 from __future__ import annotations
@@ -145,7 +143,7 @@ class Child:
     # ------------------------------------------------------------ lines
 
     def line(self, *, seconds: float = inf) -> bytes:
-        """Wait for the next line.
+        """Wait for the next line, without its line end.
 
         Args:
             seconds: how long, not counting the program's waits for a processor.
@@ -340,7 +338,7 @@ class Child:
         return self.exit_status() not in (None, "ended with exit code 0")
 
     def stderr(self) -> str:
-        """The tail of its standard error."""
+        """The end of its standard error."""
         with suppress(OSError, KeyError):  # KeyError: the stream has ended and is no longer polled
             while any(stream == self._err for stream, _ in self._poll.poll(0)):
                 self._drain()

@@ -1,8 +1,7 @@
 """Keeps a mapper in another process away from the worlds.
 
 On Linux a process may read the memory of another one of the same user, unless that one is not
-dumpable. Root may all the same, with the capability to trace, so our children lose it. Every
-process calls `shield` before it starts its first child; launcher.py shields later ones.
+dumpable. Root may all the same, with the capability to trace, so our children lose it.
 
 What this does not show: on other systems nothing is hidden. A mapper of root may load a kernel
 module or read the disk; one of the user may read the user's files. The command line of the shell
@@ -35,7 +34,10 @@ def own_arguments() -> None:
 
 @cache
 def shield() -> bool:
-    """Make this process undumpable, and its later children unable to trace; True if it worked."""
+    """Make this process undumpable, and its later children unable to trace; True if it worked.
+
+    Every process calls it before it starts its first child.
+    """
     if sys.platform != "linux":
         return False
     if _arguments_are_ours:

@@ -76,8 +76,6 @@ def prepare() -> None:
 def launch(place: str, *files: int, folder: str | None = None) -> Launched:
     """Start a process that calls `module:function`, with a channel and these files.
 
-    It has our import path, environment and standard error.
-
     Args:
         folder: where it runs; default: the current folder.
     Raises:
@@ -151,7 +149,6 @@ class _Launcher:
 
     @property
     def lost(self) -> bool:
-        """Has it ended?"""
         return self._process.poll() is not None
 
     def ask(self, kind: bytes, process: int = 0, files: Sequence[int] = ()) -> int:
@@ -177,7 +174,6 @@ class _Launcher:
         return answer[1]
 
     def close(self) -> None:
-        """End the launcher process."""
         self._control.close()
         if self.owner == os.getpid():
             self._process.wait()

@@ -1,7 +1,5 @@
 """A native mapper: a function of machine code, which is given a robot by `topo_verify.h`.
 
-    NativeMapper(library_function("--library ./mapper.so:map_world"))   # a mapper like any other
-
 The header's robot is a row of callbacks to a robot in Python. After a refusal they do nothing;
 when the function returns, the exception that stopped the robot is raised.
 
@@ -26,10 +24,8 @@ LIBRARY = "--library "
 """The beginning of a TARGET that is a native mapper."""
 
 SYMBOL = "map_world"
-"""The default name of the function."""
 
 VERSION = 1
-"""`TV_VERSION` of the interface."""
 
 MEMORY = 4 << 30
 """Bytes of address space that a native mapper may add to its process's own."""

@@ -1,8 +1,8 @@
 """What a mapper's process has loaded, so that results can name it.
 
-A file counts if a module was loaded from it, or if Python opened it for reading after `watch`;
-except the standard library, installed distributions (their versions count) and topo_verify. Values
-are what files do not say: arguments of partials, contents of closures, defaults, attributes.
+A file counts if a module was loaded from it, or if Python opened it for reading after `watch`; of
+installed distributions the versions count. Values are what files do not say: arguments of partials,
+contents of closures, defaults, attributes.
 
 What this does not show: files that C code or another process opens; the environment, a network or a
 clock; what C code holds; values beyond the first `MOST_VALUES`.
@@ -30,7 +30,6 @@ from topo_verify.errors import InputError, is_utf8
 _PACKAGE = str(Path(errors.__file__).resolve().parent)
 
 _NO_FILES = ("/proc/", "/sys/", "/dev/")
-"""Folders that are not on a disk."""
 
 
 class Loaded(msgspec.Struct, frozen=True):
@@ -95,7 +94,7 @@ def loaded(values: str = "") -> Loaded:
     """What this process has loaded and, since `watch`, opened for reading.
 
     Args:
-        values: the hash of the mapper's values when it was loaded.
+        values: `values_hash` of the mapper when it was loaded.
     Raises:
         InputError: a file name is not UTF-8.
     """

@@ -77,11 +77,7 @@ def is_python(text: str) -> bool:
 
 @cache
 def compiled_once(text: str) -> Any:
-    """The function of a native mapper in a Python file, compiled once.
-
-    Raises:
-        InputError: as `native_function`.
-    """
+    """The function of a native mapper in a Python file; raises as `native_function`."""
     place = ":".join(library.library_file(text))
     return jitted_function(_found(place), f"--library {place}")
 
@@ -120,7 +116,7 @@ def _load_module(name: str, text: str) -> object:
 
 
 class _UncachedLoader(SourceFileLoader):
-    """Compiles the source each time, and writes no bytecode.
+    """Compiles the source each time.
 
     Bytecode counts as current if the source has the same second and size, so a mapper edited and
     run twice in a second would be the old one.

@@ -2,9 +2,8 @@
 
 **Processor.** Program and harness thread take turns. On one processor the kernel switches between
 them in a few microseconds; on two, each message wakes an idle processor, which takes tens of them.
-So a program with a single thread is kept on the processor of the thread that talks to it, and that
-thread stays there for a world. A program with several threads or children, or with processors of
-its choice, is released.
+So a program with a single thread is kept on the processor of the thread that talks to it, for a
+world. Programs with several threads or children, or with processors of their choice, are released.
 
 **Exit status.** It is read without reaping, so the process keeps its number until `Child.end` has
 ended its group.
@@ -29,8 +28,6 @@ LOOK_AGAIN = 16
 class SharedProcessor:
     """Keeps a program and the thread that talks to it on one processor.
 
-    That thread calls `follow` before each world, `release` after it.
-
     Attributes:
         shared: the program is kept on our processor.
     """
@@ -42,7 +39,7 @@ class SharedProcessor:
         self.shared = False
 
     def follow(self) -> None:
-        """Move a program with a single thread to the processor of this thread; release others."""
+        """Before a world: move a program with a single thread to our processor; release others."""
         here = _processor()
         self._worlds += 1
         if here is None:
@@ -54,7 +51,7 @@ class SharedProcessor:
             os.sched_setaffinity(0, {here})
 
     def release(self) -> None:
-        """Undo `follow` for this thread."""
+        """After a world: undo `follow` for this thread."""
         if self._ours:
             os.sched_setaffinity(0, self._ours)
             self._ours = set()

@@ -5,8 +5,7 @@
 
 The program receives percepts and answers with doors, never the world. The simulated robot makes,
 checks and counts every move. One process plays many worlds. If the program misbehaves, or a limit
-stops it, its process and all descendants are ended, and the next world starts a fresh one. (Our own
-child has a message that ends a world: foreign.py.)
+stops it, its process and all descendants are ended, and the next world starts a fresh one.
 
 Source: docs/semantics.md, section 15.
 """
@@ -47,7 +46,6 @@ PREFIX = "--cmd "
 """The beginning of a TARGET that is a program."""
 
 OPTIONS = (PREFIX, LIBRARY)
-"""The beginnings of TARGETs that are options on the command line."""
 
 
 TranscriptLine = tuple[Literal[">", "<"], bytes]

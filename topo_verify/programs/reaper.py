@@ -1,8 +1,8 @@
 """Kills the programs that a harness leaves behind when the harness itself is killed.
 
-The reaper runs in its own session, which a signal to the harness does not reach, by `python -I -S`
-with the standard library alone. It reads `+ group mark` when a program was started, `- group mark`
-when it was ended. At the end of its input it kills the programs still on its list.
+The reaper runs in its own session, which a signal to the harness does not reach. It reads
+`+ group mark` when a program was started, `- group mark` when it was ended. At the end of its input
+it kills the programs still on its list.
 
 A **mark** is the value of an environment variable that descendants inherit. It finds those that
 moved to another process group (only on Linux: it needs /proc).
@@ -19,7 +19,6 @@ from contextlib import suppress
 from pathlib import Path
 
 MARK = "TOPO_VERIFY_PROGRAM"
-"""The environment variable that holds the mark."""
 
 
 def end_all(group: int | None, mark: str) -> None:

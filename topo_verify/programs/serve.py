@@ -1,11 +1,9 @@
 """A Python mapper behind protocol 1, in its own process.
 
-The command line starts one for mappers outside the catalogue (foreign.py); it says more than the
+The command line starts one for mappers outside the catalogue (foreign.py), which says more than the
 protocol can. As a program it speaks protocol 1 alone; an exception ends it:
 
     topo-verify conform --cmd 'python -m topo_verify.programs.serve my_mapper.py:explore'
-
-Source: docs/semantics.md, section 15.
 """
 
 from __future__ import annotations
@@ -209,10 +207,9 @@ def fresh(text: str) -> None:
     """Serve the mapper of a TARGET for `Foreign`, each world in a fork of this process.
 
     A fork takes some milliseconds, a new Python a few hundred. If a signal ends a fork, this
-    process ends itself by the same. Numba compiles here, before any world.
+    process ends itself by the same. Numba compiles before any world.
 
     What this does not show: that an earlier world left nothing on the disk or in the environment.
-    All forks have the same hash seed.
     """
     reader, writer = isolation.private_pipes()
     if is_python(text):

@@ -29,7 +29,7 @@ TONE_OF: dict[Outcome, Tone | None] = {
 
 @dataclass(frozen=True)
 class JudgedCase:
-    """One judged thing: a claim, a part, a theorem, a fault.
+    """A claim, a part, a theorem or a fault, with its verdict.
 
     Attributes:
         verdict: a verdict, or the status of a claim.
@@ -104,7 +104,6 @@ class Account:
 
     Attributes:
         about: what was checked, in a few words.
-        blocks: what the command prints.
         exhibits, left_out: the counterexamples shown, and the number of others.
         others: worlds to show in which nothing is wrong.
         results_first: a page shows the results before what was judged.
@@ -125,9 +124,7 @@ class Ending:
     """How a command's run ended: what its account leaves out.
 
     Attributes:
-        command: its name, as `verify`.
         again: the command line that repeats the run.
-        code: the exit code.
         date: the end in UTC.
         by_suite: the seconds of each suite, if known.
         timing: other figures that differ from run to run, possibly nested.

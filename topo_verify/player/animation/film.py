@@ -4,8 +4,7 @@ The world is dotted, and solid where S has it. The robot is a blue disc with a n
 reference dart; e is blue; hypotheses are numbered badges. A ring shows where the robot would be if
 the hypothesis that it tests were right; at a rejection both turn red.
 
-Without animation the last moment is shown. Colours are literal, since librsvg ignores CSS
-variables; a media query has those for dark.
+Colours are literal, since librsvg ignores CSS variables; a media query has those for dark.
 """
 
 from __future__ import annotations

@@ -31,7 +31,6 @@ SHORT = {
 # ---------------------------------------------------------------- paragraphs
 
 _Line = dict[int, FigurePoint]
-"""By size."""
 
 
 LADDER = (
