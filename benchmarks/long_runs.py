@@ -42,7 +42,7 @@ process = subprocess.Popen(sys.argv[1:], stdout=subprocess.DEVNULL)
 _, status, usage = os.wait4(process.pid, 0)
 print(os.waitstatus_to_exitcode(status), usage.ru_utime + usage.ru_stime, usage.ru_maxrss)
 """
-"""A small process between this one and the command: a parent's memory counts as the child's own."""
+"""A process between this one and the command: a parent's memory counts as the child's own."""
 
 
 def used(*words: str) -> Used:

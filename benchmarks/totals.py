@@ -4,8 +4,8 @@ r"""The totals of large searches in one small table, kept in docs/data/totals.cs
         --ledger basic9.ledger --format json > basic9.json
     python benchmarks/totals.py basic9.json > docs/data/totals.csv
 
-A row is one algorithm in all worlds of one size: worlds, failing, undecided, the highest cost, in
-how many worlds it occurs, the first of them, the sum of costs. Of equal rows the first file counts.
+A row is one algorithm in all worlds of one size: worlds, failing, undecided, the highest cost, the
+number of worlds with it, the first of them, the sum of costs. Of equal rows the first file counts.
 """
 
 from __future__ import annotations

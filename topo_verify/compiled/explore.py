@@ -1,7 +1,5 @@
 """One run of a compiled algorithm in one world: its cost and map, and its trace.
 
-    run = run_world(world, "enhancement-ii", trace=True)     # -> CompiledRun
-
 Worlds of up to 12 edges run in the small layout, others in the large one, whose words of trace
 become events between rounds. A round that fills the trace is made again with four times the room,
 up to half of the free memory; a run that needs more of anything else, in the large layout.

@@ -1,8 +1,8 @@
 """A native mapper in the place of `explore`: called by its address, it calls back.
 
-Twin of programs/library.py; both refuse the same things. What is declared and delivered is written
-as robot.py writes it. After a refusal, or the map, each callback does nothing and returns
-`REFUSED`. Declarations are checked as far as Python takes them for an index or an event.
+Twin of programs/library.py; both refuse the same things. After a refusal, or the map, each callback
+does nothing and returns `REFUSED`. Declarations are checked as far as Python takes them for an
+index or an event.
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 
 Twin of the pruners of `world/enumeration/pruned.py`, where the theory stands. Differs: `…_join` and
 `…_hang` change a pruner in place, or nothing if no completion is left; `…_undo_…` turns it back. A
-boundary word is a linked cyclic list (`next`, `before`); a join cuts one word in two, or joins two,
-as the parity of the partner's place tells.
+boundary word is a linked cyclic list; a join cuts one word in two, or joins two, as the parity of
+the partner's place tells.
 
 `left`: darts still to create after the step; `opened`: open darts after it.
 """

@@ -6,8 +6,6 @@ first_order/   worlds of any size, by induction, in Z3
 bounded/       every world with m edges, as clauses
 mechanised/    the Python around Coq; coq/ holds the proofs
 solvers/       Z3 and cvc5 with their limits
-
-An engine imports theorem.py and solvers/, never another engine.
 """
 
 from __future__ import annotations

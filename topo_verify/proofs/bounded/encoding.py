@@ -13,14 +13,14 @@ it was first entered (docs/semantics.md, section 3); v0 begins with the marked d
 v0 is joined with a smaller one (`entry`), by an explored edge if S knows the vertex. So the world
 is connected and S *reachable*: cross the entry edges in order, then the other edges. Conversely,
 every S of an exploration is of this form. The other vertices are numbered breadth-first, so each
-pair of a world and a map is one model (`theorems.py` counts them).
+pair of a world and a map is one model.
 
 **Positions** and doors are one-hot rows, also where others determine them: redundant, but it makes
 words of four doors feasible.
 
-**Walks.** The robot crossed the unexplored dart `e` and stands at `vu`, its reference dart
-`alpha(e)`. Hypothesis `h`: this is dart h of S. A word of doors is followed `there`, in the world
-from alpha(e), and `here`, on S from h. The rules compare percepts of both:
+**Walks.** Behind the unexplored dart `e` the robot stands at `vu`, its reference dart `alpha(e)`.
+Hypothesis `h`: this is dart h of S. A word of doors is followed `there`, in the world from
+alpha(e), and `here`, on S from h. The rules compare percepts of both:
 
     confirm   here ends at v0 and the last percepts are equal            ⇒  h = alpha(e)
     trace     h = alpha(e), every door crosses an explored dart          ⇒  all percepts are equal
@@ -60,7 +60,7 @@ class EncodedPercept:
 
 
 class Worlds(Formula):
-    """The clauses of all worlds with this many edges; see the head of this file.
+    """The clauses of all worlds with this many edges.
 
     Attributes:
         entry: entry[e, f]: the vertex beginning with dart f was found through dart e < f.
@@ -273,7 +273,6 @@ class EdgeCrossing:
 
 
 def behind_an_edge(edges: int, *, world_class: str = "any") -> EdgeCrossing:
-    """A robot behind any unexplored dart of any map, in any world of the class."""
     world = Worlds(edges)
     world.restrict(world_class)
     chart = world.map("S")
@@ -283,7 +282,6 @@ def behind_an_edge(edges: int, *, world_class: str = "any") -> EdgeCrossing:
 
 
 def crossed(world: Worlds, chart: EncodedMap, name: str) -> tuple[CnfRow, CnfRow]:
-    """Any unexplored dart, and the reference dart after crossing it."""
     e = open_dart(world, chart, name)
     vu = world.position(name, f"{name}.behind")
     world.cross(name, e, vu)

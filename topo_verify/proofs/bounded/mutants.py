@@ -1,7 +1,5 @@
 """Theorems that a world must refute: negatives, and rules with one mistake (`RuleFault`).
 
-The solver finds a world, a map and doors; in the simulator the claim must fail (`replay.py`).
-
 **Negatives.** Behind e a mapper walks a shortest way on S from hypothesis h to v0. It compares only
 the marker's presence (`undirected`), or nothing of it (`none`). In some worlds every percept is as
 expected although h is false. The smallest have this many edges, for any policy:

@@ -30,7 +30,7 @@ DoorWord = tuple[Door, ...]
 
 @dataclass(frozen=True, slots=True)
 class EarlierExcursion:
-    """An earlier excursion: explored edges before it, dart crossed, doors behind it."""
+    """The explored edges before an earlier excursion, the dart crossed, the doors behind it."""
 
     explored: frozenset[tuple[ev.MapDart, ev.MapDart]]
     e: ev.MapDart
@@ -166,11 +166,7 @@ def replay_confirmation(
 def replay_rejection(
     example: BoundedCounterexample, rule: str, fault: RuleFault
 ) -> ReplayedCounterexample:
-    """Replay a false rejection by `trace`, `prefix`, `history` or `records`.
-
-    Raises:
-        Disagreement: the rejection does not happen.
-    """
+    """Replay a false rejection by `trace`, `prefix`, `history` or `records`; raises as above."""
     run = _Replayer(example, fault)
     run.cross(example.e)
     if example.turned is not None:

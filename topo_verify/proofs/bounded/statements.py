@@ -127,7 +127,7 @@ def _explored(world: enc.Worlds, chart: enc.EncodedMap, leave: CnfRow) -> None:
 
 @dataclass(frozen=True, slots=True)
 class EncodedExcursion:
-    """An earlier excursion: the map before it, the dart crossed, the word behind it."""
+    """The map before an earlier excursion, the dart crossed, the word behind it."""
 
     chart: enc.EncodedMap
     e: CnfRow
@@ -163,7 +163,7 @@ def confirm(
 ) -> EncodedCounterexample:
     """A way home from a false h ends with v0's percept as expected.
 
-    Comparing percepts on the way could only reject more.
+    Percepts on the way could only reject more.
     """
     scene = enc.behind_an_edge(edges)
     world, h = scene.world, enc.hypothesis(scene)
@@ -249,8 +249,9 @@ def records(
 ) -> EncodedCounterexample:
     """A word traced from the true h crosses a recorded dart, and a percept differs from the record.
 
-    In map `before`, e1 is crossed and `wrote` executed. e1 ends in `entry`: on map `earlier` the
-    word is traced again. In S, a later map, the dart where that ended is unexplored.
+    In map `before`, e1 is crossed and `wrote` executed. On `earlier`, which is `before` with the
+    edge from e1 to `entry`, the word is traced again. In S, a later map, the dart where that ended
+    is unexplored.
 
     Args:
         levels: 1: only the place behind the dart; None: as deep as the doors agree.

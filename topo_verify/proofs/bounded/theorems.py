@@ -5,9 +5,8 @@
     below      no false confirmation without the marker's direction, below the sizes of `mutants.py`
     worlds     the worlds of the encoding are the canonical codes, each once
 
-EXHAUSTED: for each m the clauses are unsatisfiable, and the premises satisfiable. "Every world" is
-checked: with S = v0 the models are compared with the codes of `world.enumeration`: 2, 10, 74, 706,
-8162 with 1 … 5 edges.
+"Every world" is checked: with S = v0 the models are compared with the codes of `world.enumeration`:
+2, 10, 74, 706, 8162 with 1 … 5 edges.
 """
 
 from __future__ import annotations

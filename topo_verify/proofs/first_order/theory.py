@@ -17,8 +17,7 @@ Doors are not integers, about which Z3 answers `unknown`. `wraps(g,i,j)`: i = j 
 a is deg(a), inv0(a), and for each door i whether rot(a,i) = root. No axiom says that W is finite or
 connected; steps that need it are argued in words (docs/proofs.md).
 
-**Rules.** A term is one step of a rule: dart x of S, door k, dart b where the compared percept was
-sensed. `conformance.py` compares terms and code.
+**Rules.** A term is one step of a rule: dart x of S, door k, dart b where the percept was sensed.
 
     term             rule             true iff
     ALIKE            all              S shows at x what the robot senses at b

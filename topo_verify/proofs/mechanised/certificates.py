@@ -1,15 +1,15 @@
 """Certificates: a statement about one log, which Coq proves by computation.
 
 Python folds the log (`evidence.py`) and is not trusted; Coq runs a checker that is proved correct
-(coq/Certificate.v, started by coq/Checked.v). A certificate states that
+(coq/Certificate.v, coq/Checked.v). A certificate states that decisions follow (claim 10), and
 
     map            every world that shows these percepts to these doors is isomorphic to this map,
                    and to the delivered map if that is right
     undetermined   two worlds that differ show them
     impossible     no world shows them
 
-and that decisions follow (claim 10). Long certificates go to the same checker, extracted to OCaml,
-which trusts Coq's extraction and the OCaml compiler as well.
+Long certificates go to the same checker, extracted to OCaml, which trusts Coq's extraction and the
+OCaml compiler as well.
 
 What this does not show: that the percepts are what happened.
 """

@@ -116,13 +116,14 @@ def _legal(percepts: Sequence[Percept], doors: Sequence[Door]) -> bool:
 class ProofProducingFold:
     """A union-find over visits that records its merges; index 0 of each list is a filler.
 
+    There is no path compression, which would be hard to undo.
+
     Attributes:
         edges: the places where each move leaves and arrives.
         parent, offset: dart d of a visit is dart d + offset of its parent.
         size: for each root, the visits in its class.
         leaving: for each root, the first arc by each dart.
-        meetings: the evidence so far.
-        done: changes for `refute` to undo: (visit, dart) for a first arc, (visit, None) for a link.
+        done: changes to undo: (visit, dart) for a first arc, (visit, None) for a link.
     """
 
     def __init__(self) -> None:
@@ -302,7 +303,7 @@ class EdgeRefutation:
 
 @dataclass(frozen=True, slots=True)
 class Fact:
-    """A fact about two places, proved at a visit: the arc that joins them, or why no edge does."""
+    """The arc that joins two places, or why no edge does, proved at a visit."""
 
     visit: int
     one: LogPlace

@@ -48,7 +48,7 @@ class ProvedOpinion:
 
     Attributes:
         by: what judged; "" if Coq or OCaml is not installed.
-        judgements: of the claims that Coq defines, the same as those of the checkers.
+        judgements: of the claims that Coq defines.
         why: the reason why the run was not judged; "" if it was.
     """
 

@@ -1,7 +1,6 @@
 """Rules with one mistake, each refuted by a scene.
 
 A scene is an exact world, a reachable map S, an edge e with a hypothesis h, and the moves behind e.
-In the simulator the faulty rule must reject what is true or confirm what is false.
 
 What this does not show: that the reference policies make these moves. Claims hold for every
 history.

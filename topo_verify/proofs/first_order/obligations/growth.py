@@ -16,8 +16,8 @@ history it is a dart, `pi`. `same` is what folding has identified, `joined` a kn
 
 Sound: places that are `same` are one dart, also under an assumption true in the world; so a
 contradiction refutes the assumption. Complete: when no place is open, places that are one dart are
-`same`. (Walk from both to the marker by the same doors; there they are identified, and so,
-backward, are the two.) So the fold is the world.
+`same`: walk from both to the marker by the same doors; there they are identified, and so, backward,
+are the two.
 
 Source: J. R. Stallings, Invent. Math. 71 (1983).
 """

@@ -3,8 +3,7 @@
 **Doors.** Door 0 undoes a move but for a turn, which is added to the next door.
 
 **Traces** keep the correspondence with the world. Base: if e ends in h, then vu is h's place. Step:
-across an explored edge, S and the world arrive at corresponding places. So the compared percepts
-are equal along words of any length.
+across an explored edge, S and the world arrive at corresponding places.
 
 **Confirmation**: backward from v0, where equal percepts, with the marker's direction, identify the
 dart. Turning and crossing are injective, so h's place is where the robot began.
