@@ -48,12 +48,12 @@ def finding_card(finding: Finding) -> str:
         cells = (f"<tr><th {_LEFT}>{name}</th><td {_LEFT}>{text}</td></tr>" for name, text in rows)
         parts.append(f"<table>{''.join(cells)}</table>")
     pictures = [
-        _picture(world, what)
-        for text, what in (
+        _picture(world, label)
+        for text, label in (
             (finding.world, "the world"),
             (finding.witness, "the witness, with the same history:"),
         )
-        if (world := _named(text)) is not None and (what == "the world" or text != finding.world)
+        if (world := _named(text)) is not None and (label == "the world" or text != finding.world)
     ]
     return _card([*parts, *pictures, *_again(finding.replay)])
 
@@ -84,29 +84,29 @@ def _sentence(finding: Finding) -> str:
 
 def _claims(judgements: Sequence[Judgement]) -> str:
     rows = (
-        f"<tr><td {_LEFT}>{_text(one.claim)}</td>"
-        f"<td {_LEFT}>{_SIGNS.get(one.status, '–')} {_text(one.status)}</td>"
-        f"<td>{one.judged} of {one.of}</td></tr>"
-        for one in judgements
+        f"<tr><td {_LEFT}>{_text(judgement.claim)}</td>"
+        f"<td {_LEFT}>{_SIGNS.get(judgement.status, '–')} {_text(judgement.status)}</td>"
+        f"<td>{judgement.judged} of {judgement.of}</td></tr>"
+        for judgement in judgements
     )
     head = f"<tr><th {_LEFT}>claim</th><th {_LEFT}>status</th><th>judged</th></tr>"
     return f"<table><thead>{head}</thead><tbody>{''.join(rows)}</tbody></table>"
 
 
-def _picture(world: World, what: str) -> str:
+def _picture(world: World, label: str) -> str:
     name = f" {world.name}" if world.name else ""
     size = (
         f"{plural(len(world.vertices), 'vertex', 'vertices')}, {plural(len(world.edges), 'edge')}"
     )
-    caption = _text(f"{what}{name}: {size}")
+    caption = _text(f"{label}{name}: {size}")
     if len(world.edges) > MOST_DRAWN:
         return f"<p>{caption}</p>"
     from topo_verify.world.drawing import image
 
-    drawn = image(world.draw(), f"{what}{name}: {size}", "max-width:100%;max-height:16em")
+    picture = image(world.draw(), f"{label}{name}: {size}", "max-width:100%;max-height:16em")
     return (
         '<figure style="display:inline-block;margin:0 1em 1em 0;vertical-align:top">'
-        f"{drawn}<figcaption>{caption}</figcaption></figure>"
+        f"{picture}<figcaption>{caption}</figcaption></figure>"
     )
 
 

@@ -46,18 +46,18 @@ def turns(playback: Playback) -> dict[int, Turn]:
     turned: dict[int, Turn] = {}
     positions = playback.replayed.positions
     entries = [positions[0]]
-    asked = 1
+    at_pose = 1
     for moment in playback.moments[1 : len(positions)]:
         number, out = moment.number, moment.left_by
         if isinstance(moment.event, ev.Augment) and _sees_marker(playback, positions[number]):
             entries = [positions[number]]  # the marker shows its reference dart
         if isinstance(moment.event, ev.Pose):
-            asked = len(entries)
+            at_pose = len(entries)
         if out is None:
             continue
         stands, entry = positions[number - 1], entries[-1]
         back = out == entry and len(entries) > 1
-        if stands != entry and not (back and len(entries) > asked):
+        if stands != entry and not (back and len(entries) > at_pose):
             turned[number] = Turn(entry, stands, playback.door(entry, out))
         if back:
             entries.pop()

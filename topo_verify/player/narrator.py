@@ -81,23 +81,23 @@ class Narrator:
     def _sayings(self) -> Iterator[Saying]:
         tested, ghost = tested_guesses(self.playback.moments), SupposedWalk(self.playback)
         guesses: Mapping[int, int] = {}
-        seen: Percept | None = None
+        percept: Percept | None = None
         for moment in self.playback.moments:
             event, goal = moment.event, tested.get(moment.number)
             if isinstance(event, ev.Pose):
                 guesses = {h: number for number, h in enumerate(event.hypotheses, 1)}
             elif isinstance(event, ev.Start | ev.Move):
-                seen = event.percept
+                percept = event.percept
             at = ghost.place(moment, goal)
             expected = None if at is None else self.map.seen_at(self.map.phi[at])
             if goal is not None and goal in guesses and moment.position is not None:
-                said = _testing(guesses[goal], seen, expected)
+                saying = _testing(guesses[goal], percept, expected)
             else:
-                said = self._saying(moment, guesses, seen)
+                saying = self._saying(moment, guesses, percept)
             if moment.number in self.folded.identified:
                 text = "By its history it recognises places that it saw before."
-                said = said._replace(sentences=(*said.sentences, text))
-            yield said
+                saying = saying._replace(sentences=(*saying.sentences, text))
+            yield saying
             if isinstance(event, ev.Augment):
                 guesses = {}
 
@@ -107,25 +107,25 @@ class Narrator:
             return self._lost(moment, illegal)
         match event:
             case ev.Start(percept=percept):
-                said = _started(percept)
+                saying = _started(percept)
             case ev.Move():
-                said = self._moved(moment, event)
+                saying = self._moved(moment, event)
             case ev.Pose():
-                said = self._posed(moment, event)
+                saying = self._posed(moment, event)
             case ev.Reject(_, h):
-                said = self._rejected(moment, event, _name(guesses, h))
+                saying = self._rejected(moment, event, _name(guesses, h))
             case ev.Confirm(_, h):
-                said = self._confirmed(moment, event, _name(guesses, h))
+                saying = self._confirmed(moment, event, _name(guesses, h))
             case ev.Augment():
-                said = self._grown(moment, event, guessed=bool(guesses))
+                saying = self._grown(moment, event, guessed=bool(guesses))
             case ev.Finish():
-                said = self._finished(moment, event)
+                saying = self._finished(moment, event)
             case _:
                 assert_never(event)
         if self._is_claim(moment):
-            said = said._replace(title=f"{said.title}, it says")
-        shows = said.seen is not None or isinstance(event, ev.Reject)
-        return said if shows else said._replace(seen=seen)
+            saying = saying._replace(title=f"{saying.title}, it says")
+        shows = saying.seen is not None or isinstance(event, ev.Reject)
+        return saying if shows else saying._replace(seen=seen)
 
     def _is_claim(self, moment: Moment) -> bool:
         """Is the decision the mapper's word alone?"""
@@ -294,11 +294,11 @@ class Narrator:
         return f"{words}{behind}{of} it {cited_words(cited)} at {at}"
 
 
-def _testing(guess: int, seen: Percept | None, expected: Percept | None) -> Saying:
+def _testing(guess: int, percept: Percept | None, expected: Percept | None) -> Saying:
     text = "The ring is where it would be now, if that guess were right."
     if expected is None:
         text = "By these doors it would leave its map, which expects nothing there."
-    return Saying("", f"Testing guess {guess}", (text,), seen, expected)
+    return Saying("", f"Testing guess {guess}", (text,), percept, expected)
 
 
 def _started(percept: Percept) -> Saying:

@@ -118,13 +118,13 @@ def pictured(world: World) -> dict[str, Any]:
         "bridges": [[bridge.path, bridge.over, bridge.under] for bridge in layout.bridges],
     }
     if world.vertex_names:
-        data["names"] = [shown(one) for one in world.vertex_names]
+        data["names"] = [shown(name) for name in world.vertex_names]
     return data
 
 
 @cache
 def _gallery() -> list[dict[str, Any]]:
-    worlds = [(f"{one.name} ({one.text})", resolve_world(one.text)) for one in GALLERY]
+    worlds = [(f"{entry.name} ({entry.text})", resolve_world(entry.text)) for entry in GALLERY]
     return [{**pictured(world), "name": name} for name, world in worlds]
 
 
@@ -137,8 +137,8 @@ def _run(
     return {
         "name": shown(run.name),
         "events": "".join(
-            _event(one, narrator.folded.clashes, cites_records=cites_records)
-            for one in playback.moments
+            _event(moment, narrator.folded.clashes, cites_records=cites_records)
+            for moment in playback.moments
         ),
         "said": _said(narrator),
         "findings": _findings(playback, worlds, places),

@@ -32,9 +32,9 @@ def remarks(playback: Playback, moment: Moment, turn: Turn | None = None) -> Ite
         ):
             yield from _about_pose(playback, moment, moment.event)
         case ev.Reject() if moment.mismatch is not None:
-            found, leaves = moment.mismatch, moment.mismatch.leaves
-            if leaves is not None and found.evidence.record is None:
-                yield _leaving(playback, moment.number, found, leaves)
+            mismatch, leaves = moment.mismatch, moment.mismatch.leaves
+            if leaves is not None and mismatch.evidence.record is None:
+                yield _leaving(playback, moment.number, mismatch, leaves)
         case ev.Confirm():
             yield from _about_confirm(playback, moment)
         case ev.Move() if turn is not None:
@@ -84,31 +84,31 @@ def homeward(playback: Playback, moment: Moment) -> Homeward | None:
     From the start of a way to v0 back, S and the marker fix each dart of it. So if each percept is
     as on S, the hypothesis is true.
     """
-    event, drawn, number = moment.event, playback.map, moment.number
+    event, chart, number = moment.event, playback.map, moment.number
     spoiled = playback.replayed.spoiled
     if not isinstance(event, ev.Confirm) or event.rule != "motion" or moment.edge != event.edge:
         return None
-    if not drawn.is_open(event.edge, number) or not drawn.is_open(event.hypothesis, number):
+    if not chart.is_open(event.edge, number) or not chart.is_open(event.hypothesis, number):
         return None
     if moment.position is None or (spoiled is not None and spoiled < number):
         return None
     posed = next(m for m in playback.moments[number::-1] if isinstance(m.event, ev.Pose))
-    if posed.position != drawn.end(event.edge):
+    if posed.position != chart.end(event.edge):
         return None
     took = tuple(step.door for step in moment.word)
-    seen = drawn.seen_at(drawn.end(event.edge)), *(step.percept for step in moment.word)
+    percepts = chart.seen_at(chart.end(event.edge)), *(step.percept for step in moment.word)
     at, step = event.hypothesis, 0
     for step, door in enumerate((*took, 0)):
-        out = drawn.turn(at, door)
-        if seen[step] != drawn.seen_at(drawn.phi[at]) or step == len(took):
+        out = chart.turn(at, door)
+        if percepts[step] != chart.seen_at(chart.phi[at]) or step == len(took):
             break
-        if drawn.is_open(out, number):
+        if chart.is_open(out, number):
             break
-        at = drawn.alpha[out]
+        at = chart.alpha[out]
     arrived = step == len(took) and playback.vertex(at) == 0
     home = way_home(playback, event.hypothesis, number)
-    expected = drawn.seen_at(drawn.phi[at])
-    return Homeward(event.hypothesis, took, step, expected, seen[step], arrived, home)
+    expected = chart.seen_at(chart.phi[at])
+    return Homeward(event.hypothesis, took, step, expected, percepts[step], arrived, home)
 
 
 def _about_confirm(playback: Playback, moment: Moment) -> Iterator[str]:
@@ -135,16 +135,16 @@ def _turned(playback: Playback, move: ev.Move, before: Moment, turn: Turn) -> st
 
 
 def _about_pose(playback: Playback, moment: Moment, pose: ev.Pose) -> Iterator[str]:
-    edge, drawn, number = pose.edge, playback.map, moment.number
-    if not drawn.is_open(edge, number) or moment.position is None:
+    edge, chart, number = pose.edge, playback.map, moment.number
+    if not chart.is_open(edge, number) or moment.position is None:
         return
-    crossed = playback.replayed.crossings.get(playback.replayed.crossing(drawn.end(edge)), number)
-    is_late = crossed < number and moment.position != drawn.end(edge)
-    look = drawn.seen_at(drawn.end(edge) if is_late else moment.position).signature
+    crossed = playback.replayed.crossings.get(playback.replayed.crossing(chart.end(edge)), number)
+    is_late = crossed < number and moment.position != chart.end(edge)
+    look = chart.seen_at(chart.end(edge) if is_late else moment.position).signature
     alike = [
         dart
-        for dart in sorted(drawn.phi)
-        if drawn.is_open(dart, number) and drawn.seen_at(drawn.phi[dart]).signature == look
+        for dart in sorted(chart.phi)
+        if chart.is_open(dart, number) and chart.seen_at(chart.phi[dart]).signature == look
     ]
     left_out = [dart for dart in alike if dart not in (edge, *pose.hypotheses)]
     here = [dart for dart in left_out if playback.vertex(dart) == playback.vertex(edge)]
@@ -168,8 +168,8 @@ def _about_pose(playback: Playback, moment: Moment, pose: ev.Pose) -> Iterator[s
         return
     assert isinstance(last.event, ev.Move)
     before = playback.moments[last.number - 1]
-    left = either_place(playback, last.through, last.left_by)
-    words = f"door {last.event.door} at event {last.number} led out by {left}"
+    exit_place = either_place(playback, last.through, last.left_by)
+    words = f"door {last.event.door} at event {last.number} led out by {exit_place}"
     wanted = map_place(playback, edge)
     place = playback.world.vertex_of
     if before.position is not None and place[before.position] == place[phi]:

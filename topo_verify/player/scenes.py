@@ -146,7 +146,7 @@ class Playback:
     ) -> None:
         self.world, self.trace, self.stopped = world, tuple(trace), stopped
         self.replayed = ReplayedTrace(world, self.trace, stopped)
-        self.findings = tuple(one for judgement in judgements for one in judgement.findings)
+        self.findings = tuple(finding for judgement in judgements for finding in judgement.findings)
         self.moments = tuple(self._moments())
 
     @property
@@ -216,21 +216,21 @@ class Playback:
     # ------------------------------------------------------------ how it is made
 
     def _moments(self) -> Iterator[Moment]:
-        rounds = {one.when: one for one in self.replayed.rounds}
+        rounds = {judged.when: judged for judged in self.replayed.rounds}
         marks: dict[int | None, tuple[Finding, ...]] = {}
         for finding in self.findings:
             marks[finding.event] = (*marks.get(finding.event, ()), finding)
         spent, edge = Spent(), None
-        left: tuple[int, ...] = ()
+        hypotheses: tuple[int, ...] = ()
         for number, event in enumerate(self.trace):
             left_by = through = None
             if isinstance(event, ev.Move):
                 spent = _after(spent, event)
                 left_by, through = self._left_by(number, event)
             else:
-                edge, left = _question(event, edge, left)
+                edge, hypotheses = _question(event, edge, hypotheses)
             position = self._position(number)
-            one = rounds.get(number)
+            judged = rounds.get(number)
             yield Moment(
                 number=number,
                 event=event,
@@ -240,11 +240,11 @@ class Playback:
                 through=through,
                 spent=spent,
                 edge=edge,
-                hypotheses=left,
+                hypotheses=hypotheses,
                 growth=self._growth(number, event) if isinstance(event, ev.Augment) else None,
-                recorded=() if one is None else tuple(self._recorded(one)),
-                mismatch=None if one is None else self._mismatch(one),
-                word=() if one is None else one.word,
+                recorded=() if judged is None else tuple(self._recorded(judged)),
+                mismatch=None if judged is None else self._mismatch(judged),
+                word=() if judged is None else judged.word,
                 findings=marks.get(number, ()),
             )
 
@@ -264,41 +264,43 @@ class Playback:
         true = number != spoiled if judged else None
         return Growth(event.edge, event.kind, event.dart, event.degree, true)
 
-    def _recorded(self, one: Round) -> Iterator[tuple[KnownDart, Word]]:
-        if one.when == self.replayed.spoiled or not (
-            isinstance(one.event, ev.Augment) and one.pose
+    def _recorded(self, judged: Round) -> Iterator[tuple[KnownDart, Word]]:
+        if judged.when == self.replayed.spoiled or not (
+            isinstance(judged.event, ev.Augment) and judged.pose
         ):
             return
-        for sequence in one.sequences:
-            dart = KnownDart(one.event.dart)
-            at, rest = self.replayed.records.trace(dart, sequence, one.when + 1)
+        for sequence in judged.sequences:
+            dart = KnownDart(judged.event.dart)
+            at, rest = self.replayed.records.trace(dart, sequence, judged.when + 1)
             if rest:
                 yield at, rest
 
-    def _mismatch(self, one: Round) -> Mismatch | None:
-        event, drawn = one.event, self.map
-        if not isinstance(event, ev.Reject) or one.pose is None:
+    def _mismatch(self, judged: Round) -> Mismatch | None:
+        event, chart = judged.event, self.map
+        if not isinstance(event, ev.Reject) or judged.pose is None:
             return None
-        if not drawn.is_open(event.edge, one.when) or not drawn.is_open(event.hypothesis, one.when):
+        if not chart.is_open(event.edge, judged.when) or not chart.is_open(
+            event.hypothesis, judged.when
+        ):
             return None
         cited = event.evidence
-        words = (one.word,) if cited.sequence is None else one.sequences
+        words = (judged.word,) if cited.sequence is None else judged.sequences
         if event.rule in ("folding", "planar"):
             words = ((),)
         place = cited.sequence or 0
         if not (0 <= place < len(words) and 0 <= cited.step <= len(words[place])):
             return None
         doors = tuple(step.door for step in words[place][: cited.step])
-        trail = [drawn.end(event.edge)]
+        trail = [chart.end(event.edge)]
         for door in doors:
-            trail.append(drawn.beyond(trail[-1], door))
+            trail.append(chart.beyond(trail[-1], door))
         traced, leaves = [KnownDart(event.hypothesis)], None
         for door in doors:
-            out = drawn.turn(traced[-1], door)
-            if drawn.is_open(out, one.when):
+            out = chart.turn(traced[-1], door)
+            if chart.is_open(out, judged.when):
                 leaves = out
                 break
-            traced.append(drawn.alpha[out])
+            traced.append(chart.alpha[out])
         return Mismatch(cited.sequence, doors, tuple(trail), tuple(traced), leaves, cited)
 
 

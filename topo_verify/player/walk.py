@@ -126,10 +126,10 @@ class _View:
     @property
     def first(self) -> int:
         """The event from which on there are `MOVES` moves up to the focus."""
-        left = MOVES
+        remaining = MOVES
         for number in range(self.focus, 3, -1):
-            left -= isinstance(self.playback.trace[number], ev.Move)
-            if not left:
+            remaining -= isinstance(self.playback.trace[number], ev.Move)
+            if not remaining:
                 return number
         return 0
 
@@ -281,8 +281,8 @@ def known_map(playback: Playback, moment: Moment) -> Iterator[str]:
         name = "no such vertex" if at is None else world_place(playback, at).partition(":")[0]
         more = " …" if degree > MOST_DARTS else ""
         yield f"v{number} ({name}): {'  '.join(ends) or 'no dart'}{more}"
-    if left := len(declared.vertices) - len(chosen):
-        yield f"and {plural(left, 'vertex', 'vertices')} more"
+    if remaining := len(declared.vertices) - len(chosen):
+        yield f"and {plural(remaining, 'vertex', 'vertices')} more"
 
 
 def _is_known(playback: Playback, dart: int, number: int) -> bool:
@@ -347,7 +347,7 @@ def _named(playback: Playback, dart: WorldDart, number: int) -> str:
 def never_crossed(playback: Playback) -> str | None:
     """A sentence that lists the edges of the world never crossed, or None."""
     last = len(playback.trace)
-    left = [
+    uncrossed = [
         " to ".join(
             either_place(playback, playback.known(WorldDart(dart), last), WorldDart(dart))
             for dart in (a, b)
@@ -355,7 +355,7 @@ def never_crossed(playback: Playback) -> str | None:
         for a, b in playback.world.edges
         if a not in playback.replayed.crossings
     ]
-    return f"Never crossed: {listed(left)}." if left else None
+    return f"Never crossed: {listed(uncrossed)}." if uncrossed else None
 
 
 def difference_of_maps(playback: Playback) -> str | None:

@@ -165,8 +165,8 @@ class NativeMapper:
         self._robot = robot
         self._stopped: BaseException | None = None
         self._map: dict[str, object] | None = None
-        given = _NativeRobot(VERSION, None, *self._callbacks.values())
-        self._function(ctypes.byref(given))
+        native_robot = _NativeRobot(VERSION, None, *self._callbacks.values())
+        self._function(ctypes.byref(native_robot))
         self._flush(None)
         if self._stopped is not None:
             raise self._stopped
@@ -253,8 +253,9 @@ class NativeMapper:
         return 0
 
     def _skip(self, why: bytes | None) -> int:
-        said = shown((why or b"").decode(errors="backslashreplace"))
-        raise Skipped(f"the mapper skips this world{f': {said}' if said else ', and says no why'}")
+        reason = shown((why or b"").decode(errors="backslashreplace"))
+        words = f": {reason}" if reason else ", and says no why"
+        raise Skipped(f"the mapper skips this world{words}")
 
 
 def _word(percept: Percept) -> int:

@@ -85,17 +85,17 @@ def decoded(line: bytes, decode: Callable[[bytes], Any], *, validate: bool) -> A
         if validate:
             _require_schema(line, message)
     except RecursionError:
-        kind, what = "nested", "a line that is nested too deeply"
+        kind, description = "nested", "a line that is nested too deeply"
     except UnicodeDecodeError:
-        kind, what = "not-utf8", "a line that is not UTF-8"
+        kind, description = "not-utf8", "a line that is not UTF-8"
     except msgspec.ValidationError as error:
-        kind, what = _kind(str(error)), f"a line that is no message of the protocol: {error}"
+        kind, description = _kind(str(error)), f"a line that is no message of the protocol: {error}"
     except msgspec.DecodeError as error:
         reason = str(error).removeprefix("JSON is malformed: ")
-        kind, what = "not-json", f"a line that is not JSON ({reason})"
+        kind, description = "not-json", f"a line that is not JSON ({reason})"
     else:
         return message
-    raise Misbehaved(kind, f"the program wrote {what}: {shown_line(line)}")
+    raise Misbehaved(kind, f"the program wrote {description}: {shown_line(line)}")
 
 
 def _kind(error: str) -> Misbehaviour:
@@ -115,8 +115,8 @@ def _require_schema(line: bytes, message: object) -> None:
 
     data = json.loads(line, object_pairs_hook=single)
     for place in ms.unknown_fields(data, message):
-        what = f"{place}, which the schema does not list (--validate)"
-        raise Misbehaved("unknown-field", f"the program wrote {what}: {shown_line(line)}")
+        description = f"{place}, which the schema does not list (--validate)"
+        raise Misbehaved("unknown-field", f"the program wrote {description}: {shown_line(line)}")
 
 
 def shown_line(line: bytes) -> str:

@@ -78,17 +78,17 @@ def choose(
         for theorem in everything
         if deep or not theorem.deep or (theorem.kind == "mechanised" and "mechanised" in kinds)
     )
-    found = tuple(
+    selection = tuple(
         theorem
         for theorem in chosen
         if (not kinds or theorem.kind in kinds)
         and (edges is None or theorem.edges is None or theorem.edges <= edges)
     )
-    if not found:
-        what = f"of kind {' or '.join(kinds)}" if kinds else "of any kind"
+    if not selection:
+        kind = f"of kind {' or '.join(kinds)}" if kinds else "of any kind"
         size = "" if edges is None else f" with at most {edges} edges"
         raise InputError(
-            f"no theorem {what}{size} among {', '.join(names) or 'all'}: topo-verify prove --list"
+            f"no theorem {kind}{size} among {', '.join(names) or 'all'}: topo-verify prove --list"
             " lists them with their kinds and edges"
         )
-    return found
+    return selection

@@ -107,15 +107,15 @@ def _sections(account: Account, run: Ending) -> Iterator[str]:
     exhibits = [*map(_exhibit, count(1), account.exhibits)]
     if account.left_out:
         exhibits.append(f"<p>{account.left_out} more are not shown here.</p>")
-    wrong = account.extent.verdict == "REFUTED"
-    if exhibits and wrong:
+    refuted = account.extent.verdict == "REFUTED"
+    if exhibits and refuted:
         yield _section("counterexamples", "Counterexamples", exhibits)
     sections = [
         _section("judged", "What was judged", map(_suite, account.suites)),
         _section("results", "Results", blocks_as_html(account.blocks)),
     ]
     yield from reversed(sections) if account.results_first else sections
-    if exhibits and not wrong:
+    if exhibits and not refuted:
         yield _section("counterexamples", "Counterexamples, as expected", exhibits)
     if account.others:
         numbered = map(_exhibit, count(1 + len(account.exhibits)), account.others)
@@ -198,8 +198,8 @@ def _picture(exhibit: Exhibit) -> str:
     caption = xml_text(f"{clean(exhibit.name)}: {size}")
     if not _is_drawn(exhibit):
         return f'<p class="soft">{caption}; too large to be drawn here.</p>'
-    drawn = picture(world.draw(), f"The world {clean(exhibit.name)}: {size}")
-    return f"<figure>{drawn}<figcaption>{caption}</figcaption></figure>"
+    image = picture(world.draw(), f"The world {clean(exhibit.name)}: {size}")
+    return f"<figure>{image}<figcaption>{caption}</figcaption></figure>"
 
 
 def _data(exhibits: Sequence[Exhibit], shell: PageShell | None) -> Iterator[str]:

@@ -259,16 +259,16 @@ def _walkers(tracks: Tracks, stage: Stage) -> Iterator[str]:
 
 
 def _turned(tracks: Tracks, stage: Stage) -> Iterator[Keyframe]:
-    turn, begun = tracks.first_turn(), 0.0
+    turn, departed = tracks.first_turn(), 0.0
     for at, points in timed(tracks.robot(), stage.begins):
         if len(points) == 1:
-            begun = at
+            departed = at
         else:
             (x, y), before = points[-1], points[-2]
             back = math.degrees(math.atan2(before[1] - y, before[0] - x))
             back = turn + (back - turn + 180) % 360 - 180  # the short way round
             if len(points) == 2:
-                yield begun + 0.15 * (at - begun), *before, back
+                yield departed + 0.15 * (at - departed), *before, back
             turn = back
         yield at, *points[-1], turn
 
@@ -282,20 +282,20 @@ def _words(playback: Playback, stage: Stage, top: float) -> Iterator[str]:
     yield '<g font-size="13" text-anchor="end">'
     for first, last, cost in _spans(costs):
         words = plural(cost, "move")
-        seen = stage.during((first, last))
-        yield f'<g{seen}><text class="soft" x="{x}" y="{y}">{words}</text></g>'
+        shown_during = stage.during((first, last))
+        yield f'<g{shown_during}><text class="soft" x="{x}" y="{y}">{words}</text></g>'
     yield "</g>"
 
 
-def _caption(said: Saying, top: float) -> str:
-    x, kind = MARGIN + 8, f' class="{said.kind}"' if said.kind else ""
-    compared = said.seen, said.expected if said.kind == "bad" else None
+def _caption(saying: Saying, top: float) -> str:
+    x, kind = MARGIN + 8, f' class="{saying.kind}"' if saying.kind else ""
+    compared = saying.seen, saying.expected if saying.kind == "bad" else None
     columns = COLUMNS if None in compared else BESIDE
     words = (
         f'<text{kind} x="{x}" y="{number(top + 34)}" font-size="17" font-weight="700">'
-        f"{text(said.title, limit=64)}</text>"
+        f"{text(saying.title, limit=64)}</text>"
     )
-    for row, line in enumerate(wrap(said.text, columns, max_lines=2, placeholder=" …")):
+    for row, line in enumerate(wrap(saying.text, columns, max_lines=2, placeholder=" …")):
         words += f'<text class="soft" x="{x}" y="{number(top + 56 + 18 * row)}" font-size="14">'
         words += f"{text(line)}</text>"
     seen, expected = compared
@@ -303,8 +303,8 @@ def _caption(said: Saying, top: float) -> str:
         return words
     right = WIDTH - MARGIN
     unequal = f'<text class="bad" x="{right - 90}" y="{number(top + 34)}" font-size="22">≠</text>'
-    seen_here = glyph(seen, right - 124, top + 26, said.labels[0])
-    return words + seen_here + unequal + glyph(expected, right - 42, top + 26, said.labels[1])
+    seen_here = glyph(seen, right - 124, top + 26, saying.labels[0])
+    return words + seen_here + unequal + glyph(expected, right - 42, top + 26, saying.labels[1])
 
 
 def _spans(values: Sequence[T]) -> Iterator[tuple[int, int, T]]:
@@ -318,16 +318,16 @@ def _spans(values: Sequence[T]) -> Iterator[tuple[int, int, T]]:
 
 def captions(playback: Playback) -> Sequence[Saying]:
     """What is said of each moment; of one with findings, the first of them."""
-    said = [
+    sayings = [
         _wrong(moment.findings[0].message) if moment.findings else saying
         for moment, saying in zip(playback.moments, Narrator(playback).sayings, strict=True)
     ]
     last = playback.moments[-1]
     if playback.about_the_run and not last.findings:
-        said[-1] = _wrong(playback.about_the_run[0].message)
+        sayings[-1] = _wrong(playback.about_the_run[0].message)
     elif playback.stopped is not None and not last.findings:
-        said[-1] = Saying("bad", "The run ends without a map", (shown(playback.stopped),))
-    return said
+        sayings[-1] = Saying("bad", "The run ends without a map", (shown(playback.stopped),))
+    return sayings
 
 
 def _wrong(message: str) -> Saying:

@@ -101,7 +101,7 @@ class Tracks:
         """From the vertex of a dart along its edge to the other vertex; corners only."""
         a, b = self.world.edges[self.edge_of[dart]]
         data = self.layout.paths[self.edge_of[dart]]
-        parts = [[(float(x), float(y)) for x, y in curves.flatten(one)] for one in data] or [[]]
+        parts = [[(float(x), float(y)) for x, y in curves.flatten(piece)] for piece in data] or [[]]
         parts[0].insert(0, self.centre(a))
         parts[-1].append(self.centre(b))
         way = tuple(tuple(corners(part)) for part in parts)
@@ -114,11 +114,11 @@ class Tracks:
         end = len(self.moments)
         vertices, edges = [end] * len(self.world.vertices), [end] * len(self.world.edges)
         vertices[self.world.vertex_of[self.world.root] if self.world.root is not None else 0] = 0
-        drawn = self.playback.map
+        chart = self.playback.map
         if any(isinstance(moment.event, ev.Augment) for moment in self.moments):
-            for known, dart in drawn.phi.items():
-                vertices[self.world.vertex_of[dart]] = drawn.born[known]
-                edges[self.edge_of[dart]] = min(drawn.joined[known], end)
+            for known, dart in chart.phi.items():
+                vertices[self.world.vertex_of[dart]] = chart.born[known]
+                edges[self.edge_of[dart]] = min(chart.joined[known], end)
             return vertices, edges
         for moment in reversed(self.moments):
             if moment.left_by is not None and moment.position is not None:
@@ -148,10 +148,10 @@ class Tracks:
         return None if dart is None else self.edge_of[dart]
 
     def _image(self, dart: int, when: int) -> WorldDart | None:
-        drawn = self.playback.map
+        chart = self.playback.map
         known = KnownDart(dart)
         return (
-            drawn.phi[known] if 0 <= known < len(drawn.born) and drawn.born[known] < when else None
+            chart.phi[known] if 0 <= known < len(chart.born) and chart.born[known] < when else None
         )
 
     # ------------------------------------------------------------ hypotheses

@@ -194,11 +194,11 @@ class Worlds(Formula):
             self.imply(group, [*guard, leave[b], joined], arrive[a])
 
     def at_one_of(self, group: str, at: CnfRow, darts: CnfRow, name: str) -> CnfLiteral:
-        held = self.boolean(name)
+        among = self.boolean(name)
         for place, member in zip(at, darts, strict=True):
-            self.imply(group, [place, member], held)
-            self.imply(group, [place, -member], -held)
-        return held
+            self.imply(group, [place, member], among)
+            self.imply(group, [place, -member], -among)
+        return among
 
     def sense(self, group: str, at: CnfRow, name: str) -> EncodedPercept:
         degree = self.row(group, f"{name}.degree", len(self.darts))

@@ -63,12 +63,12 @@ class BoundedCounterexample:
 def decode_table(world: Worlds, model: Assignment) -> Table:
     """The degrees and alpha of an assignment."""
     # (first dart, degree) of each vertex
-    held = sorted(place for place, vertex in world.vertex.items() if model.holds(vertex))
+    vertices = sorted(place for place, vertex in world.vertex.items() if model.holds(vertex))
     alpha = [0] * len(world.darts)
     for (a, b), joined in world.joined.items():
         if model.holds(joined):
             alpha[a], alpha[b] = b, a
-    return tuple(degree for _, degree in held), tuple(alpha)
+    return tuple(degree for _, degree in vertices), tuple(alpha)
 
 
 def decode_world(world: Worlds, model: Assignment) -> World:

@@ -57,14 +57,14 @@ def missing_and_spurious(
     kind = WorldClass.parse(world_class)
     wanted = {table for table in rank_order.tables(edges) if kind.admits(table)}
     spurious: list[Table] = []
-    found = 0
+    number = 0
     for code in codes(edges, world_class, budget):
-        found += 1
+        number += 1
         if code in wanted:
             wanted.remove(code)  # a second model with this code is spurious
         else:
             spurious.append(code)
-    return found, sorted(wanted), spurious
+    return number, sorted(wanted), spurious
 
 
 def another_world(edges: int) -> Worlds:
@@ -85,10 +85,10 @@ def worlds_encoded(edges: int, world_class: str = "any") -> int | None:
     if edges > LISTED_EDGES:
         return WorldClass.parse(world_class).count(edges)
     try:
-        found, _, spurious = missing_and_spurious(edges, world_class)
+        number, _, spurious = missing_and_spurious(edges, world_class)
     except SolverGaveUp:
         return None
-    return found - len(spurious)
+    return number - len(spurious)
 
 
 MOST_EDGES = 6
@@ -227,18 +227,18 @@ def _one_certificate(
     attempts: list[th.RefutationCertificate | str], sizes: range
 ) -> tuple[th.RefutationCertificate | None, str]:
     """The certificates of all sizes as one, or why there is none."""
-    made = [attempt for attempt in attempts if isinstance(attempt, th.RefutationCertificate)]
+    certificates = [
+        attempt for attempt in attempts if isinstance(attempt, th.RefutationCertificate)
+    ]
     # A refused certificate is a bug, so it is always shown.
-    if not attempts or any(not attempt.checked for attempt in made):
-        return (drup.together(made) if made else None), ""
-    if len(made) == len(sizes):
-        return drup.together(made), ""
+    if not attempts or any(not attempt.checked for attempt in certificates):
+        return (drup.together(certificates) if certificates else None), ""
+    if len(certificates) == len(sizes):
+        return drup.together(certificates), ""
     for m, attempt in zip(sizes, attempts, strict=False):
         if isinstance(attempt, str):
-            return (
-                None,
-                f"certificates checked for {len(made)} of {len(sizes)} sizes; m = {m}: {attempt}",
-            )
+            checked = f"certificates checked for {len(certificates)} of {len(sizes)} sizes"
+            return None, f"{checked}; m = {m}: {attempt}"
     return None, ""
 
 

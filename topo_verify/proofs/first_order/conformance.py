@@ -42,18 +42,18 @@ def points(percept: Percept, door: Door) -> bool:
     return percept.marker is not None and (door - percept.marker) % percept.degree == 0
 
 
-def structure(chart: Chart, seen: Sequence[Percept], trie: RecordTrie) -> Structure:
+def structure(chart: Chart, percepts: Sequence[Percept], trie: RecordTrie) -> Structure:
     """S, the sensed percepts, and the records as a structure."""
     rows = {
         "root": nullary(0),
         "mroot": nullary(0),
         "succ": unary(lambda k: k + 1),
         **_of_chart(chart),
-        **_of_percepts(seen),
+        **_of_percepts(percepts),
         **_of_records(trie),
     }
     # Beyond the largest degree, doors repeat.
-    degrees = [*chart.degree, *(percept.degree for percept in seen), 1]
+    degrees = [*chart.degree, *(percept.degree for percept in percepts), 1]
     return Structure({"K": max(degrees), "M": len(chart.alpha)}, rows)
 
 
@@ -126,8 +126,8 @@ class DescribedRule:
     terms: Mapping[str, Term] = field(default_factory=lambda: RULES)
     trie: RecordTrie = field(default_factory=RecordTrie)
 
-    def posed(self, chart: Chart, e: MapDart, seen: Percept) -> set[MapDart]:
-        place = structure(chart, [seen], self.trie)
+    def posed(self, chart: Chart, e: MapDart, percept: Percept) -> set[MapDart]:
+        place = structure(chart, [percept], self.trie)
         open_darts = [d for d in range(len(chart.alpha)) if chart.alpha[d] is None]
         return {h for h in open_darts if place.holds(self.terms["posed"], e=e, h=h, b=0)}
 
@@ -211,7 +211,7 @@ class DescribedRule:
 
     def _write(self, chart: Chart, at: MapDart, doors: list[Door], percepts: list[Percept]) -> None:
         node: int | None = None
-        left = self.levels
+        room = self.levels
         for step, door in enumerate(doors, 1):
             if node is None:
                 exit_dart = chart.turn(at, door)
@@ -225,8 +225,8 @@ class DescribedRule:
                 if door not in self.trie.behind[node]:
                     self.trie.behind[node][door] = self.trie.node(percepts[step])
                 node = self.trie.behind[node][door]
-            left = None if left is None else left - 1
-            if left == 0:
+            room = None if room is None else room - 1
+            if room == 0:
                 return
 
 

@@ -107,10 +107,10 @@ FunctionValue = tuple[terms.App, terms.Symbol, tuple[int, ...], terms.App]
 
 
 def _entries(formulas: Sequence[terms.Term], sizes: Mapping[str, int]) -> Iterator[FunctionValue]:
-    found = {symbol.name: symbol for formula in formulas for symbol in terms.symbols(formula)}
+    declared = {symbol.name: symbol for formula in formulas for symbol in terms.symbols(formula)}
     named = {element(sort, n).symbol.name for sort, size in sizes.items() for n in range(size)}
-    for name in sorted(found.keys() - named):
-        symbol = found[name]
+    for name in sorted(declared.keys() - named):
+        symbol = declared[name]
         for row in product(*(range(sizes[sort]) for sort in symbol.arguments)):
             alias = terms.Symbol(f"{name}!{'!'.join(map(str, row))}", (), symbol.result)()
             pairs = zip(symbol.arguments, row, strict=True)

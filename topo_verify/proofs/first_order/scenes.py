@@ -76,10 +76,10 @@ def _connected(darts: int) -> dict[str, terms.Term]:
 
 
 def _discovered(known: int) -> dict[str, terms.Term]:
-    known_by = [terms.Symbol(f"found{n}", ("M",), terms.BOOL) for n in range(known)]
+    reached = [terms.Symbol(f"found{n}", ("M",), terms.BOOL) for n in range(known)]
     x = t.x
-    entered = [terms.forall(x, terms.eq(known_by[0](x), t.minv0(x)))]
-    for before, after in pairwise(known_by):
+    entered = [terms.forall(x, terms.eq(reached[0](x), t.minv0(x)))]
+    for before, after in pairwise(reached):
         ways = terms.disj(before(x), terms.conj(t.explored(mfirst(x)), before(t.malpha(mfirst(x)))))
         entered.append(terms.forall(x, terms.eq(after(x), ways)))
     return {
@@ -89,7 +89,7 @@ def _discovered(known: int) -> dict[str, terms.Term]:
         "first-of-vertex": terms.forall(x, terms.eq(mfirst(t.msigma(x)), mfirst(x))),
         "first-is-there": terms.forall(x, terms.eq(t.mrot(x, mtofirst(x)), mfirst(x))),
         "first-of-v0": terms.eq(mfirst(t.mroot), t.mroot),
-        "discovered": terms.conj(*entered, terms.forall(x, known_by[-1](x))),
+        "discovered": terms.conj(*entered, terms.forall(x, reached[-1](x))),
     }
 
 
@@ -119,10 +119,10 @@ def find(
     """
     sizes = {"W": 2 * edges, "M": known, "K": DOORS, "G": MOST_DEGREE}
     formulas = [*exact(2 * edges, known).values(), *given.values()]
-    found = finite_models.model(formulas, sizes, budget)
-    if found.structure is None:
-        return None, found.answer, found.why
-    return _decoded(found.structure, 2 * edges, known, given), "sat", ""
+    model = finite_models.model(formulas, sizes, budget)
+    if model.structure is None:
+        return None, model.answer, model.why
+    return _decoded(model.structure, 2 * edges, known, given), "sat", ""
 
 
 def question(given: Mapping[str, terms.Term], *, edges: int, known: int) -> str:

@@ -115,7 +115,7 @@ def _telling(obligation: Obligation) -> str:
 def rule_mutant(faulty: RuleMutant, kind: Literal["mutant", "negative"] = "mutant") -> Theorem:
     """The claim that the faulty rule is right, which must be refuted."""
     edges, known = faulty.size
-    asked = partial(scenes.question, faulty.scene, edges=edges, known=known)
+    script_of = partial(scenes.question, faulty.scene, edges=edges, known=known)
     return Theorem(
         name=faulty.name,
         kind=kind,
@@ -125,7 +125,7 @@ def rule_mutant(faulty: RuleMutant, kind: Literal["mutant", "negative"] = "mutan
         solver_part="a world, a map and a history in which it fails; replayed in the simulator",
         expected="REFUTED",
         prove=timed(lambda budget: _refute(faulty, budget)),
-        queries=one_query(faulty.name, asked, "sat"),
+        queries=one_query(faulty.name, script_of, "sat"),
         edges=edges,
         of=faulty.of if kind == "mutant" else None,
     )

@@ -126,7 +126,7 @@ def lines_of(certificate: CoqCertificate) -> Iterator[Line]:
     yield from _claim(certificate)
     decisions = certificate.decisions
     yield from _counted(map(_meeting, decisions.merges))
-    reasons = {one.when: one.facts for one in decisions.stated}
+    reasons = {decision.when: decision.facts for decision in decisions.stated}
     declared = [when for when, e in enumerate(certificate.log) if isinstance(e, _DECISIONS)]
     while declared and declared[-1] not in reasons:
         del declared[-1]

@@ -173,10 +173,10 @@ class ProofProducingFold:
         met, done, number = len(self.meetings), len(self.done), len(self.edges)
         self.edges.append((one, other))
         conflict = self._cross(number) or self.alone()
-        found = tuple(self.meetings[met:])
+        meetings = tuple(self.meetings[met:])
         self._undo(done)
         del self.meetings[met:], self.edges[number:]
-        return found, conflict
+        return meetings, conflict
 
     def _undo(self, done: int) -> None:
         # There is no path compression, which would be hard to undo.

@@ -14,6 +14,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from importlib import import_module
+from itertools import starmap
 from typing import Any, Literal
 
 from topo_verify.proofs.theorem import Budget, SolverAnswer, TheoremResult
@@ -92,7 +93,7 @@ class Z3Question:
 
     def check(self, assumed: Mapping[str, bool] | None = None) -> SolverAnswer:
         """The answer if these Booleans have these values."""
-        result = self._solver.check(*(self._literal(*one) for one in (assumed or {}).items()))
+        result = self._solver.check(*starmap(self._literal, (assumed or {}).items()))
         if result == _z3.sat:
             self._answer = "sat"
         else:

@@ -102,10 +102,10 @@ def _draw(axes: Any, figure: Figure, points: Sequence[FigurePoint]) -> None:
     ends: dict[str, tuple[float, float]] = {}
     for name in (*figure.lines, *YARDSTICKS):
         line = [point for point in points if point.algorithm == name and point.mean > 0]
-        drawn = [point for point in line if point.is_reference]
-        if drawn:
-            _line(axes, name, drawn)
-            ends[name] = (drawn[-1].size, drawn[-1].mean)
+        reference = [point for point in line if point.is_reference]
+        if reference:
+            _line(axes, name, reference)
+            ends[name] = (reference[-1].size, reference[-1].mean)
     _stated(axes, points)
     if ends:
         _labels(axes, ends, sizes)

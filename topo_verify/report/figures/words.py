@@ -103,13 +103,13 @@ def _order(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
         both = [size for size in lines[before] if size in lines[after]]
         differ = {s: lines[before][s].mean - lines[after][s].mean for s in both}
         equal = [s for s in both if differ[s] == 0]
-        wrong = [s for s in both if differ[s] < 0]
+        costlier = [s for s in both if differ[s] < 0]
         claim = f"{SHORT[after]} costs less than {SHORT[before]}"
         ties = f" (the same at {_sizes(equal)})" if equal else ""
-        if wrong:
+        if costlier:
             yield (
                 f"Does not agree: the paper says that {claim}; in the mean it costs more at"
-                f" {_sizes(wrong)}{ties}."
+                f" {_sizes(costlier)}{ties}."
             )
         elif both:
             yield f"Agrees: {claim} in the mean at every size{ties}."
@@ -125,8 +125,8 @@ def _reduction(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
     if best == "basic" or not both:
         return
     saved = {size: 1 - lines[best][size].mean / lines["basic"][size].mean for size in both}
-    asked = sorted({min(both), max(both), *({10} & {*both} if figure.setting is LATTICE else ())})
-    shares = ", ".join(f"{_percent(saved[size])} at size {size}" for size in asked)
+    sizes = sorted({min(both), max(both), *({10} & {*both} if figure.setting is LATTICE else ())})
+    shares = ", ".join(f"{_percent(saved[size])} at size {size}" for size in sizes)
     text = f"{SHORT[best]} saves of basic {shares}"
     stated = [figure.stated.get((name, 10)) for name in ("basic", best)]
     if stated[0] and stated[1]:
@@ -232,25 +232,25 @@ def page(
 def judged_sentence(points: Sequence[FigurePoint]) -> str:
     """The number of runs behind these points, and of claims that held."""
     # A point of two figures, as basic at 10×10 of 3 and 6a, is one.
-    asked = {
+    distinct = {
         (FIGURES[p.figure].setting.name, p.algorithm, p.size, p.pair): p
         for p in points
         if p.pair is not None
     }.values()
-    runs = sum(point.graphs for point in asked)
-    failed = len({finding.replay for point in asked for finding in point.findings})
-    undecided = sum(point.undecided for point in asked)
+    runs = sum(point.graphs for point in distinct)
+    failed = len({finding.replay for point in distinct for finding in point.findings})
+    undecided = sum(point.undecided for point in distinct)
     text = f"{runs:,} runs were judged"
     if failed:
         text += f": a claim fails in {failed} of them."
     else:
-        held: dict[tuple[int, int], int] = {}
-        for point in asked:
-            held[point.held, point.of] = held.get((point.held, point.of), 0) + point.graphs
-        if len(held) <= 1:
-            (some, of), *_ = held or [(0, 0)]
+        counts: dict[tuple[int, int], int] = {}
+        for point in distinct:
+            counts[point.held, point.of] = counts.get((point.held, point.of), 0) + point.graphs
+        if len(counts) <= 1:
+            (some, of), *_ = counts or [(0, 0)]
             text += f": {some} of {of} claims held in each."
         else:
-            parts = [f"{some} of {of} claims in {n:,}" for (some, of), n in sorted(held.items())]
+            parts = [f"{some} of {of} claims in {n:,}" for (some, of), n in sorted(counts.items())]
             text += f": of those asked held {', '.join(reversed(parts))}."
     return text + (f" {undecided} more were not decided." if undecided else "")
