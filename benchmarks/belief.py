@@ -95,16 +95,16 @@ def believing(job: Job) -> Run:
 def calibration(families: list[str], seeds: int) -> None:
     print(head(["family", *(f"{ten * 10}-{ten * 10 + 9} %" for ten in range(10))]))
     for family in families:
-        seen: Counter[tuple[int, bool]] = Counter()
+        counts: Counter[tuple[int, bool]] = Counter()
         for seed in range(seeds):
             world = drawn(family, seed)
             believer = Believer(world, SHARES[0])
             explore(world, believer, limits=PATIENT)
             for (hundredth, is_new), times in believer.seen.items():
-                seen[min(hundredth // 10, 9), is_new] += times
+                counts[min(hundredth // 10, 9), is_new] += times
         cells = [
-            f"{seen[ten, True] / times:.0%} of {times}"
-            if (times := seen[ten, True] + seen[ten, False])
+            f"{counts[ten, True] / times:.0%} of {times}"
+            if (times := counts[ten, True] + counts[ten, False])
             else "-"
             for ten in range(10)
         ]
@@ -129,8 +129,8 @@ def main() -> None:
     with ProcessPoolExecutor(args.workers) as pool:
         for family in chosen:
             jobs = [[Job(family, s, str(share)) for s in range(args.seeds)] for share in SHARES]
-            found = [store.make(column, pool, play=believing) for column in jobs]
-            cells = [f"{mean(run.least for run in found[0]):.0f}", *map(ratio, found)]
+            columns = [store.make(column, pool, play=believing) for column in jobs]
+            cells = [f"{mean(run.least for run in columns[0]):.0f}", *map(ratio, columns)]
             print(f"| `{family}` | {args.seeds} | {' | '.join(cells)} |", flush=True)
 
 

@@ -75,8 +75,8 @@ SAME: dict[str, str] = {
 
 def jobs() -> Iterator[bridge.Job]:
     """The runs; those that expose most mutants come first."""
-    drawn = [resolve_world(world) for world in (*bridge.FAMILIES, *bridge.TELLING_GENUS)]
-    some = [*drawn, *worlds(range(4))]
+    listed = [resolve_world(world) for world in (*bridge.FAMILIES, *bridge.TELLING_GENUS)]
+    some = [*listed, *worlds(range(4))]
     for name in bridge.PROVED:
         yield from (bridge.Job(name, world) for world in some)
     for pick, order in (("first", "oldest"), ("last", "newest")):

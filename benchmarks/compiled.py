@@ -65,8 +65,8 @@ def listed(kind: str, edges: int) -> tuple[int, float]:
     count(space(), prepare(2, worlds))
     state = prepare(edges, worlds)
     start = process_time()
-    found = count(space(), state)
-    return found, process_time() - start
+    number = count(space(), state)
+    return number, process_time() - start
 
 
 def enumeration(row: Row, _: bool) -> None:
@@ -166,7 +166,7 @@ def _examined(claims: int, shard: tuple[int, int, int]) -> tuple[int, int, float
     counts = examine_range(PAPER, edges, "any", start, stop, claims=claims)
     used = process_time() - begin
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024
-    return counts[0].worlds, sum(one.failing for one in counts), used, memory
+    return counts[0].worlds, sum(count.failing for count in counts), used, memory
 
 
 def _shards(whole: bool) -> Iterator[tuple[int, int, int]]:
@@ -186,8 +186,8 @@ def everything(row: Row, claims: int, required: str, whole: bool) -> None:
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
         done = list(pool.map(_examined, repeat(claims), shards, chunksize=4))
     took = perf_counter() - begin
-    worlds, used = sum(one[0] for one in done), sum(one[2] for one in done)
-    assert not sum(one[1] for one in done), "a claim fails"
+    worlds, used = sum(part[0] for part in done), sum(part[2] for part in done)
+    assert not sum(part[1] for part in done), "a claim fails"
     assert not whole or worlds == expected
     scale = expected / worlds / 60
     name = "all ten claims" if claims == 10 else f"claims 1-{claims}"
@@ -195,7 +195,7 @@ def everything(row: Row, claims: int, required: str, whole: bool) -> None:
     row(f"{name}, 8 algorithms, {expected:,} worlds, {how}", f"{took * scale:.1f} min", required)
     each = worlds * len(PAPER) / used / 1e6
     row(f"  processor {used * scale:.1f} min, {each:.2f} M runs/s a core", "", "")
-    row("  the most memory of a worker", f"{max(one[3] for one in done)} MB", "< 500 MB")
+    row("  the most memory of a worker", f"{max(part[3] for part in done)} MB", "< 500 MB")
 
 
 def nine(row: Row, whole: bool) -> None:

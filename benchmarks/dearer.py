@@ -30,12 +30,12 @@ Row = tuple[int, int, str]
 
 
 def costs(world: World) -> dict[str, int]:
-    found: dict[str, int] = {}
+    cost_of: dict[str, int] = {}
     for name in NAMES:
         robot = SimulatedRobot(world, world.cost_bound)
         CATALOGUE[name](robot)
-        found[name] = robot.cost
-    return found
+        cost_of[name] = robot.cost
+    return cost_of
 
 
 def by_reference(largest: int) -> Iterator[tuple[Pair, Row]]:
@@ -75,8 +75,8 @@ def by_engine(largest: int) -> Iterator[tuple[Pair, Row]]:
     compared((("basic", "enhancement-i"), 1, 0))  # compiles the kernels once, for all processes
     with ProcessPoolExecutor() as pool:
         for pair in enhanced():
-            found = pool.map(compared, [(pair, *shard) for shard in shards])
-            rows = [(m, *row) for (m, _), row in zip(shards, found, strict=True) if row[0]]
+            results = pool.map(compared, [(pair, *shard) for shard in shards])
+            rows = [(m, *row) for (m, _), row in zip(shards, results, strict=True) if row[0]]
             if rows:
                 first = f"m{rows[0][0]}/{rows[0][3]}"
                 yield pair, (sum(row[1] for row in rows), max(row[2] for row in rows), first)

@@ -56,13 +56,13 @@ def size(name: str) -> int:
 
 def needs(name: str) -> set[str]:
     """A distribution and all that it needs, by their normal names."""
-    found, todo = set[str](), [name]
+    names, todo = set[str](), [name]
     while todo:
-        one = re.sub(r"[-_.]+", "-", todo.pop()).lower()
-        if one not in found:
-            found.add(one)
-            todo += _required(one)
-    return found
+        needed = re.sub(r"[-_.]+", "-", todo.pop()).lower()
+        if needed not in names:
+            names.add(needed)
+            todo += _required(needed)
+    return names
 
 
 def _required(name: str) -> Iterator[str]:

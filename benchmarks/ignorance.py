@@ -139,12 +139,12 @@ def main() -> None:
                 continue
             seeds = range(1 if family.startswith("torus") else args.seeds)
             for name in args.mappers.split(","):
-                found = [
+                columns = [
                     store.make([Job(family, s, f"{name}: {o}") for s in seeds], pool, play=told)
                     for o in ORACLES
                 ]
-                least = f"{mean(run.least for run in found[0]):.0f}"
-                cells = [name, str(len(seeds)), least, *map(ratio, found)]
+                least = f"{mean(run.least for run in columns[0]):.0f}"
+                cells = [name, str(len(seeds)), least, *map(ratio, columns)]
                 print(f"| `{family}` | {' | '.join(cells)} |", flush=True)
 
 

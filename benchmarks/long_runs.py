@@ -51,8 +51,8 @@ def used(*words: str) -> Used:
 
 def measured(*words: str) -> Used:
     command = [sys.executable, "-c", MEASURE, sys.executable, *words]
-    told = subprocess.run(command, capture_output=True, check=True, text=True).stdout  # noqa: S603  our own command
-    code, seconds, kilobytes = told.split()
+    output = subprocess.run(command, capture_output=True, check=True, text=True).stdout  # noqa: S603  our own command
+    code, seconds, kilobytes = output.split()
     assert code in ("0", "3"), f"{' '.join(words)}: exit {code}"
     return Used(float(seconds), int(kilobytes) // 1024)
 
@@ -119,8 +119,8 @@ def growth(row: Row, small: int = 15, large: int = 50) -> None:
             start, *took = (
                 measured("-c", RUN, str(side), name, engine) for side in (2, small, large)
             )
-            seconds = [max(0.01, one.seconds - start.seconds) for one in took]
-            memory = [max(1, one.megabytes - start.megabytes) for one in took]
+            seconds = [max(0.01, use.seconds - start.seconds) for use in took]
+            memory = [max(1, use.megabytes - start.megabytes) for use in took]
             for what, unit, used_up in (("time", "s", seconds), ("memory", "MB", memory)):
                 cells = " / ".join(f"{amount:.2f}" for amount in used_up)
                 power = log(used_up[1] / used_up[0]) / log(edges[1] / edges[0])

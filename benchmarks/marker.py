@@ -63,8 +63,8 @@ def costs(world: World, algorithm: str) -> list[int]:
 def measured(family: str, algorithm: str, seed: int) -> dict[str, float | None]:
     """Shares of the mean cost, and correlations, in one world; None where no dart fits a rule."""
     world = resolve_world(f"family:{family.format(seed)}")
-    found = costs(world, algorithm)
-    average, far = mean(found), eccentricities(world)
+    cost_at = costs(world, algorithm)
+    average, far = mean(cost_at), eccentricities(world)
     at = world.vertex_of
     degrees = world.degrees
     fits: dict[str, Callable[[int], bool]] = {
@@ -73,16 +73,16 @@ def measured(family: str, algorithm: str, seed: int) -> dict[str, float | None]:
         "dead end": lambda vertex: degrees[vertex] == 1,
     }
     shares: dict[str, float | None] = {
-        "best": min(found) / average,
-        "worst": max(found) / average,
+        "best": min(cost_at) / average,
+        "worst": max(cost_at) / average,
     }
     for rule in RULES:
-        fitting = [cost for dart, cost in enumerate(found) if fits[rule](at[dart])]
+        fitting = [cost for dart, cost in enumerate(cost_at) if fits[rule](at[dart])]
         shares[rule] = mean(fitting) / average if fitting else None
     for name, values in (("r ecc.", far), ("r degree", degrees)):
         row = [values[vertex] for vertex in at]
-        even = len(set(row)) == 1 or len(set(found)) == 1
-        shares[name] = None if even else float(spearmanr(row, found).statistic)
+        even = len(set(row)) == 1 or len(set(cost_at)) == 1
+        shares[name] = None if even else float(spearmanr(row, cost_at).statistic)
     return shares
 
 
@@ -99,10 +99,10 @@ def cell(values: Sequence[float | None], *, share: bool) -> str:
 def rows() -> Iterator[tuple[str, ...]]:
     jobs = [(f, a, s) for f in FAMILIES for a in ALGORITHMS for s in SEEDS]
     with ProcessPoolExecutor() as pool:
-        found = dict(zip(jobs, pool.map(measured, *zip(*jobs, strict=True)), strict=True))
+        measurements = dict(zip(jobs, pool.map(measured, *zip(*jobs, strict=True)), strict=True))
     for family in FAMILIES:
         for algorithm in ALGORITHMS:
-            shares = [found[family, algorithm, seed] for seed in SEEDS]
+            shares = [measurements[family, algorithm, seed] for seed in SEEDS]
             name = family.replace(",seed={}", "")
             yield (
                 f"`{name}`",

@@ -125,12 +125,12 @@ def _has_its_opposite(test: ast.AST) -> bool:
 
 def mutants(path: Path) -> Iterator[Mutant]:
     tree = ast.parse(path.read_text())
-    seen: Counter[str] = Counter()
+    times: Counter[str] = Counter()
     for scope, parent, field, index, node in list(places(tree, "")):
         for other in changes(node):
             text = f"{scope}: {_short(node)} -> {_short(other)}"
-            seen[text] += 1
-            text += f" ({seen[text]})" if seen[text] > 1 else ""
+            times[text] += 1
+            text += f" ({times[text]})" if times[text] > 1 else ""
             _put(parent, field, index, other)
             source = ast.unparse(ast.fix_missing_locations(tree))
             _put(parent, field, index, node)

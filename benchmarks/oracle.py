@@ -45,9 +45,9 @@ def piped() -> tuple[float, float] | None:
     if compiler is None:
         return None
     with tempfile.TemporaryDirectory() as folder:
-        made = Path(folder) / "mapper"
-        subprocess.run([compiler, "-O2", "-o", made, SOURCE], check=True)  # noqa: S603  our own
-        with Program([str(made)]) as program:
+        program_file = Path(folder) / "mapper"
+        subprocess.run([compiler, "-O2", "-o", program_file, SOURCE], check=True)  # noqa: S603  our own
+        with Program([str(program_file)]) as program:
             rates: list[tuple[float, float]] = []
             for _ in range(3):
                 woken, start = _wake_ups(), perf_counter()
@@ -90,9 +90,9 @@ def replayed() -> float:
 
 
 def table(row: Callable[[str, str, str], None]) -> None:
-    found = piped()
-    rate, woken = found or (0.0, 0.0)
-    shown = "no C compiler" if found is None else f"{rate:,.0f} /s"
+    speed = piped()
+    rate, woken = speed or (0.0, 0.0)
+    shown = "no C compiler" if speed is None else f"{rate:,.0f} /s"
     row("moves through the pipe, a program in C", shown, ">= 30,000 /s")
     row("wake-ups of the harness a move", f"{woken:.2f}", "")
     row("search with --edges 4, mapper in a child / in-process", f"{apart(4):.2f}", "<= 2")

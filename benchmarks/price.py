@@ -80,9 +80,9 @@ def priced(job: Job) -> Run:
 
 
 def require_right(run: Exploration, job: Job) -> None:
-    found = run.map
-    right = found is not None and run.world.is_isomorphic(
-        World.from_rotations(found.vertices, found.edges, found.marker)
+    delivered = run.map
+    right = delivered is not None and run.world.is_isomorphic(
+        World.from_rotations(delivered.vertices, delivered.edges, delivered.marker)
     )
     if not right:
         raise SystemExit(f"{job}: {run.stopped or 'the map is not that of the world'}")
@@ -185,23 +185,23 @@ def main() -> None:
         for family in [*chosen, *args.also]:
             number = 1 if family.startswith("torus") else args.seeds
             seeds = range(args.first, args.first + number)
-            found = {
+            runs_of = {
                 mapper: store.make([Job(family, seed, mapper) for seed in seeds], pool)
                 for mapper in mappers
             }
             cells: list[str] = []
-            for runs in found.values():
+            for runs in runs_of.values():
                 moves = sum(run.cost for run in runs)
                 speed = f", {sum(run.ms for run in runs) / moves:.1f} ms" if args.ms else ""
                 shown = f"{moves / len(runs):.0f}" if args.costs else ratio(runs)
                 cells.append(shown + speed)
-            runs = found[mappers[0]]
+            runs = runs_of[mappers[0]]
             about = [f"{mean(run.m for run in runs):.0f}"] * args.costs
             about.append(f"{mean(run.least for run in runs):.0f}")
             print(f"| `{family}` | {len(seeds)} | {' | '.join([*about, *cells])} |", flush=True)
             if args.against:
-                base = found[args.against]
-                others = [difference(found[m], base) for m in mappers if m != args.against]
+                base = runs_of[args.against]
+                others = [difference(runs_of[m], base) for m in mappers if m != args.against]
                 paired.append(f"| `{family}` | {' | '.join(others)} |")
     if args.against:
         print(f"\n{head(['family', *[m for m in mappers if m != args.against]])}")

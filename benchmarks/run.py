@@ -74,8 +74,8 @@ def main() -> None:
         ">= 500,000 /s",
     )
     worlds = sum(map(rank_order.count, EDGES))
-    what = f"{worlds:,} worlds with 1-5 edges x {len(PAPER)} algorithms"
-    row(what, f"{seconds(explore_all):.1f} s")
+    label = f"{worlds:,} worlds with 1-5 edges x {len(PAPER)} algorithms"
+    row(label, f"{seconds(explore_all):.1f} s")
     with patch.dict(CLAIMS, {name: CLAIMS[name] for name in tuple(CLAIMS)[:8]}, clear=True):
         row("  the same with traces and claims 1 to 8", f"{seconds(examine_all):.1f} s", "< 40 s")
     row("  the same with traces and all ten claims", f"{seconds(examine_all):.1f} s")
@@ -87,7 +87,7 @@ def main() -> None:
     search.table(row)
 
     print()
-    compiled.table(lambda what, *rest: row(what[:57], *rest))
+    compiled.table(lambda label, *rest: row(label[:57], *rest))
 
     print()
     oracle.table(row)

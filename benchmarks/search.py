@@ -28,11 +28,11 @@ _WHO = (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
 def table(row: Row) -> None:
     for edges, required in ((4, ""), (5, ""), (6, "< 60 s")):
         begin, processor = perf_counter(), _processor()
-        found = search("basic", edges=edges, workers=WORKERS)
-        assert found.verdict == "EXHAUSTED"
+        entry = search("basic", edges=edges, workers=WORKERS)
+        assert entry.verdict == "EXHAUSTED"
         took, used = perf_counter() - begin, _processor() - processor
-        what = f"search basic --edges {edges}, {found.total:,} worlds, {WORKERS} workers"
-        row(what, f"{took:.1f} s", required)
+        label = f"search basic --edges {edges}, {entry.total:,} worlds, {WORKERS} workers"
+        row(label, f"{took:.1f} s", required)
         most = max(resource.getrusage(who).ru_maxrss for who in _WHO) // 1024
         row("  processor seconds; the most memory of a process", f"{used:.1f} s; {most} MB", "")
 

@@ -36,13 +36,13 @@ def rows(results: Iterable[dict[str, Any]]) -> Iterable[tuple[Any, ...]]:
 
 
 def main() -> None:
-    found: dict[tuple[str, int], tuple[Any, ...]] = {}
+    row_of: dict[tuple[str, int], tuple[Any, ...]] = {}
     for path in sys.argv[1:]:
         for row in rows(json.loads(Path(path).read_text())["results"]):
-            found.setdefault((row[0], row[1]), row)
+            row_of.setdefault((row[0], row[1]), row)
     table = csv.writer(sys.stdout, lineterminator="\n")
     table.writerow(HEAD)
-    table.writerows(found.values())
+    table.writerows(row_of.values())
 
 
 if __name__ == "__main__":
