@@ -1,9 +1,8 @@
 """Mutation test of the bridge: every small change of the algorithms must change a trace.
 
 Each mutant of the files in `MUTATED` (mutations.py) maps the same worlds until its trace differs
-from that of the mapper that Coq proves, extracted to OCaml. If none differs, it has **survived**.
-`SAME` lists the mutants that no trace shows, with reasons. A mutant that takes over 20 s of the
-processor counts as killed.
+from that of the mapper that Coq proves, extracted to OCaml, or takes over 20 s of the processor.
+Else it has **survived**.
 
     .venv/bin/python benchmarks/bridge.py                     every mutant
     .venv/bin/python benchmarks/bridge.py --only motion.py    those of one file

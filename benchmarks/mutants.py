@@ -1,11 +1,8 @@
 """Mutation test of the trusted core: every small change of the checkers must turn a test red.
 
 A **mutant** is a file with one small change (mutations.py). The tests of the checkers run on it
-until one fails; if none does, it has **survived**. `SAME` lists equivalent mutants with reasons.
-
-Each mutant has a process, forked after all slow imports; its source replaces the file at import.
-Tests that are fast or have killed before run first. A test that takes over twenty times its time
-(and five seconds) of the processor has killed.
+until one fails, or takes over twenty times its time (and five seconds) of the processor; else it
+has **survived**. Tests that are fast or have killed before run first.
 
 Why no library? mutmut 3.8 leaves decorated functions alone, so every property; cosmic-ray 8.7
 starts pytest anew for each mutant and changes annotations. Neither tests its list of equivalent

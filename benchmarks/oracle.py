@@ -1,8 +1,8 @@
 """How fast the oracle is: through the pipe, in batch mode, and in a search with a child.
 
 The program is the C example, in a lattice of 20 x 20 with holes. The pipe is timed by the clock,
-since two processes take turns. A wake-up is one sleep of the harness. The replay is processor time
-without judging. The search compares a file that re-exports `basic` with and without `--in-process`.
+since two processes take turns; the replay, without judging, by the processor. The search compares a
+file that re-exports `basic` with and without `--in-process`.
 """
 
 from __future__ import annotations
@@ -63,7 +63,6 @@ def _wake_ups() -> int:
 
 
 def apart(edges: int) -> float:
-    """The ratio of a search with the mapper in another process to one in this process."""
     best = {True: inf, False: inf}
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "mine.py"

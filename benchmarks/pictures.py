@@ -1,8 +1,9 @@
 """How long pictures of worlds take, and how readable they are, beside what is required.
 
-Processor seconds on one core (idle threads of the numerical library would count). `angle` is the
-smallest angle between two darts of a vertex in degrees, `radius` that of a vertex in thousandths of
-the picture's longer side. `OPENBLAS_NUM_THREADS=1 .venv/bin/python benchmarks/pictures.py`
+    OPENBLAS_NUM_THREADS=1 .venv/bin/python benchmarks/pictures.py
+
+Processor seconds on one core. `angle` is the smallest angle between two darts of a vertex in
+degrees, `radius` that of a vertex in thousandths of the picture's longer side.
 """
 
 from __future__ import annotations

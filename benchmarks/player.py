@@ -3,8 +3,7 @@
     OPENBLAS_NUM_THREADS=1 .venv/bin/python benchmarks/player.py
 
 `drawn s`, `made s`: processor time of the world's picture, and of the whole page. In headless
-Chromium: `opens`, from navigation to the first step; `steps/s`, at the highest speed, each step
-drawn whole; `seeks`, the median of jumps all over the run.
+Chromium: `opens`, to the first step; `steps/s`, at the highest speed; `seeks`, the median of jumps.
 """
 
 from __future__ import annotations

@@ -149,11 +149,6 @@ def require_kernel(algorithm: str, fault: str | None) -> None:
 
 
 def _more_room(job: CompiledJob, layout: ws.WordLayout, room: int) -> int:
-    """More room for a trace.
-
-    Raises:
-        InputError: half of the free memory does not hold it.
-    """
     most, needed = free_memory() // 2 // WORD_BYTES, room + 1
     if needed <= most:
         bare = replace(job, trace=False).run(layout, 1)

@@ -282,7 +282,6 @@ def _holds(path: Path, text: str) -> bool:
 
 
 def _write(path: Path, text: str) -> None:
-    """Write a file whole or not at all."""
     with tempfile.NamedTemporaryFile(
         "w", dir=path.parent, prefix=f"{path.name}.", suffix=".new", delete=False, encoding="utf-8"
     ) as file:

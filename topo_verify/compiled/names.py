@@ -302,7 +302,6 @@ def _named_in(view: type[WordView], node: ast.Attribute) -> Field:
 
 
 def _sum(place: ast.expr, index: ast.expr) -> ast.expr:
-    """The sum, with the place at the left end, where it is added first."""
     at = index
     if not isinstance(at, ast.BinOp) or not isinstance(at.op, ast.Add | ast.Sub):
         return ast.BinOp(place, ast.Add(), index)

@@ -4,8 +4,7 @@
     harmless.py    differences that no check may report
 
 Every other file has the mistakes in one part of the mapper. Each fault is a TARGET, as
-`topo_verify.faults.motion:restores_with_the_wrong_sign`; `topo-verify faults` shows which check
-finds which.
+`topo_verify.faults.motion:restores_with_the_wrong_sign`.
 """
 
 from __future__ import annotations
@@ -45,4 +44,3 @@ FAULTS: dict[str, Fault] = {
     for fault in vars(part).values()
     if isinstance(fault, Fault)
 }
-"""Every fault and harmless difference by name."""

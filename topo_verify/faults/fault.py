@@ -61,12 +61,10 @@ class Fault:
 
     @property
     def harmless(self) -> bool:
-        """Whether every claim must hold."""
         return self.claim is None
 
     @property
     def target(self) -> str:
-        """Its TARGET on the command line."""
         room = "harmless" if self.harmless else self.part
         return f"topo_verify.faults.{room}:{self.name.replace('-', '_')}"
 
@@ -161,7 +159,6 @@ class ForwardingRobot:
 
     @property
     def percept(self) -> Percept:
-        """What the mapper senses."""
         return self.seen(self.robot.percept)
 
     def seen(self, percept: Percept) -> Percept:
@@ -169,11 +166,9 @@ class ForwardingRobot:
         return percept
 
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
-        """Leave by a door."""
         return self.seen(self.robot.move(door, purpose))
 
     def declare(self, event: Decision) -> None:
-        """Record a decision."""
         self.robot.declare(event)
 
 

@@ -147,7 +147,6 @@ def _run(
 
 
 def _said(narrator: Narrator) -> dict[str, Any]:
-    """What the narrator says of each event: numbers of sayings, which are numbers of texts."""
     texts = {text: number for number, text in enumerate(SEES)}
     rows: list[str] = []
     for saying in narrator.sayings:

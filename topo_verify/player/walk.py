@@ -117,7 +117,6 @@ class _View:
         self.focus = self._focus() if focus is None else focus
 
     def _focus(self) -> int:
-        """The event of the first finding, else of the run's end or its circle."""
         finding = self.playback.first_finding
         if finding is not None and finding.event is not None:
             return finding.event
@@ -125,7 +124,6 @@ class _View:
 
     @property
     def first(self) -> int:
-        """The event from which on there are `MOVES` moves up to the focus."""
         remaining = MOVES
         for number in range(self.focus, 3, -1):
             remaining -= isinstance(self.playback.trace[number], ev.Move)

@@ -49,11 +49,7 @@ _WORLD_ENDS = ms.DoneMessage | ms.UndeliveredMessage
 
 
 def _decoded(line: bytes) -> ms.FromChild:
-    """The message of our child, which leaves it to us to judge declarations.
-
-    Raises:
-        Misbehaved: the declaration is no decision; in the words of a robot in Python.
-    """
+    """The child's message; what is no decision is refused in a Python robot's words."""
     try:
         return _from_child.decode(line)
     except msgspec.ValidationError as error:
@@ -161,11 +157,7 @@ class Foreign(Program):
         raise why
 
     def _answer(self, child: Child, decoder: msgspec.json.Decoder[T], due: str) -> T:
-        """The child's next message outside of a world; `due` as in "was loaded".
-
-        Raises:
-            Misbehaved: no such message came.
-        """
+        """The child's next message outside of a world; `due` as in "was loaded"."""
         try:
             message: T = decoded(child.line(seconds=LOADING), decoder.decode, validate=False)
         except Silent:

@@ -152,12 +152,7 @@ class _Launcher:
         return self._process.poll() is not None
 
     def ask(self, kind: bytes, process: int = 0, files: Sequence[int] = ()) -> int:
-        """The answer to an order.
-
-        Raises:
-            _Lost: the launcher has ended.
-            OSError: the system starts no process.
-        """
+        """The answer to an order; raises `_Lost`, or OSError if no process starts."""
         with self._lock:
             self._orders += 1
             order = _ORDER.pack(self._orders, kind, process)

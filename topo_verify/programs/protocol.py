@@ -34,7 +34,6 @@ LIMIT = 2**20
 
 
 def _tag(class_name: str) -> str:
-    """The `type` of a message on the wire: `StartMessage` is `start`."""
     return class_name.removesuffix("Message").lower()
 
 

@@ -33,7 +33,7 @@ TheoremProgress = Callable[[str, int, int], None]
 
 
 def no_progress(_theorem: str, _done: int, _total: int) -> None:
-    """Report no progress."""
+    pass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

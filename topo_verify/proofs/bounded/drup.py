@@ -121,7 +121,6 @@ def together(certificates: list[RefutationCertificate]) -> RefutationCertificate
 
 
 def _used(clauses: list[Clause], names: int, most_steps: int) -> list[Clause] | str:
-    """The clauses that a solver used in its refutation, or why there is none."""
     solvers: Any = import_module("pysat.solvers")
     # Assuming a switch for each clause, the core names the used clauses.
     chosen = range(names + 1, names + 1 + len(clauses))

@@ -255,8 +255,6 @@ def _seen(percept: Percept, marker: MarkerDetail) -> object:
 
 
 class _Replayer:
-    """A robot that draws a counterexample's map in its world."""
-
     def __init__(self, example: BoundedCounterexample, fault: RuleFault = "") -> None:
         self.world = example.world
         self.robot = SimulatedRobot(example.world, 10_000)
@@ -289,7 +287,6 @@ class _Replayer:
         self.pilot.turned = 0
 
     def judge(self, decision: ev.Decision, claim: str) -> ReplayedCounterexample:
-        """Declare a decision; the claim must fail at this event."""
         self.robot.declare(decision)
         trace = (ev.Start(percept=first_percept(self.world)), *self.robot.events)
         event = len(trace) - 1

@@ -226,7 +226,6 @@ def _not_proved(formula: Worlds, result: SatResult, m: int) -> tuple[Verdict, st
 def _one_certificate(
     attempts: list[th.RefutationCertificate | str], sizes: range
 ) -> tuple[th.RefutationCertificate | None, str]:
-    """The certificates of all sizes as one, or why there is none."""
     certificates = [
         attempt for attempt in attempts if isinstance(attempt, th.RefutationCertificate)
     ]

@@ -26,7 +26,6 @@ class Symbol:
     result: str
 
     def __call__(self, *arguments: Term) -> App:
-        """Raise TypeError if a sort is wrong."""
         sorts = tuple(argument.sort for argument in arguments)
         if sorts != self.arguments:
             raise TypeError(f"{self.name} takes {self.arguments}, not {sorts}")

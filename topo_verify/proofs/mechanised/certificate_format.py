@@ -38,8 +38,6 @@ Line = Sequence[int]
 
 @dataclass(frozen=True, slots=True)
 class CoqCertificate:
-    """A statement about one log, with evidence that a checker must accept."""
-
     statement: CertifiedStatement
     log: tuple[ev.Event, ...]
     fold: evidence.FoldedLog

@@ -164,7 +164,6 @@ class ProofProducingFold:
         return next((Alone(e) for e in edges if self._leaves(e) == self._arrives(e)), None)
 
     def joining(self, place: LogPlace) -> Arc | None:
-        """The first arc by this dart, if any."""
         visit, dart = self.find(place)
         return self.leaving[visit].get(dart)
 
@@ -205,7 +204,6 @@ class ProofProducingFold:
         return visit, dart % self.seen[visit].degree
 
     def _apart(self, one: LogPlace, other: LogPlace) -> bool:
-        """Can two representatives not be one dart?"""
         if one[0] == other[0]:
             return one != other
         return self.seen[one[0]].signature != self.seen[other[0]].signature
@@ -390,7 +388,6 @@ class LogSoFar:
         return len(self.fold.seen) - 1
 
     def catch_up(self, trace: Sequence[Event], when: int) -> None:
-        """Fold all events before this one."""
         passed = trace[self.next : when]
         percepts: list[Percept] = [e.percept for e in passed if isinstance(e, Start | Move)]
         doors: list[Door] = [event.door for event in passed if isinstance(event, Move)]

@@ -84,7 +84,7 @@ def required(name: str) -> tuple[str, ...]:
 
 
 def without_comments(text: str) -> str:
-    """A source without its comments, which must not be nested."""
+    """Comments must not be nested."""
     return re.sub(r"\(\*.*?\*\)", " ", text, flags=re.DOTALL)
 
 
