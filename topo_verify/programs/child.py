@@ -72,11 +72,10 @@ class TooLong(Exception):
 
 
 class Child:
-    """A running program: `write` and `line`, at last `end`.
+    """A running program.
 
     Args:
         command: the program and its arguments; no shell expands them.
-        reaper_process: kills the program if this process is killed.
         longest: the most bytes of a line.
         echo: copy its standard error to ours, each line behind this mark.
     Attributes:
@@ -351,11 +350,11 @@ class Child:
             # It was reaped: by `Popen.__del__`, which the garbage collector may call before that of
             # our user, or by a caller that waits for all of its children.
             self._reaped = True
-            code = self._process.returncode or 0  # 0 if not known
+            code = self._process.returncode or 0
             return ExitStatus(os.CLD_KILLED if code < 0 else os.CLD_EXITED, abs(code))
 
     def end(self, *, politely: float = 0.0) -> None:
-        """End the program and all of its descendants: SIGTERM, then SIGKILL.
+        """End the program and its descendants: SIGTERM, then SIGKILL.
 
         Args:
             politely: seconds to wait before SIGTERM.
@@ -390,7 +389,7 @@ class Child:
 
 
 class ReaperProcess:
-    """The process of reaper.py, for any number of programs. Lives until `close`."""
+    """The process of reaper.py, for any number of programs."""
 
     def __init__(self) -> None:
         self._process = subprocess.Popen(  # noqa: S603  our own file
@@ -416,7 +415,7 @@ class ReaperProcess:
             self._process.stdin.write(line.encode())
 
     def close(self) -> None:
-        """End the reaper, which first kills every program on its list."""
+        """End the reaper, which kills every program on its list."""
         assert self._process.stdin is not None
         with suppress(OSError):
             self._process.stdin.close()

@@ -25,7 +25,7 @@ R = TypeVar("R")
 _PACKAGE = Path(errors.__file__).resolve().parent
 
 TEST_TOOLS = ("hypothesis", "_pytest", "pytest")
-"""Exceptions of these packages end a test, not the mapper in the same process."""
+"""Their exceptions end a test, not the mapper in the same process."""
 
 
 class Undelivered(NamedTuple):

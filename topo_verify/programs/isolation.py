@@ -28,7 +28,7 @@ _arguments_are_ours: list[bool] = []
 
 
 def own_arguments() -> None:
-    """Declare the arguments of this process ours, so that `shield` may hide them."""
+    """Let `shield` hide the arguments of this process."""
     _arguments_are_ours.append(True)
 
 
@@ -97,7 +97,7 @@ def python_command(place: str, *arguments: str) -> list[str]:
 
 
 def private_pipes() -> tuple[BinaryIO, BinaryIO]:
-    """The pipes from and to the parent. Prints go to standard error; standard input is empty."""
+    """The pipes from and to the parent; prints go to standard error, standard input is empty."""
     commands, out = os.dup(0), os.dup(1)
     nothing = os.open(os.devnull, os.O_RDONLY)
     os.dup2(nothing, 0)

@@ -49,12 +49,7 @@ _MOST_FILES = 8
 
 
 class Launched:
-    """A process started by the launcher; `wait` reaps it.
-
-    Attributes:
-        pid: not reused before `wait`.
-        channel: the socket to it.
-    """
+    """A process started by the launcher; its `pid` is not reused before `wait`."""
 
     def __init__(self, launcher: _Launcher, pid: int, channel: socket.socket) -> None:
         self._launcher, self.pid, self.channel = launcher, pid, channel
@@ -124,7 +119,7 @@ class _Lost(Exception):
 
 
 class _Launcher:
-    """The launcher of this process. It lives until `close`.
+    """The launcher of this process.
 
     Attributes:
         owner: the process that started it; a fork of that starts its own launcher.
@@ -142,7 +137,7 @@ class _Launcher:
                 stdin=theirs.fileno(),
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
-                process_group=0,  # Ctrl-C is for its parent
+                process_group=0,
             )
         if self._control.recv(1) != _READY:
             raise InternalError("the process that starts workers ended before it was ready")

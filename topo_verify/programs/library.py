@@ -117,10 +117,7 @@ def library_function(text: str) -> Any:
 
 
 def confine() -> None:
-    """Limit the memory of this process, and forbid core files and `fork`.
-
-    A native mapper's fork would speak on the same pipe; the process is aborted instead.
-    """
+    """Limit this process's memory, and forbid core files and `fork`, which would share the pipe."""
     used = int(_first_word("/proc/self/statm")) * resource.getpagesize()
     _, most = resource.getrlimit(resource.RLIMIT_AS)
     wanted = used + MEMORY

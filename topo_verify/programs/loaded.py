@@ -115,7 +115,7 @@ def loaded(values: str = "") -> Loaded:
 
 
 def hashes(paths: Iterable[str]) -> dict[str, str]:
-    """The hash of each of these files; paths that are not files are left out."""
+    """The hash of each file; paths that are not files are left out."""
     files: dict[str, str] = {}
     for path in paths:
         if (digest := file_hash(path)) is not None:
@@ -124,7 +124,7 @@ def hashes(paths: Iterable[str]) -> dict[str, str]:
 
 
 def file_hash(path: str) -> str | None:
-    """The hash of a file's present contents; None if it cannot be read."""
+    """The hash of a file's contents; None if it cannot be read."""
     try:
         now = os.stat(path)  # noqa: PTH116  far cheaper
         if not stat.S_ISREG(now.st_mode):

@@ -106,7 +106,7 @@ def _attribute(whole: object, name: str) -> object:
 def _load_module(name: str, text: str) -> object:
     with suppress(FileNotFoundError):
         if "" not in sys.path and str(Path.cwd()) not in sys.path:
-            sys.path.insert(0, str(Path.cwd()))  # a console script lacks it
+            sys.path.insert(0, str(Path.cwd()))
     try:
         return importlib.import_module(name)
     except BaseException as error:

@@ -57,7 +57,7 @@ class Misbehaved(MapperStopped):
     Attributes:
         kind: what it did instead.
         detail: words to append to the message.
-        signal: the name of the signal that ended it, as SIGSEGV, or None.
+        signal: the signal that ended it, as SIGSEGV, or None.
     """
 
     def __init__(

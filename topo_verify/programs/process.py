@@ -93,7 +93,7 @@ class ExitStatus(NamedTuple):
 
     @property
     def signal(self) -> str | None:
-        """The name of the signal that ended the process, as SIGSEGV, or None."""
+        """The signal that ended the process, as SIGSEGV, or None."""
         if self.code == os.CLD_EXITED:
             return None
         with suppress(ValueError):
@@ -141,7 +141,7 @@ class StandardError:
         if self._rest and (not chunk or len(self._rest) > TAIL):
             lines, self._rest = [*lines, self._rest], b""
         for line in lines:
-            with suppress(OSError, ValueError):  # ours is closed, or full
+            with suppress(OSError, ValueError):
                 text = shown(line.decode(errors="backslashreplace"), limit=TAIL)
                 sys.stderr.write(f"{self._mark}: {text}\n")
                 sys.stderr.flush()

@@ -53,7 +53,7 @@ TranscriptLine = tuple[Literal[">", "<"], bytes]
 
 
 class Program:
-    """A program as a mapper. Construction starts nothing; at last `close`.
+    """A program as a mapper; its first world starts the process.
 
     Args:
         command: the program and its arguments, split as a shell would; no shell runs.
@@ -132,7 +132,6 @@ class Program:
     # ------------------------------------------------------------ a world
 
     def _play(self, child: Child, robot: Robot) -> Finish | Misbehaved:
-        """The map, or the message by which the program ended the world without one."""
         self._send(child, ms.StartMessage(percept=robot.percept))
         # Decisions cost no move of the budget; a flood would fill the memory before a time limit.
         declared, written, most = 0, 0, _most_declared(robot)
@@ -241,10 +240,10 @@ class Program:
         self._idle = True
 
     def _unwound(self) -> bool:
-        return False  # protocol 1 has no message for that
+        return False
 
     def close(self) -> None:
-        """Send `stop`, then end a process that does not obey. A later call starts another one."""
+        """Send `stop`, then end a process that does not obey."""
         self.settle()
         if self._child is not None:
             try:

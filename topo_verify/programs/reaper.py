@@ -48,7 +48,7 @@ def marked(mark: str) -> list[int]:
 
 
 def main() -> None:
-    """Keep the list of programs until the input ends, then kill those that are left."""
+    """Keep the list of programs until the input ends, then kill those on it."""
     for name in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(name, signal.SIG_IGN)
     living: dict[str, int] = {}
