@@ -39,7 +39,7 @@ def test_a_tree_that_stops_early_leaves_the_rest_unreached() -> None:
     chart = Chart(Percept(2, 0))
     chart.join(0, chart.add_vertex(Percept(1, None)))
     chart.join(1, chart.add_vertex(Percept(1, None)))
-    assert chart.tree(0, until=1).depth == [0, 1, -1]
+    assert chart.tree(0, until=0).depth == [0, -1, -1]
 
 
 def test_back_at_vu_the_next_door_allows_for_the_turn() -> None:

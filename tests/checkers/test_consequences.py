@@ -35,7 +35,7 @@ def rejections(trace: Trace) -> Iterator[tuple[MapOnFold, Place, Place]]:
             on_fold.grow(event)
         elif isinstance(event, Reject) and event.rule == "folding":
             e, h = KnownDart(event.edge), KnownDart(event.hypothesis)
-            yield on_fold, on_fold.place(e), on_fold.place(h)
+            yield on_fold, on_fold.places[e], on_fold.places[h]
 
 
 def listed(on_fold: MapOnFold, one: Place, other: Place) -> set[str]:

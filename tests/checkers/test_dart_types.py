@@ -26,7 +26,7 @@ def a_dart_of_the_world_is_not_a_dart_of_s() -> None:
     IN_WORLD.phi[OF_WORLD]  # type: ignore[index]  # pyright: ignore[reportArgumentType]
     IN_WORLD.alpha[OF_WORLD] = OF_S  # type: ignore[index]  # pyright: ignore[reportArgumentType]
     ON_FOLD.face(OF_WORLD)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
-    ON_FOLD.place(OF_WORLD)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    ON_FOLD.places[OF_WORLD]  # type: ignore[index]  # pyright: ignore[reportArgumentType]
     Records(IN_WORLD).behind(OF_WORLD, (), 1)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
 
 
@@ -44,14 +44,14 @@ def the_two_are_never_equal() -> bool:
 def a_number_of_an_event_is_neither(event: Augment | Confirm) -> None:
     IN_WORLD.end(event.edge)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     IN_WORLD.seen_at(event.edge)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
-    ON_FOLD.place(event.edge)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    ON_FOLD.places[event.edge]  # type: ignore[index]  # pyright: ignore[reportArgumentType]
 
 
 def a_number_is_a_dart_of_s_once_s_is_found_to_have_it(event: Augment | Confirm) -> None:
     if IN_WORLD.is_open(event.edge, 1):
         IN_WORLD.end(event.edge)
     if ON_FOLD.is_open(event.edge):
-        ON_FOLD.place(event.edge)
+        ON_FOLD.places[event.edge]
 
 
 def test_the_types_cost_nothing_when_the_program_runs() -> None:

@@ -38,24 +38,24 @@ class Decider(MapOnFold):
 
     def decisions(self) -> Iterator[ev.Decision]:
         """The poses, least dart first, each with its rejections or its confirmation; S grows."""
-        while darts := [d for d in range(self.size) if self.is_open(d)]:
+        while darts := [d for d in range(len(self.places)) if self.is_open(d)]:
             yield from self.decided(KnownDart(darts[0]))
 
     def decided(self, e: KnownDart) -> Iterator[ev.Decision]:
         """What is declared of one edge."""
-        end = self.fold.partner(self.place(e))
+        end = self.fold.partner(self.places[e])
         assert end is not None
-        alike = [h for h in self.others(e) if self.look(self.place(h)) == self.look(end)]
+        alike = [h for h in self.others(e) if self.look(self.places[h]) == self.look(end)]
         yield ev.Pose(e, tuple(alike))
-        true = [h for h in alike if self.fold.find(self.place(h)) == self.fold.find(end)]
+        true = [h for h in alike if self.fold.find(self.places[h]) == self.fold.find(end)]
         if true:
             yield ev.Confirm(e, true[0], "folding")
             grown = ev.Augment(e, "loop", true[0], self.look(end)[0])
         else:
             for h in alike:
-                met = self.fold.contradictions(self.place(e), self.place(h), self.entries)
+                met = self.fold.contradictions(self.places[e], self.places[h], self.entries)
                 yield ev.Reject(e, h, "folding", ev.Evidence(0, contradiction=next(met)[0]))
-            grown = ev.Augment(e, "new", self.size, self.look(end)[0])
+            grown = ev.Augment(e, "new", len(self.places), self.look(end)[0])
         yield grown
         self.grow(grown)
 

@@ -127,7 +127,7 @@ def assert_wrong_in(witness: World, trace: ev.Trace, when: int) -> None:
     assert isinstance(event, ev.Reject)
     assert shows(witness, [e for e in trace[:when] if isinstance(e, ev.Start | ev.Move)])
     run = ReplayedTrace(witness, trace[: when + 1])
-    assert run.map.truth(event.edge, when) == event.hypothesis
+    assert run.rounds[-1].truth == event.hypothesis
 
 
 def renamed(trace: ev.Trace, old: ev.RuleName, new: ev.RuleName) -> ev.Trace:

@@ -36,7 +36,7 @@ class Survey(NamedTuple):
 class Tree(NamedTuple):
     """Each vertex's distance from the root of a breadth-first tree, and its dart towards it.
 
-    Vertices that were not reached have distance -1.
+    Vertices that were not seen (the search may stop early) have distance -1.
     """
 
     depth: list[int]
@@ -70,10 +70,12 @@ class Chart:
         self.first.append(first)
         self.degree.append(percept.degree)
         self.alpha += [None] * percept.degree
-        for door in range(percept.degree):
-            marker = None if percept.marker is None else (percept.marker - door) % percept.degree
-            self.percepts.append(Percept(percept.degree, marker))
-            self.unexplored[first + door] = None
+        if percept.marker is None:
+            self.percepts += [percept] * percept.degree
+        else:
+            turned = ((percept.marker - door) % percept.degree for door in range(percept.degree))
+            self.percepts += [Percept(percept.degree, marker) for marker in turned]
+        self.unexplored |= dict.fromkeys(range(first, first + percept.degree))
         return first
 
     def join(self, e: MapDart, other: MapDart) -> None:
@@ -110,22 +112,27 @@ class Chart:
             yield v, distance, back
             for dart in self.darts(v):
                 other = self.alpha[dart]
-                if other is not None and self.vertex[other] not in reached:
-                    reached.add(self.vertex[other])
-                    queue.append((self.vertex[other], distance + 1, other))
+                if other is not None and (there := self.vertex[other]) not in reached:
+                    reached.add(there)
+                    queue.append((there, distance + 1, other))
 
     def tree(self, root: Vertex, *, until: Vertex | None = None) -> Tree:
         """The breadth-first tree from a root: complete, or until `until` is reached."""
         depth = [-1] * len(self.first)
         parent: list[MapDart | None] = [None] * len(self.first)
-        for v, distance, back in self.outward(root):
-            depth[v], parent[v] = distance, back
+        depth[root], queue = 0, [root]
+        for v in queue:
             if v == until:
                 break
+            for dart in self.darts(v):
+                other = self.alpha[dart]
+                if other is not None and depth[there := self.vertex[other]] < 0:
+                    depth[there], parent[there] = depth[v] + 1, other
+                    queue.append(there)
         return Tree(depth, parent)
 
     def survey(self, cost: int) -> Survey:
         """The map as a mapper delivers it."""
-        rotations = tuple(tuple(self.darts(v)) for v in range(len(self.first)))
-        edges = tuple((d, o) for d, o in enumerate(self.alpha) if o is not None and d < o)
+        rotations = tuple([tuple(self.darts(v)) for v in range(len(self.first))])
+        edges = tuple([(d, o) for d, o in enumerate(self.alpha) if o is not None and d < o])
         return Survey(rotations, edges, 0 if self.alpha else None, cost)

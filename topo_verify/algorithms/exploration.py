@@ -89,7 +89,7 @@ def explore(robot: Robot, *, rule: Rule, motion: Motion, pick: Pick, order: Orde
         at = pilot.walk(chart, at, chart.vertex[e])  # A1.5 A2.5 A3.6
         percept = pilot.cross(chart, at, e)
         remaining = hypotheses(chart, percept, order)  # A1.6 A2.6 A3.7
-        robot.declare(Pose(e, tuple(h.dart for h in remaining)))
+        robot.declare(Pose(e, tuple([h.dart for h in remaining])))
         rule.arrive(chart, e, percept)
         sequences: list[Executed] = []
         h = validate(pilot, chart, e, remaining, sequences, rule=rule, motion=motion)
@@ -109,7 +109,8 @@ def explore(robot: Robot, *, rule: Rule, motion: Motion, pick: Pick, order: Orde
 
 def hypotheses(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
     """H: the unexplored darts at vertices that look like vu, in the order in which to try them."""
-    alike = [h for h in chart.unexplored if chart.percepts[h].signature == percept.signature]
+    signature = percept.signature
+    alike = [h for h in chart.unexplored if chart.percepts[h].signature == signature]
     if not alike:
         return []
     tree = chart.tree(0)

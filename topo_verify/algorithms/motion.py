@@ -13,11 +13,23 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from topo_verify.algorithms.chart import Chart, Tree
 from topo_verify.robot.events import MapDart, Robot
 from topo_verify.robot.percept import Door, Percept, Purpose
+
+T = TypeVar("T")
+
+
+class on_demand(cached_property[T]):  # noqa: N801  a decorator
+    """A `cached_property` without its lock, which takes longer than what is computed here."""
+
+    if not TYPE_CHECKING:  # pragma: no branch: the types stay those of the base
+
+        def __get__(self, instance: Any, owner: type | None = None) -> T:
+            value = instance.__dict__[self.attrname] = self.func(instance)
+            return value
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +50,7 @@ class Hypothesis:
         # a hypothesis is dropped before S grows
         self.dart, self._chart, self._tree = dart, chart, tree
 
-    @cached_property
+    @on_demand
     def arrivals(self) -> tuple[MapDart, ...]:
         """The reference darts on the way: h, then the dart of arrival behind each door."""
         chart, row = self._chart, [self.dart]
@@ -46,13 +58,13 @@ class Hypothesis:
             row.append(chart.across(up))
         return tuple(row)
 
-    @cached_property
+    @on_demand
     def doors(self) -> tuple[Door, ...]:
         """The doors to v0, relative to the entry dart h."""
         chart, row = self._chart, self.arrivals
-        return tuple(chart.door(a, chart.across(b)) for a, b in pairwise(row))
+        return tuple([chart.door(a, chart.across(b)) for a, b in pairwise(row)])
 
-    @cached_property
+    @on_demand
     def expected(self) -> tuple[Percept, ...]:
         """The percept at each step if the hypothesis is true; step 0 is vu."""
         return tuple(map(self._chart.percepts.__getitem__, self.arrivals))

@@ -33,9 +33,11 @@ def nearest(chart: Chart, at: MapDart) -> MapDart:
     for v, distance, _ in chart.outward(chart.vertex[at]):
         if best is not None and distance > reach:
             break
-        dart = next((d for d in chart.darts(v) if d in chart.unexplored), None)
-        if dart is not None and (best is None or dart < best):
-            best, reach = dart, distance
+        for dart in chart.darts(v):
+            if dart in chart.unexplored:
+                if best is None or dart < best:
+                    best, reach = dart, distance
+                break
     assert best is not None, "U is not empty and S is connected"
     return best
 
@@ -75,11 +77,11 @@ def pick_policy(text: str) -> Pick:
     Raises:
         ValueError: no such policy.
     """
-    if (random := _random(text)) is not None:
-        return lambda chart, at: random.choice(list(chart.unexplored))
-    if text not in PICKS:
+    if text in PICKS:
+        return PICKS[text]
+    if (random := _random(text)) is None:
         raise ValueError(f"no pick policy {text!r}: there are {', '.join(PICKS)}, random(SEED)")
-    return PICKS[text]
+    return lambda chart, at: random.choice(list(chart.unexplored))
 
 
 def order_policy(text: str) -> Order:
@@ -88,11 +90,11 @@ def order_policy(text: str) -> Order:
     Raises:
         ValueError: no such policy.
     """
-    if (random := _random(text)) is not None:
-        return lambda darts, chart, tree: _shuffled(random, darts)
-    if text not in ORDERS:
+    if text in ORDERS:
+        return ORDERS[text]
+    if (random := _random(text)) is None:
         raise ValueError(f"no order policy {text!r}: there are {', '.join(ORDERS)}, random(SEED)")
-    return ORDERS[text]
+    return lambda darts, chart, tree: _shuffled(random, darts)
 
 
 def check(policies: Policies) -> Policies:

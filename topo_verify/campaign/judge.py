@@ -9,7 +9,7 @@ from __future__ import annotations
 import shlex
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import msgspec
@@ -371,7 +371,7 @@ def judge_trace(  # noqa: PLR0913  an argument an option
         for judgement in judgements
         for finding in judgement.findings
     )
-    cost = sum(isinstance(event, Move) for event in trace)
+    cost = len([event for event in trace if isinstance(event, Move)])
     statuses: dict[str, Status] = {judgement.claim: judgement.status for judgement in judgements}
     report = Report(where, target, not findings, cost, statuses, (), tuple(judgements))
     report = report.of(JudgedRun(world, trace, stopped))
@@ -478,11 +478,16 @@ def replay_line(
     where: str, target: str, policies: Policies | None = None, options: Sequence[str] = ()
 ) -> str:
     """The command line that shows a run again; empty if no command line finds the mapper."""
+    words = _words_after_world(target, policies, tuple(options))
+    return words and f"topo-verify replay {shlex.quote(where)} {words}"
+
+
+@lru_cache(maxsize=64)  # asked for in each world
+def _words_after_world(target: str, policies: Policies | None, options: tuple[str, ...]) -> str:
     own_option = target.startswith(OPTIONS)
     if not (own_option or is_found_again(target)):
         return ""
-    words = ["topo-verify", "replay", where]
-    words += target_arguments(target) if own_option else ("--target", target)
+    words = [*target_arguments(target)] if own_option else ["--target", target]
     for name, default in (("pick", "nearest"), ("order", "shortest")):
         value = getattr(policies, name, default)
         words += [f"--{name}", value] if value != default else []

@@ -134,7 +134,9 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     @property
     def failed(self) -> tuple[str, ...]:
         """The claims that fail."""
-        return () if self.undecided else tuple(dict.fromkeys(f.claim for f in self.findings))
+        if self.undecided or not self.findings:
+            return ()
+        return tuple(dict.fromkeys(f.claim for f in self.findings))
 
     @property
     def by_chance(self) -> bool:

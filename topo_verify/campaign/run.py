@@ -304,10 +304,14 @@ class CompiledAlgorithm:
         raise InternalError(f"the compiled {self.name} was called with a robot: {robot!r}")
 
 
+WITH_POLICIES = Algorithm, CompiledAlgorithm
+"""The kinds of mappers that have policies. (A tuple: a union would be made for each run.)"""
+
+
 def policies_of(target: Target) -> Policies | None:
     """The policies of an algorithm of the catalogue; None for other mappers."""
     mapper = target.mapper
-    return mapper.policies if isinstance(mapper, Algorithm | CompiledAlgorithm) else None
+    return mapper.policies if isinstance(mapper, WITH_POLICIES) else None
 
 
 def on_engine(engine: Engine, targets: Iterable[Target], limits: Limits) -> tuple[Target, ...]:

@@ -47,8 +47,7 @@ def check(
     run = ReplayedTrace(world, trace, stopped)
     shares = coverage(run)
     # backwards: claim 9 goes on with claim 10's fold
-    judged = [_judgement(run, name, *shares[name], strict=strict) for name in reversed(CLAIMS)]
-    return judged[::-1]
+    return [_judgement(run, name, *shares[name], strict=strict) for name in reversed(CLAIMS)][::-1]
 
 
 def _judgement(run: ReplayedTrace, name: str, judged: int, of: int, *, strict: bool) -> Judgement:
@@ -57,8 +56,9 @@ def _judgement(run: ReplayedTrace, name: str, judged: int, of: int, *, strict: b
         return Judgement(name, "not-declared", 0, of)
     if claim is decisions_entailed and len(run.world.edges) > LARGE and not strict:
         return Judgement(name, "not-asked", 0, of)
-    if findings := tuple(map(partial(msgspec.structs.replace, claim=name), claim(run))):
-        return Judgement(name, "failed", judged, of, findings)
+    if findings := [*claim(run)]:
+        named = map(partial(msgspec.structs.replace, claim=name), findings)
+        return Judgement(name, "failed", judged, of, tuple(named))
     conclusions = run.conclusions.values() if claim is decisions_entailed else ()
     if number := sum(conclusion.undecided for conclusion in conclusions):
         return Judgement(name, "undecided", judged - number, of)
@@ -92,31 +92,31 @@ def true_hypothesis_posed(run: ReplayedTrace) -> Iterator[Finding]:
 
 
 def _wrongly_posed(run: ReplayedTrace, decision: Round, pose: ev.Pose) -> Iterator[Finding]:
-    edge, hypotheses, (when, *_, end, truth) = pose.edge, pose.hypotheses, decision
+    edge, hypotheses, when, end = pose.edge, pose.hypotheses, decision.when, decision.end
     if end is None or not all(run.map.is_open(h, when) for h in hypotheses):
         message = f"edge {edge} or one of its hypotheses is not an unexplored dart of S"
         yield Wrong(when, "unexplored darts", [edge, *hypotheses], message)
     elif run.crossings.get(run.crossing(end), when) >= when:
         yield Wrong(when, edge, None, f"dart {edge} is posed before the robot crossed it")
-    elif truth not in (None, *hypotheses):
+    elif (truth := decision.truth) not in (None, *hypotheses):
         message = f"edge {edge} leads to dart {truth}, which is not among the hypotheses"
         yield Wrong(when, truth, hypotheses, message)
 
 
 def true_hypothesis_kept(run: ReplayedTrace) -> Iterator[Finding]:
     """3. No rule and no motion rejects the true hypothesis, and none is dropped in silence."""
-    for when, event, _, _, _, _, truth in run.rounds:
-        edge = event.edge
+    for decision in run.rounds:
+        event, edge, truth = decision.event, decision.event.edge, decision.truth
         if isinstance(event, ev.Reject) and truth == event.hypothesis:
             message = f"edge {edge} does lead to dart {truth}, which rule {event.rule!r} rejects"
-            yield Wrong(when, "kept", "rejected", message)
+            yield Wrong(decision.when, "kept", "rejected", message)
         elif isinstance(event, ev.Augment) and event.kind == "new" and truth is not None:
             message = f"edge {edge} leads to dart {truth}, but S grows by a new vertex"
-            yield Wrong(when, truth, "new", message)
-    for when, event, left in run.fates.values():
-        if isinstance(event, ev.Augment) and left:
+            yield Wrong(decision.when, truth, "new", message)
+    for fate in run.fates.values():
+        if isinstance(event := fate.event, ev.Augment) and fate.left:
             message = f"S grows by a new vertex behind edge {event.edge}, but hypotheses are left"
-            yield Wrong(when, "each rejected", sorted(left), message)
+            yield Wrong(fate.when, "each rejected", sorted(fate.left), message)
 
 
 def no_false_confirm(run: ReplayedTrace) -> Iterator[Finding]:
@@ -223,7 +223,7 @@ def unproved(claim: str, conclusions: Iterable[Conclusion]) -> Iterator[Finding]
 
 
 def _unjustified(run: ReplayedTrace, decision: Round, event: ev.Reject) -> str:
-    h, (when, _, pose, *_, end, _) = event.hypothesis, decision
+    h, when, pose, end = event.hypothesis, decision.when, decision.pose, decision.end
     if pose is None or h not in pose.hypotheses:
         return "no such hypothesis was posed"
     if end is None or not run.map.is_open(h, when):

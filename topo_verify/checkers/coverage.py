@@ -9,8 +9,6 @@ Source: docs/semantics.md, section 9, "Coverage", with the table.
 
 from __future__ import annotations
 
-from collections import Counter
-
 from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.robot.events import Augment, Confirm, Finish, Move, Pose, Reject, Start
 
@@ -20,17 +18,17 @@ Share = tuple[int, int]
 def coverage(run: ReplayedTrace) -> dict[str, Share]:
     """How much of a run each claim judges; of claim 10, how much there is to judge."""
     events = [decision.event for decision in run.rounds]
-    declared = Counter(map(type, events))
-    rejections, confirmations = declared[Reject], declared[Confirm]
-    posed = sum(len(event.hypotheses) for event in events if isinstance(event, Pose))
+    declared = [*map(type, events)]
+    rejections, confirmations = declared.count(Reject), declared.count(Confirm)
+    posed = sum([len(event.hypotheses) for event in events if isinstance(event, Pose)])
     ends = {edge: fate.event for edge, fate in run.fates.items() if isinstance(fate.event, Augment)}
-    loops = sum(end.kind == "loop" for end in ends.values())
+    loops = [end.kind for end in ends.values()].count("loop")
     unsettled = len(run.crossings.keys() - ends.keys())
-    left = sum(len(fate.left) for fate in run.fates.values())
-    missing = sum(len(fate.left) for edge, fate in run.fates.items() if edge in ends)
+    left = sum([len(fate.left) for fate in run.fates.values()])
+    missing = sum([len(fate.left) for edge, fate in run.fates.items() if edge in ends])
     grown = {run.crossing(run.map.phi[dart]) for dart in run.map.alpha}
-    decisions = rejections + confirmations + declared[Augment]
-    percepts = sum(isinstance(event, (Start, Move)) for event in run.followed)
+    decisions = rejections + confirmations + declared.count(Augment)
+    percepts = sum([isinstance(event, (Start, Move)) for event in run.followed])
     maps = run.kinds[Finish]
     costs = int(getattr(run.trace[-1], "cost", None) is not None)
     return {

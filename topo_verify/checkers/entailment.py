@@ -75,22 +75,23 @@ class FoldedTrace:
 
     def read_to(self, end: int) -> tuple[int, str] | None:
         """Read on up to event number `end`, excluded, and return `broken`."""
-        while self.read < end and self.broken is None:
-            event, why = self.trace[self.read], ""
-            if isinstance(event, Move):
-                try:
-                    self.fold.move(event.door, event.percept)
-                except Contradiction as contradiction:
-                    why = str(contradiction)
-            elif isinstance(event, Start) and not _may_start(event.percept):
-                why = f"the robot starts on the marked dart and cannot see {event.percept}"
-            self.broken = (self.read, why) if why else None
+        for event in self.trace[self.read : end] if self.broken is None else ():
             self.read += 1
+            try:
+                if isinstance(event, Move):
+                    self.fold.move(event.door, event.percept)
+                elif isinstance(event, Start):
+                    _require_start(event.percept)
+            except Contradiction as contradiction:
+                self.broken = self.read - 1, str(contradiction)
+                break
         return self.broken
 
 
-def _may_start(seen: Percept) -> bool:
-    return seen.marker == 0 < seen.degree or seen == Percept(0, None)
+def _require_start(seen: Percept) -> None:
+    """Raise Contradiction unless some world shows this to a robot on the marked dart."""
+    if not seen.marker == 0 < seen.degree and seen != Percept(0, None):
+        raise Contradiction(f"the robot starts on the marked dart and cannot see {seen}")
 
 
 @lru_cache(maxsize=16)
@@ -163,14 +164,14 @@ def _is_met(on_fold: MapOnFold, event: Event) -> bool:
     e, h, cited = KnownDart(event.edge), KnownDart(event.hypothesis), event.evidence.contradiction
     if event.rule == "planar":
         return cited == "it lies on another face than e" and h not in on_fold.face(e)
-    met = on_fold.fold.contradictions(on_fold.place(e), on_fold.place(h), on_fold.entries)
+    met = on_fold.fold.contradictions(on_fold.places[e], on_fold.places[h], on_fold.entries)
     return any(contradiction == cited for contradiction, _ in met)
 
 
 def _unknown_dart(on_fold: MapOnFold, event: Concluded) -> str:
     other = event.dart if isinstance(event, Augment) else event.hypothesis
     is_new = isinstance(event, Augment) and event.kind == "new"
-    is_right = other == on_fold.size if is_new else on_fold.is_open(other)
+    is_right = other == len(on_fold.places) if is_new else on_fold.is_open(other)
     fits = is_right and on_fold.is_open(event.edge)
     return "" if fits else f"{event.edge} or {other} is not an unexplored dart of S"
 
@@ -194,8 +195,12 @@ def _may_lead_to(on_fold: MapOnFold, e: KnownDart, ends: list[KnownDart], tries:
     fold, doubt = on_fold.fold, FOLLOWS
     # with the prior, the fold may not tell vertices of S apart
     face, apart = (ends, ()) if tries is None else (on_fold.face(e), on_fold.entries)
-    for places in ((on_fold.place(e), on_fold.place(end)) for end in ends if end in face):
-        if any(fold.contradictions(*places, apart)):
+    behind = fold.partner(on_fold.places[e])
+    for end in ends:
+        places = on_fold.places[e], on_fold.places[end]
+        # asked first, since most ends look different, which contradicts
+        differs = behind and fold.look(behind) != fold.look(places[1])
+        if differs or end not in face or any(fold.contradictions(*places, apart)):
             continue
         joined = deepcopy(fold)
         joined.join(*places)
@@ -227,16 +232,16 @@ def _planar_folding(fold: Fold, pairs: Sequence[Pair], tries: Iterator[int]) -> 
 def _may_be_apart(on_fold: MapOnFold, e: KnownDart, h: KnownDart, degree: int | None) -> Doubt:
     """Folding must make e and h partners, at a vertex of the stated degree, if any."""
     fold = on_fold.fold
-    if fold.partner(on_fold.place(e)) != fold.find(on_fold.place(h)):
+    if fold.partner(on_fold.places[e]) != fold.find(on_fold.places[h]):
         return f"darts {e} and {h} may well belong to different edges", fold.world()
-    if degree not in (None, fold.degree(on_fold.place(h)[0])):
+    if degree not in (None, fold.degree(on_fold.places[h][0])):
         return "the vertex there has another degree", fold.world()
     return FOLLOWS
 
 
 def _may_be_known(on_fold: MapOnFold, e: KnownDart, degree: int) -> Doubt | None:
     """The edge e must have been crossed, to a place of this degree that is not a vertex of S."""
-    fold, entry = on_fold.fold, on_fold.fold.partner(on_fold.place(e))
+    fold, entry = on_fold.fold, on_fold.fold.partner(on_fold.places[e])
     if entry is None:  # if a leaf is claimed, a vertex of degree 2 may be there, else a leaf
         return "the edge was never crossed", fold.world(2 if degree == 1 else 1)
     if fold.degree(entry[0]) != degree or on_fold.is_known(entry[0]):

@@ -128,7 +128,7 @@ class Fold:
         known = self.partner(exit_place)
         # the marker is at v0, whose dart 0 is marked
         self.at = (known or (self._visit(percept), 0)) if marker is None else (0, -marker)
-        self._require_alike(self._seen[self.find(self.at)[0]], percept)
+        self._require_alike(self._seen[self.at[0]], percept)  # as the node that stands for it
         if self.at != known:
             self.join(exit_place, self.at)
 
@@ -158,8 +158,8 @@ class Fold:
             one, other = map(self.find, edges.pop())
             if one == other:
                 raise Contradiction(OWN_END)
-            if known := self.partner(one):
-                edges += self._merged(known, other)
+            if known := self._ends.get(*one):
+                edges += self._merged(self.find(known), other)
             else:
                 self._ends.put(*one, other)
 
@@ -240,7 +240,7 @@ class Fold:
 
     def open_darts(self) -> int:
         """The number of darts that were crossed in neither direction."""
-        return sum(self.degree(v) - len(self._ends.of(v, self.degree(v))) for v in self.roots())
+        return sum([self.degree(v) - len(self._ends.of(v, self.degree(v))) for v in self.roots()])
 
     def roots(self) -> list[int]:
         """One node for each place of the fold."""

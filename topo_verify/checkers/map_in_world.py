@@ -73,9 +73,10 @@ class MapInWorld:
 
     def _add_vertex(self, entry: WorldDart, when: int) -> None:
         first, degree = len(self.phi), self.seen_at(entry).degree
-        for dart in map(KnownDart, range(first, first + degree)):
-            image = WorldDart(exit_dart(self.world, entry, dart - first))
-            self.phi[dart], self.number[image] = image, dart
+        darts = cast("list[KnownDart]", [*range(first, first + degree)])
+        images = [WorldDart(exit_dart(self.world, entry, door)) for door in range(degree)]
+        self.phi |= zip(darts, images, strict=True)
+        self.number |= zip(images, darts, strict=True)
         self.born += [when] * degree
         self.joined += [NEVER] * degree
 
@@ -87,7 +88,7 @@ class MapInWorld:
         """The dart of S behind a door for a robot with reference dart `dart` on S."""
         return self.number[WorldDart(exit_dart(self.world, self.phi[dart], door))]
 
-    def truth(self, e: int, when: int) -> KnownDart | None:
-        """The other end of the unexplored dart e of S, if its vertex is known at event `when`."""
-        end = self.number.get(self.end(e)) if self.is_open(e, when) else None
-        return end if end is not None and self.born[end] < when else None
+    def known(self, dart: WorldDart, when: int) -> KnownDart | None:
+        """The dart of S that this dart of the world is, if its vertex is known at event `when`."""
+        known = self.number.get(dart)
+        return known if known is not None and self.born[known] < when else None

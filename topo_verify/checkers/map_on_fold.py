@@ -19,23 +19,18 @@ class MapOnFold:
 
     Attributes:
         fold: of the history so far; the caller lets it grow.
-        size: the number of darts of S, and the next dart.
+        places: of each dart of S, its place on the fold; the next new dart has the next number.
         entries: of each vertex of S, the place of its first dart.
     """
 
     def __init__(self, fold: Fold) -> None:
         self.fold = fold
-        self.size = 0
         self.entries: list[Place] = []
-        self._places: list[Place] = []
+        self.places: dict[KnownDart, Place] = {}
         self._clockwise: list[KnownDart] = []
         self._alpha: dict[KnownDart, KnownDart] = {}
         self._open: set[KnownDart] = set()
         self._add_vertex((0, 0))
-
-    def place(self, dart: KnownDart) -> Place:
-        """The place of a dart of S."""
-        return self._places[dart]
 
     def is_open(self, dart: int) -> TypeGuard[KnownDart]:
         """Whether this is an unexplored dart of S."""
@@ -58,20 +53,19 @@ class MapOnFold:
 
     def grow(self, event: Augment) -> None:
         """Let S grow by a right augmentation, whose edge was crossed."""
+        e, other = KnownDart(event.edge), KnownDart(event.dart)
         if event.kind == "new":
-            entry = self.fold.partner(self._places[event.edge])
+            entry = self.fold.partner(self.places[e])
             assert entry is not None, "an edge is crossed before S grows along it"
             self._add_vertex(entry)
-        e, other = KnownDart(event.edge), KnownDart(event.dart)
         self._open -= {e, other}
         self._alpha |= {e: other, other: e}
 
     def _add_vertex(self, entry: Place) -> None:
         node, first = entry
-        degree = self.fold.degree(node)
-        darts = cast("list[KnownDart]", [*range(self.size, self.size + degree)])
-        self.size += degree
+        size, degree = len(self.places), self.fold.degree(node)
+        darts = cast("list[KnownDart]", [*range(size, size + degree)])
         self.entries.append(entry)
-        self._places += [(node, first + door) for door in range(degree)]
+        self.places |= {dart: (node, first + door) for door, dart in enumerate(darts)}
         self._clockwise += [*darts[1:], *darts[:1]]
         self._open.update(darts)

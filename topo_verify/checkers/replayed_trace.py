@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import cached_property
-from typing import NamedTuple
+
+import msgspec
 
 from topo_verify.checkers.darts import KnownDart, WorldDart
 from topo_verify.checkers.entailment import Conclusion, FoldedTrace, decision_conclusions
@@ -22,7 +23,7 @@ from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import World
 
 
-class Round(NamedTuple):
+class Round(msgspec.Struct, frozen=True):
     """A decision at event `when`, and what was executed behind the edge since the last pose.
 
     After a **late pose**, of an edge crossed before, no move is behind the edge.
@@ -43,7 +44,7 @@ class Round(NamedTuple):
     truth: KnownDart | None
 
 
-class Fate(NamedTuple):
+class Fate(msgspec.Struct, frozen=True):
     """What became of an edge that was posed.
 
     Attributes:
@@ -125,14 +126,15 @@ class ReplayedTrace:
         behind = Excursion()
         for when, event in enumerate(self.followed):
             if isinstance(event, ev.Move):
-                before, seen = map(self.map.seen_at, self.positions[when - 1 : when + 1])
-                behind.move(event.door, before.degree, seen)
+                before, at = self.positions[when - 1 : when + 1]
+                behind.move(event.door, self.map.seen_at(before).degree, self.map.seen_at(at))
             elif isinstance(event, (ev.Pose, ev.Reject, ev.Confirm, ev.Augment)):
                 edge = event.edge
                 end = self.map.end(edge) if self.map.is_open(edge, when) else None
                 if isinstance(event, ev.Pose):
                     poses, behind = {edge: event}, Excursion(is_late=end != self.positions[when])
-                pose, word, truth = poses.get(edge), tuple(behind.word), self.map.truth(edge, when)
+                truth = None if end is None else self.map.known(end, when)
+                pose, word = poses.get(edge), tuple(behind.word)
                 yield Round(when, event, pose, word, behind.sequences, end, truth)
                 if isinstance(event, ev.Augment):
                     if when == self.spoiled:
@@ -151,16 +153,16 @@ class ReplayedTrace:
     def fates(self) -> dict[int, Fate]:
         """What became of each posed edge of the world, in the order of the poses."""
         fates: dict[int, Fate] = {}
-        for when, event, pose, _, _, end, _ in self.rounds:
-            if end is None:
+        for decision in self.rounds:
+            if decision.end is None:
                 continue
-            edge = self.crossing(end)
+            edge, event, when = self.crossing(decision.end), decision.event, decision.when
             left: set[int] = fates[edge].left if edge in fates else set()
             if isinstance(event, ev.Pose):
                 fates[edge] = Fate(when, event, left.union(event.hypotheses))
             elif not isinstance(event, ev.Augment):
                 left.discard(event.hypothesis)
-            elif pose and when != self.spoiled:
+            elif decision.pose and when != self.spoiled:
                 left = {h for h in left if event.kind == "new" and self.map.is_open(h, when)}
                 fates[edge] = Fate(when, event, left)
         return fates

@@ -87,7 +87,7 @@ def fold_places(moments: Sequence[Moment]) -> FoldPlaces:
             places.identified[number] = tuple(dict.fromkeys(visited[node] for node in nodes))
         match moment.event:
             case Reject(e, h, "folding") if on_fold.is_open(e) and on_fold.is_open(h):
-                if clash := fold.clash(on_fold.place(e), on_fold.place(h)):
+                if clash := fold.clash(on_fold.places[e], on_fold.places[h]):
                     places.clashes[number] = visited[clash[0]], visited[clash[1]]
             case Augment() if not _grown(on_fold, moment):
                 break
@@ -102,7 +102,7 @@ def _grown(on_fold: MapOnFold, moment: Moment) -> bool:
     true = moment.growth is not None and moment.growth.true is True
     if not (true and on_fold.is_open(event.edge)):
         return False
-    if on_fold.fold.partner(on_fold.place(event.edge)) is None:
+    if on_fold.fold.partner(on_fold.places[event.edge]) is None:
         return False
     on_fold.grow(event)
     return True

@@ -59,6 +59,9 @@ class WorldTimeout(TimeLimitExceeded):
     limit = "world-timeout"
 
 
+MOVE_TIMEOUT, WORLD_TIMEOUT = 5.0, 60.0
+"""The default limits, in seconds."""
+
 MOST_SECONDS = 10**6
 """The longest time limit, about eleven days."""
 
@@ -76,8 +79,8 @@ class Limits:
     """
 
     budget: int | None = None
-    move_timeout: float = 5.0
-    world_timeout: float = 60.0
+    move_timeout: float = MOVE_TIMEOUT
+    world_timeout: float = WORLD_TIMEOUT
 
     def __post_init__(self) -> None:
         for name in ("move_timeout", "world_timeout"):
@@ -91,12 +94,11 @@ class Limits:
     def options(self) -> tuple[str, ...]:
         """The words of the command line that set the limits that are not default."""
         words: list[str] = []
-        usual = Limits()
         if self.budget is not None:
             words += ["--budget", str(self.budget)]
-        if self.move_timeout != usual.move_timeout:
+        if self.move_timeout != MOVE_TIMEOUT:
             words += ["--move-timeout", f"{self.move_timeout:g}"]
-        if self.world_timeout != usual.world_timeout:
+        if self.world_timeout != WORLD_TIMEOUT:
             words += ["--world-timeout", f"{self.world_timeout:g}"]
         return tuple(words)
 

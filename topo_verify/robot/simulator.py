@@ -37,7 +37,8 @@ class Misuse(MapperStopped):
 @lru_cache(maxsize=64)
 def percepts(world: World) -> tuple[Percept, ...]:
     """The percept with each dart as the reference dart: sigma^marker(dart) = root."""
-    row = [Percept(world.degrees[vertex], None) for vertex in world.vertex_of]
+    unmarked = [Percept(degree, None) for degree in world.degrees]
+    row = [unmarked[vertex] for vertex in world.vertex_of]
     if world.root is not None:
         rotation = world.vertices[world.marker_vertex]
         for dart in rotation:
@@ -168,11 +169,11 @@ class SimulatedRobot:
             require_purpose(purpose)
         except Misuse as why:
             self._stop(why)
-        self._at = self._world.alpha[exit_dart(self._world, self._at, number)]
+        self._at = at = self._world.alpha[exit_dart(self._world, self._at, number)]
         self._cost += 1
-        self._percept = self._percepts[self._at]
-        self.events.append(shared_move(number, self._percept, purpose))
-        return self._percept
+        self._percept = percept = self._percepts[at]
+        self.events.append(shared_move(number, percept, purpose))
+        return percept
 
     def declare(self, event: ev.Decision | Mapping[str, object]) -> None:
         """Put a decision on record: see `plain_decision`."""

@@ -49,7 +49,7 @@ def gap(trace: Sequence[Event]) -> Gap:
         match event:
             case Move(door, percept):
                 if setting_out:
-                    e, ends = on_fold.place(edge), ((h, on_fold.place(h)) for h in alive)
+                    e, ends = on_fold.places[edge], ((h, on_fold.places[h]) for h in alive)
                     refuted |= {h for h, end in ends if any(fold.contradictions(e, end, ()))}
                     setting_out = False
                 fold.move(door, percept)

@@ -15,8 +15,7 @@ Source: docs/semantics.md, section 11, with the formula and its proof.
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from itertools import accumulate, chain
 from typing import TYPE_CHECKING
 
@@ -24,46 +23,34 @@ if TYPE_CHECKING:
     from topo_verify.world.enumeration.rank_order import Table
 
 
-@dataclass(frozen=True)  # cached_property needs `__dict__`
 class BreadthFirstTree:
     """The breadth-first tree of a world from v0, in the numbering of its canonical code, `table`.
 
     The first dart of a vertex leads to its parent; parents stand before their children.
+
+    Attributes:
+        vertex: the vertex of each dart.
+        first: the first dart of each vertex.
+        parent: the parent of each vertex; v0 is its own.
+        depth: the distance of each vertex from v0.
+        chords: the lesser dart of each edge outside the tree, ascending.
     """
 
-    table: Table
-
-    @cached_property
-    def vertex(self) -> tuple[int, ...]:
-        """The vertex of each dart."""
-        degrees = self.table[0]
-        return tuple(v for v, degree in enumerate(degrees) for _ in range(degree))
-
-    @cached_property
-    def first(self) -> tuple[int, ...]:
-        """The first dart of each vertex."""
-        return tuple(accumulate(self.table[0], initial=0))[:-1]
-
-    @cached_property
-    def parent(self) -> tuple[int, ...]:
-        """The parent of each vertex; v0 is its own."""
-        alpha = self.table[1]
-        return tuple(self.vertex[alpha[dart]] if dart else 0 for dart in self.first)
-
-    @cached_property
-    def depth(self) -> tuple[int, ...]:
-        """The distance of each vertex from v0."""
-        depth = [0] * len(self.first)
-        for v in range(1, len(depth)):
-            depth[v] = depth[self.parent[v]] + 1
-        return tuple(depth)
-
-    @cached_property
-    def chords(self) -> tuple[int, ...]:
-        """The lesser dart of each edge outside the tree, ascending."""
+    def __init__(self, table: Table) -> None:
+        self.table = table
+        degrees, alpha = table
+        self.vertex = [v for v, degree in enumerate(degrees) for _ in range(degree)]
+        self.first = [*accumulate(degrees[:-1], initial=0)]
+        self.parent, self.depth = [0], [0]
+        for dart in self.first[1:]:
+            self.parent.append(self.vertex[alpha[dart]])
+            self.depth.append(self.depth[self.parent[-1]] + 1)
         entries = set(self.first[1:])  # first darts end tree edges
-        alpha = self.table[1]
-        return tuple(d for d, other in enumerate(alpha) if d < other and other not in entries)
+        self.chords = [d for d, other in enumerate(alpha) if d < other and other not in entries]
+
+    def weight(self, chord: int) -> int:
+        """The length of the chord's loop."""
+        return self.depth[self.vertex[chord]] + 1 + self.depth[self.vertex[self.table[1][chord]]]
 
     def climb(self, vertex: int, goals: Container[int] = (0,)) -> Iterator[int]:
         """The vertices from this one up to the first goal, excluded."""
@@ -84,10 +71,6 @@ class BreadthFirstTree:
         end = self.vertex[self.table[1][chord]]
         return [*self.down(self.vertex[chord]), chord, *self.home(end)]
 
-    def weight(self, chord: int) -> int:
-        """The length of the chord's loop."""
-        return self.depth[self.vertex[chord]] + 1 + self.depth[self.vertex[self.table[1][chord]]]
-
     def doors(self, darts: Iterable[int], reference: int = 0) -> tuple[int, ...]:
         """The doors of a walk, each counted from the dart of arrival."""
         degrees, alpha = self.table
@@ -105,7 +88,10 @@ def least_cost(table: Table) -> int:
     core = {0}
     for chord in tree.chords:
         for dart in (chord, table[1][chord]):
-            core.update([*tree.climb(tree.vertex[dart], core)])
+            v = tree.vertex[dart]
+            while v not in core:
+                core.add(v)
+                v = tree.parent[v]
     pendant = [v for v in range(len(tree.first)) if v not in core]
     _, saved = _last(tree, core, pendant)
     return sum(map(tree.weight, tree.chords)) + 2 * len(pendant) - saved

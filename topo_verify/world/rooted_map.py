@@ -79,7 +79,8 @@ class World:
                 f"the world is not connected: no way leads from the marker (dart {self.root}) to"
                 f" dart {lost}; give one world a file, or join the parts"
             )
-        validation.require_one_each(len(self.vertices), self.vertex_names, self.positions)
+        if self.vertex_names or self.positions:
+            validation.require_one_each(len(self.vertices), self.vertex_names, self.positions)
 
     @classmethod
     def from_rotations(
@@ -180,7 +181,7 @@ class World:
     @cached_property
     def edges(self) -> tuple[tuple[Dart, Dart], ...]:
         """The darts of each edge, lesser first, ascending."""
-        return tuple((dart, other) for dart, other in enumerate(self.alpha) if dart < other)
+        return tuple([(dart, other) for dart, other in enumerate(self.alpha) if dart < other])
 
     @property
     def marker(self) -> Dart | None:
@@ -283,7 +284,7 @@ class World:
         """The canonical code. O(m)."""
         order, degrees = self._discovery
         number = {dart: place for place, dart in enumerate(order)}
-        return degrees, tuple(number[self.alpha[dart]] for dart in order)
+        return degrees, tuple([number[self.alpha[dart]] for dart in order])
 
     @cached_property
     def id(self) -> str:

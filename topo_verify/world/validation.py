@@ -8,8 +8,9 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Mapping, Sequence, Sized
 from collections.abc import Set as AbstractSet
 from contextlib import suppress
+from itertools import chain
 from math import isfinite
-from operator import index
+from operator import eq, index
 from typing import Any, SupportsIndex, cast
 
 from topo_verify.errors import InputError, plural
@@ -33,6 +34,13 @@ def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int |
             f"the marker points at dart {root}, which is out of range:"
             f" name one of the darts 0 … {darts - 1}"
         )
+    numbers = range(darts)
+    if (  # all is well: the usual case, quickly
+        set(sigma) == set(numbers)
+        and dict(zip(alpha, numbers, strict=True)) == dict(enumerate(alpha))  # its own inverse
+        and not any(map(eq, alpha, numbers))
+    ):
+        return
     # ranges first: images are indices below
     for name, row in (("alpha", alpha), ("sigma", sigma)):
         for dart, image in enumerate(row):
@@ -52,13 +60,13 @@ def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int |
                 f"alpha is not an involution: alpha[{dart}] = {other}, but"
                 f" alpha[{other}] = {alpha[other]}; let the two darts of an edge name each other"
             )
-    if len(set(sigma)) != darts:
-        first = {image: dart for dart, image in reversed(list(enumerate(sigma)))}
-        second = min(dart for dart, image in enumerate(sigma) if first[image] != dart)
-        raise InputError(
-            f"sigma is not a permutation: darts {first[sigma[second]]} and {second} both turn"
-            f" to dart {sigma[second]}; let one of them turn to the dart that none turns to"
-        )
+    # else sigma has an image twice; reversed, the lower dart stays
+    first = {image: dart for dart, image in reversed(list(enumerate(sigma)))}
+    second = min(dart for dart, image in enumerate(sigma) if first[image] != dart)
+    raise InputError(
+        f"sigma is not a permutation: darts {first[sigma[second]]} and {second} both turn"
+        f" to dart {sigma[second]}; let one of them turn to the dart that none turns to"
+    )
 
 
 def require_one_each(
@@ -80,6 +88,14 @@ def require_one_each(
 
 def numbering(rotations: Sequence[Sequence[int]], pairs: Sequence[Sequence[int]]) -> dict[int, int]:
     """The number of each dart, ascending; refuses darts without exactly one vertex and one edge."""
+    darts, ends = [*chain.from_iterable(rotations)], [*chain.from_iterable(pairs)]
+    if (  # all is well: the usual case, quickly
+        len(darts) == len(ends) == len(set(darts))
+        and set(darts) == set(ends)
+        and {2}.issuperset(map(len, pairs))
+        and (len(rotations) == 1 or (len(rotations) > 1 and all(rotations)))
+    ):
+        return {dart: place for place, dart in enumerate(sorted(darts))}
     vertex: dict[int, int] = {}
     for place, rotation in enumerate(rotations):
         if not rotation and len(rotations) > 1:
@@ -116,13 +132,11 @@ def numbering(rotations: Sequence[Sequence[int]], pairs: Sequence[Sequence[int]]
                     " one of the two places"
                 )
             edge[dart] = place
-    for dart, place in vertex.items():
-        if dart not in edge:
-            raise InputError(
-                f"dart {dart} of vertices[{place}] belongs to no edge: put it into 'edges' with the"
-                " dart at its other end, or take it out"
-            )
-    return {dart: place for place, dart in enumerate(sorted(vertex))}
+    dart, *_ = (dart for dart in vertex if dart not in edge)  # that is left to be wrong
+    raise InputError(
+        f"dart {dart} of vertices[{vertex[dart]}] belongs to no edge: put it into 'edges' with the"
+        " dart at its other end, or take it out"
+    )
 
 
 def require_marker(marker: int | None, darts: Container[int]) -> None:
@@ -174,13 +188,15 @@ def _rows(name: str, value: object) -> list[list[int]]:
             f" of darts {'a vertex' if name == 'vertices' else 'an edge'}"
         )
     rows: list[list[int]] = []
-    kinds = [type(row).__name__ for row in given]
     for place, row in enumerate(given):
         # a set has no order
         items = None if name == "vertices" and isinstance(row, AbstractSet) else _items(row)
+        if items and {int}.issuperset(map(type, items)) and max(*map(abs, items), 0) < 2**64:
+            rows.append(items)  # the usual case, quickly
+            continue
         darts = [dart for item in items or () if (dart := _integer(item)) is not None]
         if items is None or len(darts) < len(items):
-            got = f"a {kinds[place]}" if items is None else "one with something else in it"
+            got = f"a {type(row).__name__}" if items is None else "one with something else in it"
             raise InputError(
                 f"expected a list of darts (integers of at most 64 bits) as the map's"
                 f" {name}[{place}], got {got}: give their numbers"

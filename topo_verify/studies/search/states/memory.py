@@ -143,10 +143,10 @@ def _behind(run: ReplayedTrace) -> Hashable:
 def _records(run: ReplayedTrace) -> Hashable:
     """What earlier sequences showed behind darts that are unexplored now."""
     rests = (
-        run.records.trace(KnownDart(event.dart), sequence, when + 1)
-        for when, event, pose, _, sequences, _, _ in run.rounds
-        if isinstance(event, Augment) and pose
-        for sequence in sequences
+        run.records.trace(KnownDart(event.dart), sequence, decision.when + 1)
+        for decision in run.rounds
+        if isinstance(event := decision.event, Augment) and decision.pose
+        for sequence in decision.sequences
     )
     now = len(run.trace)
     return frozenset((at, rest) for at, rest in rests if rest and run.map.is_open(at, now))
