@@ -1,7 +1,7 @@
 """Exceptions, grouped by who must act, and words for messages.
 
-The command line turns `InputError`, `ClaimFailed` (`ClaimUndecided`) and `InternalError` into the
-exit codes 2, 1 (3) and 70.
+The command line exits with 2 for `InputError`, 1 for `ClaimFailed`, 3 for `ClaimUndecided` and
+70 for `InternalError`.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class TopoVerifyError(Exception):
 
 
 class InputError(TopoVerifyError, ValueError):
-    """The input cannot be used; the text is one sentence: the input, the place and the mend.
+    """The input cannot be used; one sentence names the input, the place and the mend.
 
     It may quote a file's name or content, so its control characters are escaped.
     """

@@ -6,9 +6,9 @@
     @numba.njit
     def explore(robot): ...              # topo-verify search --library my_mapper.py:explore
 
-The functions are those of `topo_verify.h`, without `tv_`; that file describes them. A robot is the
-address of its `tv_robot`. Rows are contiguous numpy arrays of int64; anything else is an error when
-the mapper is compiled. Importing this module imports numba.
+The functions are those of `topo_verify.h`, without `tv_`; that file describes them. A robot is
+the address of its `tv_robot`. Rows are contiguous numpy arrays of int64; numba refuses others
+when it compiles the mapper. Importing this module imports numba.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ class NativePercept(NamedTuple):
 
 
 def _called(_typing: Any, _robot: Any, _member: Any, given: Any) -> Any:
-    """A call of a member of the robot with its world and these words and rows."""
+    """Call a member of the robot with its world and these words and rows."""
     for argument in given:
         if isinstance(argument, types.Array) and (
             argument.dtype,
@@ -110,13 +110,13 @@ _call: Callable[[int, int, tuple[int | Row, ...]], int] = _intrinsic(_called)
 
 @_compiled
 def word(percept: NativePercept) -> int:
-    """A percept as one word, as evidence has it: `tv_word`."""
+    """A percept as one word, as in evidence."""
     return percept.degree * 65536 + percept.marker + 1
 
 
 @_compiled
 def percept_of(word: int) -> NativePercept:
-    """The percept of a word: `tv_percept_of`."""
+    """The percept of a word."""
     return NativePercept(word >> 16, NONE if word < 0 else (word & 65535) - 1)
 
 
@@ -128,7 +128,7 @@ def look(robot: int) -> NativePercept:
 
 @_compiled
 def move(robot: int, door: int, purpose: int = UNSAID) -> NativePercept:
-    """Leave by a door, 0 to degree - 1: the percept behind it. Costs 1."""
+    """Leave by a door, 0 to degree - 1; return the percept behind it. Costs 1."""
     return percept_of(_call(robot, _MOVE, (door, purpose)))
 
 

@@ -10,7 +10,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from itertools import chain
 from pathlib import Path
 
@@ -25,7 +25,7 @@ from topo_verify.campaign.identity import source_hash
 from topo_verify.campaign.pool import Pool
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import targets
-from topo_verify.campaign.work import Division, Loss, Work, in_order
+from topo_verify.campaign.work import Division, Loss, Work
 from topo_verify.campaign.worker import WorkerProcess
 from topo_verify.programs.launcher import prepare
 from topo_verify.programs.loaded import Loaded
@@ -402,15 +402,12 @@ def serve(job):
                 os._exit(5)
             if number == -2:
                 time.sleep(1000)
-            if number == -3:
-                while not os.path.exists("go"):
-                    time.sleep(0.01)
         return numbers
     yield handle
     with open("left", "a") as file:
         file.write("left\\n")
 """
-"""Takes lists of numbers and returns them; some of them kill, hang, or wait for a file `go`."""
+"""Takes lists of numbers and returns them; some of them kill or hang."""
 
 Numbers = list[int]
 
@@ -442,31 +439,8 @@ def toy_work(*, job: str = "", silence: float = 60.0, attempts: int = 2) -> Work
 
 def results(work: Work[Numbers, Numbers], *tasks: Numbers, size: int = 2) -> list[Numbers]:
     with Pool(work, size) as pool:
-        return list(in_order(pool, tasks, ahead=4))
-
-
-@pytest.mark.usefixtures("toy")
-@pytest.mark.parametrize("size", [1, 3])
-def test_results_come_in_the_order_of_the_tasks(size: int) -> None:
-    tasks = [[n, n + 1] for n in range(20)]
-    assert results(toy_work(), *tasks, size=size) == tasks
-
-
-def test_a_slow_task_holds_back_the_results_of_a_few_others_only(toy: Path) -> None:
-    taken: list[int] = []
-
-    def tasks() -> Iterator[Numbers]:
-        for number in (-3, *range(20)):
-            taken.append(number)
-            if len(taken) == 4:  # as many as may be taken: now the first of them may go on
-                (toy / "go").touch()
-            yield [number]
-
-    with Pool(toy_work(), 2) as pool:
-        ordered = in_order(pool, tasks(), ahead=4)
-        assert next(ordered) == [-3]
-        assert len(taken) == 4
-        assert list(ordered) == [[n] for n in range(20)]
+        done = {id(task): result for task, result in pool.run(tasks)}
+    return [done[id(task)] for task in tasks]
 
 
 @pytest.mark.usefixtures("toy")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from topo_verify.campaign import progress as module
-from topo_verify.campaign.progress import Progress, ProgressRate, duration
+from topo_verify.campaign import campaign as module
+from topo_verify.campaign.campaign import Progress, ProgressRate, duration
 
 Report = tuple[str, int, int]
 

@@ -1,8 +1,8 @@
-"""An attempt: a mapper runs in a world, every claim is judged, and a row is made of it.
+"""An attempt: runs a mapper in a world, judges every claim, and makes the row.
 
-**The second try.** A program, or a mapper in its own process, may be killed by its own fault or by
-the out-of-memory killer (SIGKILL). So the world is tried again. If the mapper fails again, the
-first run counts. If it passes, a crash is still a finding, and SIGKILL leaves the world undecided.
+**The second try.** A process may be killed through the mapper's fault or by the out-of-memory
+killer (SIGKILL), so the world is tried again. If the mapper fails again, the first run counts.
+If it passes, a crash is still a finding, and SIGKILL leaves the world undecided.
 """
 
 from __future__ import annotations
@@ -30,15 +30,14 @@ from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
 OUTSIDE = "perhaps for a reason outside; the second try passed"
-"""What is said of a run that was lost once."""
 
 KEPT_FINDINGS = 5
-"""Most findings of each claim that a row keeps."""
+"""Most findings of each claim in a row."""
 
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """A run of a mapper in a world, and its judgement.
+    """A run and its judgement.
 
     Attributes:
         seconds: processor time of mapper and robot.
@@ -73,8 +72,7 @@ def attempt(  # noqa: PLR0913  an argument an option
     """Run a mapper in a world, again if its process was killed, and judge the run.
 
     Args:
-        where: the world, as the command line names it.
-        strict: judge claim 10 also in worlds with more than 2,000 edges.
+        where: the world's name on the command line.
         witness: also run the mapper in the witness world of a wrong map.
         known: replaces `check`.
         beat: called before each run and each judgement.
@@ -110,7 +108,7 @@ def attempt(  # noqa: PLR0913  an argument an option
 
 
 def _processor_seconds(program: Program | None) -> float:
-    """Seconds of processor time that this process and the present ones of a program have used."""
+    """Processor seconds used by this process and the present ones of a program."""
     seconds = process_time()
     if program is not None and program.process is not None:
         for task in tasks_of(program.process):
@@ -120,19 +118,12 @@ def _processor_seconds(program: Program | None) -> float:
     return seconds
 
 
-def row_of(made: Attempt, where: str, place: int, turn: int = 0, look: Look | None = None) -> Row:
-    """The row of a run.
-
-    Args:
-        where: the world, as the command line names it.
-        place: its rank among the worlds of its size, or its place in a list.
-        turn: the number of runs in the same world before this one.
-        look: the study's note.
-    """
-    run, report = made.run, made.report
+def row_of(judged: Attempt, where: str, place: int, turn: int = 0, look: Look | None = None) -> Row:
+    """The row of a run; `place`, `turn` and `note` (by `look`) are as in `Row`."""
+    run, report = judged.run, judged.report
     why = None
-    if made.lost is not None:
-        why = f"its process was ended by {made.lost}, {OUTSIDE}"
+    if judged.lost is not None:
+        why = f"its process was ended by {judged.lost}, {OUTSIDE}"
     if undecided(run, report):
         open_claims = [name for name, status in report.claims.items() if status == "undecided"]
         why = run.stopped or f"undecided: {', '.join(open_claims)}"
@@ -155,16 +146,16 @@ def row_of(made: Attempt, where: str, place: int, turn: int = 0, look: Look | No
         undecided=why,
         ended=_ended(run),
         stopped=run.stopped,
-        lost=made.lost,
+        lost=judged.lost,
         moves=hashed(doors),
         decisions=hashed(decisions) if decisions else None,
         map=_map(run, report),
         timed_out=run.limit in ("move-timeout", "world-timeout"),
-        seconds=made.seconds,
-        note=None if look is None else look(made),
-        choices=made.choices,
+        seconds=judged.seconds,
+        note=None if look is None else look(judged),
+        choices=judged.choices,
     )
-    if row.findings or row.note is not None:  # only these hold what a mapper made
+    if row.findings or row.note is not None:  # only these hold objects of a mapper
         return _decoder.decode(msgspec.json.encode(row, enc_hook=repr))
     return row
 
@@ -175,11 +166,9 @@ _decoder = msgspec.json.Decoder(Row)
 def lost_row(
     world: World, place: int, where: str, mapper: str, limits: Limits, cause: str, *, external: bool
 ) -> Row:
-    """The row of a run that took its process with it.
+    """The row of a run that took its process with it, in the words of `cause`.
 
-    Args:
-        cause: what became of the process, in words.
-        external: the mapper may not be at fault; then the world is undecided.
+    If `external`, the mapper may not be at fault, and the world is undecided.
     """
     bare = Row(
         world=where,
@@ -216,10 +205,9 @@ def _ended(run: Exploration) -> str:
 
 
 def _counted(trace: Sequence[ev.Event]) -> tuple[list[int], list[object], int, int, int]:
-    """Doors; declared decisions; how many rejections, and how many without motion; confirmations.
+    """Doors, declared decisions, rejections, those without motion, confirmations.
 
-    A decision is the number of moves before it, edge, hypotheses, rule, kind, dart. Evidence and
-    purposes say why, not what, and are left out.
+    A decision leaves out evidence and purposes: they explain it and do not change it.
     """
     doors: list[int] = []
     decisions: list[object] = []

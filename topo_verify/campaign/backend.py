@@ -1,13 +1,13 @@
-"""Where shards are examined: in this process, in worker processes, on a Dask cluster.
+"""Examines shards in this process, in worker processes or on a Dask cluster.
 
-What a lost worker means, for every study:
+A lost worker means the same in every study:
 
-- A run that loses its worker twice is a finding, for no map was delivered. So is a run whose worker
-  is silent for longer than any limit allows.
+- A run that loses its worker twice is a finding, since it delivers no map. So is a run whose
+  worker is silent for longer than any limit allows.
 - A run that loses its worker once and passes later is a finding, too: a right mapper does not
   crash.
-- If something else may have ended the worker (SIGKILL, as by the out-of-memory killer; or silence,
-  if it passed later), the world is undecided.
+- If something else may have ended the worker (SIGKILL, as by the out-of-memory killer; or
+  silence, if the run passed later), the world is undecided.
 """
 
 from __future__ import annotations
@@ -28,7 +28,6 @@ from topo_verify.campaign.attempt import OUTSIDE, Look, lost_row
 from topo_verify.campaign.cluster import Cluster, ClusterPool
 from topo_verify.campaign.identity import Identity, merged, require_equal, source_hash
 from topo_verify.campaign.pool import Pool
-from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import SECOND_TRY, Row
 from topo_verify.campaign.run import on_engine
 from topo_verify.campaign.tally import Counts, Tally, notable
@@ -48,13 +47,12 @@ COMPILING = 1200.0
 """Seconds that a worker of the compiled engine has to get ready."""
 
 PARTS = 16
-"""Parts into which a shard is cut when whole machines were lost with it."""
+"""Parts of a shard that lost whole machines."""
 
 _LAST = sys.maxsize
 """Stands for the number of the last run of a shard."""
 
 MACHINES = "the Dask worker was lost, each time"
-"""Why a world is undecided that lost whole machines."""
 
 SHORT_OF_MEMORY = "the mapper raised MemoryError there, and here it did not"
 """Why a world is undecided in which a worker, but not the client, lacked memory."""
@@ -66,12 +64,7 @@ Depends = Sequence[str] | None
 
 
 class CampaignJob(msgspec.Struct, frozen=True):
-    """What a worker gets before its first shard.
-
-    Attributes:
-        sources: the hash of the mappers' files.
-        depends: see `Depends`.
-    """
+    """What a worker gets before its first shard; `sources` is a hash of the mappers' files."""
 
     campaign: c.Campaign
     sources: str
@@ -81,11 +74,9 @@ class CampaignJob(msgspec.Struct, frozen=True):
 def here(
     mappers: Sequence[Target] | None = None, *, depends: Depends = None, look: Look | None = None
 ) -> c.Backend:
-    """The backend that works in this process.
+    """The backend that works in this process; it closes only mappers that it loads.
 
-    Args:
-        mappers: those of the campaign, if they are loaded already; they are not closed here.
-        look: replaces the campaign's `look`.
+    `look` replaces the campaign's.
     """
 
     def run(
@@ -104,9 +95,9 @@ def here(
 
 
 def pooled(workers: int, depends: Depends = None) -> c.Backend:
-    """Worker processes of this machine; 0: this process.
+    """The backend of worker processes; 0: this process.
 
-    The compiled engine calls native mappers in a worker in any case.
+    The compiled engine always calls native mappers in a worker.
     """
 
     def run(
@@ -126,13 +117,13 @@ def pooled(workers: int, depends: Depends = None) -> c.Backend:
 
 
 def clustered(cluster: Cluster, depends: Depends = None) -> c.Backend:
-    """The workers of a Dask cluster."""
+    """The backend of a Dask cluster."""
 
     def run(
         campaign: c.Campaign, shards: Iterator[c.Shard], in_flight: c.InFlight
     ) -> c.ShardResults:
-        del in_flight  # a cluster says no more than which shards are finished
-        # In any case ask what mappers load: other machines may have other files.
+        del in_flight  # a cluster reports finished shards only
+        # Always ask what mappers load: other machines may have other files.
         depends_on = tuple(depends or ())
         mappers = campaign.load()
         try:
@@ -205,11 +196,7 @@ def remade(job: bytes) -> Work[c.Shard, c.ShardResult]:
 
 
 def _work(job: CampaignJob, ours: Loaded | None = None) -> Work[c.Shard, c.ShardResult]:
-    """The work of a campaign's workers.
-
-    Args:
-        ours: what the mappers have loaded here, to compare with other machines.
-    """
+    """The work of a campaign's workers; `ours` is what the mappers have loaded here."""
     campaign = job.campaign
 
     def require_ours(result: c.ShardResult, worker: str) -> None:
@@ -247,8 +234,8 @@ def _with_our_memory(
 ) -> c.ShardResult:
     """The result of a worker; if a mapper lacked memory there, the result of a process of ours.
 
-    A worker may have less memory than this process. So a MemoryError refutes only if the mapper
-    fails here, too; otherwise the world is undecided.
+    A worker may have less memory. So a MemoryError refutes only if the mapper fails here, too;
+    otherwise the world is undecided.
     """
     short = [
         row for row in result.rows if any(_MEMORY_ERROR.search(f.message) for f in row.findings)
@@ -274,8 +261,7 @@ def _with_our_memory(
 def serve(job: bytes) -> Generator[Handler]:
     """Load the mappers of a `CampaignJob`, then examine shards.
 
-    Raises:
-        InputError: a mapper cannot be loaded, or its source has changed.
+    InputError: a mapper cannot be loaded, or its source has changed.
     """
     signal.signal(signal.SIGTERM, lambda _signal, _frame: sys.exit(1))  # through this context
     given = msgspec.json.decode(job, type=CampaignJob)
@@ -309,18 +295,14 @@ def _joined(campaign: c.Campaign, parts: list[c.ShardResult]) -> c.ShardResult:
     rows = [row for part in parts for row in part.rows]
     return c.ShardResult(
         sum((part.tally for part in parts), Tally()),
-        _kept(campaign, rows),
+        tuple(rows) if campaign.keep == "all" else notable(rows, campaign.seed),
         reduce(partial(merged, where="the campaign"), known) if known else None,
         sum((part.seconds for part in parts), c.EngineSeconds()),
     )
 
 
-def _kept(campaign: c.Campaign, rows: Sequence[Row]) -> tuple[Row, ...]:
-    return tuple(rows) if campaign.keep == "all" else notable(rows, campaign.seed)
-
-
 def _cut(campaign: c.Campaign, shard: c.Shard, runs: int) -> list[c.Shard]:
-    """Cut a shard around the world where its worker was last seen, after some runs."""
+    """Cut a shard around the world at which its worker was lost, after `runs` runs."""
     if calls_native(campaign):
         return _cut_at_rank(shard, runs)
     places = [place for place, _, _ in campaign.worlds.worlds(shard)]
@@ -333,7 +315,7 @@ def _cut(campaign: c.Campaign, shard: c.Shard, runs: int) -> list[c.Shard]:
 def _cut_at_rank(shard: c.Shard, ranks: int) -> list[c.Shard]:
     """Cut a shard around the rank at which native code was lost.
 
-    If it was lost behind the last, any of its worlds may have damaged its process.
+    After the last rank, any of its worlds may have damaged the process: then halve it.
     """
     worlds = shard.stop - shard.start
     if worlds < 2:
@@ -376,7 +358,7 @@ def _lost(campaign: c.Campaign, shard: c.Shard, loss: Loss) -> c.ShardResult:
 
 
 def _lost_in_native_code(campaign: c.Campaign, shard: c.Shard, loss: Loss) -> c.ShardResult:
-    """The result of one world in which native code was lost: by the mapper in a fresh process.
+    """The result of a world that native code did not survive: a run in a fresh process.
 
     If it delivers a map there, the world is undecided.
     """
@@ -413,7 +395,7 @@ def counted(worlds: Iterable[Sequence[Row]]) -> c.ShardResult:
 def _row_at(
     campaign: c.Campaign, shard: c.Shard, runs: int, cause: str, *, external: bool
 ) -> Row | None:
-    """The row of the run in which a worker was lost, after some runs."""
+    """The row of the run in which a worker was lost, after `runs` runs."""
     worlds = list(campaign.worlds.worlds(shard))
     if not worlds:
         return None
@@ -447,7 +429,7 @@ def _survived(
                 known.place == row.place and (known.failed or known.lost) for known in result.rows
             )
             or any(part.start <= row.place < part.stop for part in given_up)
-            # Another worker was ahead: the campaign ends at the first failing world.
+            # Another worker was ahead of the failing world at which the campaign ends.
             or (failing and campaign.stop.failing == 1 and row.place > min(failing))
         ):
             continue
@@ -469,7 +451,6 @@ def _with_loss(result: c.ShardResult, row: Row) -> c.ShardResult:
 
 
 def _passed_later(known: Row, lost: Row) -> Row:
-    """The row of a run that passed at the second try."""
     if lost.undecided is None:
         return msgspec.structs.replace(
             known, ended=lost.ended, stopped=lost.stopped, findings=lost.findings
@@ -485,12 +466,8 @@ def _passed_later(known: Row, lost: Row) -> Row:
 class MapperCampaign:
     """The runs of one mapper in a list of worlds.
 
-    Mappers may join later, and each stops at its own first failing world. The store finds a world
-    by name and code, so another call may list it in another order.
-
-    Attributes:
-        store: where rows are kept, or None.
-        mapper: the mapper, if it is loaded already.
+    Unlike in a campaign of several mappers, another one can join later, and each stops at its
+    first failing world. The store finds a world by name and code, not by its place in the list.
     """
 
     campaign: c.Campaign
@@ -500,7 +477,7 @@ class MapperCampaign:
 
     @property
     def total(self) -> int:
-        """The number of the worlds."""
+        """The number of worlds."""
         return sum(self.campaign.worlds.totals().values())
 
     @property
@@ -510,12 +487,8 @@ class MapperCampaign:
             return 0
         return sum(self.store.get(shard) is not None for shard in c.listed_shards(self.worlds))
 
-    def rows(self, workers: int, tell: Progress | None = None) -> Iterator[Row]:
-        """The rows, in the order of the worlds; those that the store lacks are made.
-
-        Args:
-            workers: the number of processes; 0: this one alone.
-        """
+    def rows(self, workers: int, tell: c.Progress | None = None) -> Iterator[Row]:
+        """The rows in the order of the worlds; those that the store lacks are made."""
         depends = None if self.store is None else ()
         backend = pooled(min(workers, self.total), depends)
         if self.mapper is not None and not workers:

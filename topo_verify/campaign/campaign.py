@@ -1,19 +1,20 @@
-"""A campaign: worlds, mappers, limits, what is kept, as data; and its results in order.
+"""A campaign as data (worlds, mappers, limits, what is kept), and its results in order.
 
     for shard, result in results(campaign, backend):
         tally += result.tally
         rows += result.rows
 
-Worlds are cut into shards. A backend examines them in any order and process; `results` restores the
-order, and drops what lies behind the world at which a campaign stops. So results depend on the
-campaign alone.
+A backend examines shards of worlds in any order and process; `results` restores the order and
+drops what lies behind the world at which a campaign stops. So results depend on the campaign
+alone.
 
-`examine` is the only loop over worlds and mappers. A study extends it by a function's name,
-`module:function`: `look` notes more about a run, `ways` makes several runs of a mapper in a world.
+`examine` is the only loop over worlds and mappers. A study extends it by the names of functions,
+`module:function`: `look` notes more about a run, `ways` makes several runs of a mapper in a
+world.
 
-**The order of a list.** A mapper that knew the order of a list could count and be right without
-exploring. So a seed draws the order of each `BLOCK` of listed worlds. What this does not show: that
-a mapper does not know its block.
+**The order of a list.** A mapper that knew it could be right by counting worlds, so a seed
+shuffles each `BLOCK` of listed worlds. What this does not show: that a mapper does not know its
+block.
 """
 
 from __future__ import annotations
@@ -23,14 +24,15 @@ from contextlib import closing
 from functools import cache, partial
 from hashlib import sha256
 from itertools import chain, islice
+from math import inf
 from random import Random
+from time import monotonic
 from typing import Any, Literal, Protocol
 
 import msgspec
 
 from topo_verify.campaign.attempt import Attempt, Look, attempt, row_of
 from topo_verify.campaign.judge import CheckedTraces, Checks
-from topo_verify.campaign.progress import Progress, ProgressRate
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.campaign.tally import Counts, Notable, Tally
@@ -48,23 +50,23 @@ from topo_verify.world.enumeration.pruned import ranked_tables
 from topo_verify.world.rooted_map import Code, World
 
 BLOCK = 10_000
-"""Number of listed worlds whose order is drawn at a time."""
+"""Listed worlds that are shuffled together."""
 
 ENGINE_SHARD = 500_000
-"""Number of worlds in a shard of the compiled engine, about two seconds of work."""
+"""Worlds in a shard of the compiled engine, about two seconds of work."""
 
 AGAIN = 200
-"""Least number of worlds that a resumed campaign examines again, if there are as many."""
+"""Least number of stored worlds that a resumed campaign examines again."""
 
 NamedCodes = tuple[tuple[str, Code], ...]
 """Worlds of a list, by name."""
 
 Ways = Callable[[Target, World, Callable[[Target], Attempt]], Iterator[Attempt]]
-"""Makes the runs of a mapper in a world, given how one run is made."""
+"""Makes the runs of a mapper in a world; the function that makes one run is passed in."""
 
 
 class Shard(msgspec.Struct, frozen=True):
-    """Worlds that are examined in one go.
+    """Worlds that are examined together.
 
     Attributes:
         edges: their size; 0 if they are listed.
@@ -79,18 +81,14 @@ class Shard(msgspec.Struct, frozen=True):
 
     @property
     def key(self) -> str:
-        """The name of the shard in a store: its ranks, or a hash of its worlds."""
+        """The shard's name in a store: its ranks, or a hash of its worlds."""
         if not self.listed:
             return f"m{self.edges}/{self.start}-{self.stop}"
         return f"listed-{sha256(msgspec.json.encode(self.listed)).hexdigest()}"
 
 
 class Ranks(msgspec.Struct, frozen=True, tag="ranks"):
-    """Every world of a class with 1 to `edges` edges.
-
-    Attributes:
-        shard: average number of worlds in a shard.
-    """
+    """Every world of a class with 1 to `edges` edges; a shard has `shard` worlds on average."""
 
     edges: int
     kind: str = "any"
@@ -106,16 +104,12 @@ class Ranks(msgspec.Struct, frozen=True, tag="ranks"):
         return WorldClass.parse(self.kind)
 
     def totals(self) -> dict[int, int]:
-        """The number of worlds of each size, by formula.
-
-        Raises:
-            InputError: there is no way to count them.
-        """
+        """The number of worlds of each size. InputError if no formula counts the class."""
         _total(self.world_class, self.edges)  # if there is no way, this size says so first
         return {edges: _total(self.world_class, edges) for edges in range(1, self.edges + 1)}
 
     def shards(self) -> Iterator[Shard]:
-        """The shards. They depend on the class alone, so a later campaign finds them in a store."""
+        """The shards; they depend on the class alone, so another campaign finds them in a store."""
         for edges, worlds in self.totals().items():
             ranks = rank_order.count(edges)
             width = max(1, ranks * self.shard // max(1, worlds))
@@ -134,12 +128,12 @@ def _total(kind: WorldClass, edges: int) -> int:
 
 
 class ListedWorlds(msgspec.Struct, frozen=True, tag="listed"):
-    """Worlds of a list, each a shard. The list stays with the caller."""
+    """Worlds of a list, each a shard. The list itself stays with the caller."""
 
     total: int
 
     def totals(self) -> dict[int, int]:
-        """The number of worlds, of all sizes together."""
+        """The number of worlds of all sizes together, under the key 0."""
         return {0: self.total}
 
     def worlds(self, shard: Shard) -> Iterator[tuple[int, str, World]]:
@@ -174,19 +168,16 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
     """What is to be run, as data that can be hashed, stored and sent.
 
     Attributes:
-        mappers: TARGETs; each runs in every world.
-        pick, order: policies of algorithms of the catalogue.
-        engine: what runs algorithms of the catalogue.
-        limits: of one run.
+        pick, order: policies of catalogue algorithms.
+        engine: what runs catalogue algorithms.
         in_process: a user's mapper shares the process of the harness.
         strict: ask claim 10 in worlds of more than 2,000 edges, too.
-        validate: refuse unknown and doubled fields in a program's messages.
+        validate: refuse unknown and repeated fields in a program's messages.
         record: keep the messages of a program in each `Attempt`.
-        keep: every row, or the notable ones.
         look, asked: `module:function` of a `Look`, and its arguments.
         ways: `module:function` of `Ways`; None: one run of each mapper in each world.
         seed: of the sample, and of the order of a list.
-        drawn: the seed draws the order of a list.
+        drawn: shuffle the list.
     """
 
     worlds: Ranks | ListedWorlds
@@ -208,11 +199,7 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
     drawn: bool = False
 
     def load(self) -> tuple[Target, ...]:
-        """The mappers, in this process.
-
-        Raises:
-            InputError: there is no such mapper or policy, or the engine cannot run it.
-        """
+        """The mappers, loaded in this process. InputError if the engine cannot run them."""
         find = partial(targets, pick=self.pick, order=self.order, in_process=self.in_process)
         mappers = tuple(target for text in self.mappers for target in find(text))
         for mapper in (target.mapper for target in mappers):
@@ -223,12 +210,10 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
         return on_engine(self.engine, mappers, self.limits) if listed else mappers
 
     def identity(self, sources: str) -> dict[str, str]:
-        """Everything that changes a row: a store with the same can be resumed.
+        """Everything that changes a row: a store with the same identity can be resumed.
 
-        How far the campaign goes is left out, so that a finished one can be extended.
-
-        Args:
-            sources: a hash of the mappers' sources.
+        The extent is left out, so that a finished campaign can be extended. `sources` is a hash
+        of the mappers' sources.
         """
         known: dict[str, Any] = msgspec.to_builtins(self)
         worlds = known.pop("worlds")
@@ -248,7 +233,7 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class EngineSeconds(msgspec.Struct, frozen=True):
-    """Seconds of processor time: in the compiled engine, and in the checkers."""
+    """Processor seconds of the compiled engine and of the checkers."""
 
     engine: float = 0.0
     checkers: float = 0.0
@@ -258,12 +243,7 @@ class EngineSeconds(msgspec.Struct, frozen=True):
 
 
 class ShardResult(msgspec.Struct, frozen=True):
-    """The result of a shard.
-
-    Attributes:
-        rows: all of them, or the notable ones.
-        loaded: what the mappers had loaded by then; None: not asked for.
-    """
+    """The result of a shard; `loaded` is None if the mappers were not asked what they load."""
 
     tally: Tally = Tally()
     rows: tuple[Row, ...] = ()
@@ -275,11 +255,11 @@ ShardResults = Generator[tuple[Shard, ShardResult]]
 """Shards, each with its result."""
 
 InFlight = Callable[[int], None]
-"""Called now and then with the number of finished runs in unfinished shards."""
+"""Receives, from time to time, the number of finished runs in unfinished shards."""
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C within a shard; `result` is of the worlds that were finished."""
+    """Ctrl-C within a shard; `result` covers its finished worlds."""
 
     def __init__(self, shard: Shard, result: ShardResult) -> None:
         super().__init__()
@@ -297,13 +277,9 @@ def examine(
     look: Look | None = None,
     known: Checks | None = None,
 ) -> ShardResult:
-    """Run every mapper in every world of a shard.
+    """Run every mapper in every world of a shard; Ctrl-C raises `Interrupted`.
 
-    Args:
-        known: replaces the checkers.
-        look: replaces the campaign's.
-    Raises:
-        Interrupted: Ctrl-C.
+    `look` replaces the campaign's, `known` the checkers.
     """
     counts, kept, rows = Counts(), Notable(campaign.seed), list[Row]()
     if look is None and campaign.look is not None:
@@ -372,7 +348,7 @@ def close(mappers: Iterable[Target]) -> None:
 
 
 Backend = Callable[[Campaign, Iterator[Shard], InFlight], ShardResults]
-"""Examines shards and yields each once finished: `here`, in worker processes, on a cluster."""
+"""Examines shards and yields each once finished: in this process, in workers, on a cluster."""
 
 
 def _idle(_campaign: Campaign, _shards: Iterator[Shard], _in_flight: InFlight) -> ShardResults:
@@ -380,7 +356,7 @@ def _idle(_campaign: Campaign, _shards: Iterator[Shard], _in_flight: InFlight) -
 
 
 class ShardMemory(Protocol):
-    """Keeps the results of finished shards; a `Store` gives one."""
+    """Keeps the results of finished shards; a `Store` provides one."""
 
     @property
     def path(self) -> str:
@@ -396,7 +372,7 @@ class ShardMemory(Protocol):
         ...
 
     def known(self) -> list[Shard]:
-        """The finished shards of a class, in the order of their worlds."""
+        """The finished shards of a class, in order."""
         ...
 
 
@@ -408,16 +384,16 @@ def results(
     store: ShardMemory | None = None,
     tell: Progress | None = None,
 ) -> ShardResults:
-    """Each shard and its result, in order, until the last or until the campaign stops.
+    """Yield each shard with its result, in order, until the last or until the campaign stops.
 
-    After Ctrl-C the finished worlds come, too; then KeyboardInterrupt is raised.
+    After Ctrl-C, the finished worlds are yielded before KeyboardInterrupt is raised.
 
     Args:
         worlds: those of a list.
-        store: finished shards; new results are added.
+        store: where finished shards are read and kept.
         tell: the progress callback.
     Raises:
-        InputError: a shard of the store, examined again, has another result.
+        InputError: a stored shard, examined again, has another result.
     """
     order = _Order(campaign, backend, worlds, store, tell)
     if store is not None and isinstance(campaign.worlds, Ranks):
@@ -426,8 +402,6 @@ def results(
 
 
 class _Order:
-    """Puts the results of shards in order: `examine_again` or not, `results` once."""
-
     def __init__(
         self,
         campaign: Campaign,
@@ -448,7 +422,7 @@ class _Order:
         return worlds.shards() if isinstance(worlds, Ranks) else listed_shards(self._worlds)
 
     def _todo(self) -> Iterator[Shard]:
-        """The shards that no store knows, in the order in which they begin."""
+        """The shards that the store lacks, in the order in which they begin."""
         campaign = self._campaign
         for shard in self._met():
             if isinstance(campaign.worlds, Ranks) and campaign.stop.reached(self._finished):
@@ -478,7 +452,6 @@ class _Order:
                     yield remaining.pop(place)
 
     def results(self) -> ShardResults:
-        """As the function `results`."""
         self._rate.in_flight(0)
         tally = Tally()
         todo = self._todo()
@@ -518,11 +491,7 @@ class _Order:
         self._rate.finished(result.tally.worlds)
 
     def examine_again(self, store: ShardMemory) -> None:
-        """Examine some shards of the store again: no list of what a mapper rests on is complete.
-
-        Raises:
-            InputError: a world has another result.
-        """
+        """Examine some stored shards again, since no list of what a mapper rests on is complete."""
         drawn = self._drawn_again(store)
         with closing(self._backend(self._campaign, drawn, lambda _runs: None)) as examined:
             for shard, result in examined:
@@ -552,3 +521,64 @@ class _Order:
                 sizes.add(shard.edges)
                 worlds += known.tally.worlds
                 yield shard
+
+
+# ---------------------------------------------------------------- progress
+
+Progress = Callable[[str, int, int], None]
+"""A progress callback: (name of the work, amount done, total)."""
+
+
+def no_progress(_what: str, _done: int, _total: int) -> None:
+    """Do nothing: a progress callback."""
+
+
+INTERVAL = 0.1
+"""Least seconds between two calls of a progress callback."""
+
+
+class ProgressRate:
+    """Reports finished worlds, worlds per second and the time left.
+
+    Attributes:
+        done: worlds finished now, without those of a store.
+    """
+
+    def __init__(self, what: str, total: int, report: Progress | None) -> None:
+        self._what, self._total, self._report = what, total, report
+        self._begin = monotonic()
+        self._reported = -inf
+        self._known = 0  # worlds that a ledger knew: they took no time, so the rate leaves them out
+        self.done = 0
+
+    def known(self, worlds: int) -> None:
+        """Count worlds that were finished before."""
+        self._known += worlds
+        self.in_flight(0)
+
+    def finished(self, worlds: int) -> None:
+        """Count worlds that were finished now."""
+        self.done += worlds
+        self.in_flight(0)
+
+    def in_flight(self, worlds: int) -> None:
+        """Report, unless it is too soon; `worlds` of unfinished shards are finished."""
+        now = monotonic()
+        if self._report is None or now < self._reported + INTERVAL:
+            return
+        self._reported = now
+        fresh = self.done + worlds
+        done = min(self._known + fresh, self._total)
+        text = self._what
+        if fresh and now > self._begin:
+            rate = fresh / (now - self._begin)
+            text += f", {rate:,.0f} worlds/s, {duration((self._total - done) / rate)} left"
+        self._report(text, done, self._total)
+
+
+def duration(seconds: float) -> str:
+    """A duration in one unit, exact enough to decide whether to wait: `40 s`, `12 min`."""
+    for unit, size in (("s", 1), ("min", 60), ("h", 3600)):
+        if seconds < 100 * size:
+            return f"{seconds / size:.0f} {unit}"
+    return f"{seconds / 86400:.0f} days"

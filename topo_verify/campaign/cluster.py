@@ -1,16 +1,16 @@
-"""A Dask cluster: tasks in, results out, whichever of its workers are lost.
+"""Does tasks on a Dask cluster, whichever of its workers are lost.
 
 A pool on the worker's machine (cluster_worker.py) settles what a task does to its process. So a
-loss means here that a whole Dask worker went, with its machine, its network or its memory:
+loss here means that a whole Dask worker went:
 
 - The scheduler gives the tasks of a lost worker to others, as often as its setting
   `allowed-failures` says (3). Most losses end here, and change no result.
-- A task lost more often is done again with no other task at work. If it is lost again, it is cut;
+- A task lost more often is done again while no other task runs. If it is lost again, it is cut;
   `Remote.lost` gives the result of a task that cannot be cut, and convicts no mapper.
 - If the scheduler is lost, or no worker is left for `PATIENCE` seconds, an InputError says so.
 
-Workers with another topo-verify or another mapper refuse every task. The client refuses results of
-a worker that loaded a file that differs here.
+Workers with another topo-verify or another mapper refuse every task. The client refuses results
+of a worker that loaded a file that differs here.
 """
 
 from __future__ import annotations
@@ -47,12 +47,12 @@ LOOK = 2.0
 """Seconds between two looks at the number of workers."""
 
 AHEAD = 2
-"""Tasks handed out for each thread of the workers, so that none waits for the client."""
+"""Tasks handed out for each thread, so that none waits for the client."""
 
 
 _DO = f"__import__({cluster_worker.__name__!r}, fromlist=['do']).do(assignment)"
-"""What a worker evaluates. Dask would read a pickled function before it knows the task, so a worker
-that lacks topo_verify would end without a useful error.
+"""What a worker evaluates. Dask would read a pickled function before it knows the task, so a
+worker that lacks topo_verify would end without a useful error.
 """
 
 
@@ -76,7 +76,7 @@ class _Client(Protocol):
 
 
 class Cluster:
-    """A cluster that has answered and has a worker; `connected` makes it."""
+    """A connected cluster with a worker; `connected` makes it."""
 
     def __init__(self, address: str, client: _Client) -> None:
         self.address, self.client = address, client
@@ -87,11 +87,7 @@ class Cluster:
         return self.address == LOCAL
 
     def threads(self) -> int:
-        """Number of tasks that its workers can do at the same time.
-
-        Raises:
-            InputError: the scheduler does not answer.
-        """
+        """Number of tasks that it can do at the same time; InputError if it does not answer."""
         try:
             return sum(self.client.nthreads().values())
         except (OSError, RuntimeError) as error:
@@ -107,7 +103,7 @@ class Cluster:
 
 @contextmanager
 def connected(address: str) -> Generator[Cluster]:
-    """A Dask cluster, for as long as the block lasts.
+    """Connect to a Dask cluster, for as long as the block lasts.
 
     Args:
         address: of the scheduler, as `tcp://host:8786`; or `local`.
@@ -119,7 +115,7 @@ def connected(address: str) -> Generator[Cluster]:
             f"--dask {address} needs dask.distributed: pip install 'topo-verify[cluster]'"
         )
     dask: Any = import_module("dask")
-    # Its loggers report what is handled or said here.
+    # Its loggers would repeat what is handled or reported here.
     names = ("distributed", "distributed.client", "distributed.worker", "tornado", "bokeh")
     with ExitStack() as stack:
         stack.enter_context(dask.config.set({"logging": dict.fromkeys(names, "critical")}))
@@ -137,7 +133,7 @@ def connected(address: str) -> Generator[Cluster]:
             stack.callback(scheduler.close, timeout=ANSWER)
         try:
             if address != LOCAL:
-                distributed.comm.resolve_address(address)  # at once, before anybody is asked
+                distributed.comm.resolve_address(address)  # fail at once on a bad address
             connection = distributed.Client(scheduler, timeout=ANSWER, set_as_default=False)
         except (OSError, ValueError, RuntimeError) as error:
             raise InputError(
@@ -174,12 +170,7 @@ def _no_worker(address: str) -> InputError:
 
 
 class ClusterPool(Generic[TaskT, ResultT]):
-    """The workers of a cluster as a `TaskBackend`: `with` it, `run`; it leaves no task.
-
-    Raises (by `run`):
-        InputError: a worker refuses its task; the scheduler or all workers are lost.
-        InternalError: there is a bug of ours on a worker.
-    """
+    """A pool of a cluster's workers; see `Pool`. On leaving, it cancels what is not done."""
 
     def __init__(self, cluster: Cluster, work: Work[TaskT, ResultT]) -> None:
         if work.remote is None:
@@ -188,7 +179,7 @@ class ClusterPool(Generic[TaskT, ResultT]):
         self._pieces = Pieces(work)
         self._at: dict[_Future, Piece[TaskT, ResultT]] = {}
         self._done: SimpleQueue[_Future] = SimpleQueue()
-        self._suspects: deque[Piece[TaskT, ResultT]] = deque()  # each is done with no other at work
+        self._suspects: deque[Piece[TaskT, ResultT]] = deque()  # each is done alone
         self._alone = False
         self._threads = 0
         self._looked = self._had_threads = monotonic()
@@ -203,27 +194,25 @@ class ClusterPool(Generic[TaskT, ResultT]):
                 self._cluster.client.cancel(list(self._at), force=True)
             self._at.clear()
 
-    def run(
-        self, tasks: Iterable[TaskT], *, room: Callable[[], bool] = lambda: True
-    ) -> Generator[tuple[TaskT, ResultT]]:
-        """As `TaskBackend.run`."""
+    def run(self, tasks: Iterable[TaskT]) -> Generator[tuple[TaskT, ResultT]]:
+        """Yield each task, the same object, and its result, as tasks finish."""
         todo = iter(tasks)
-        self._hand_out(todo, room)
+        self._hand_out(todo)
         while self._at:
             self._listen()
-            self._hand_out(todo, room)
+            self._hand_out(todo)
             while self._pieces.finished:
                 yield self._pieces.finished.popleft()
-            self._hand_out(todo, room)
+            self._hand_out(todo)
 
-    def _hand_out(self, todo: Iterator[TaskT], room: Callable[[], bool]) -> None:
+    def _hand_out(self, todo: Iterator[TaskT]) -> None:
         if self._suspects or self._alone:
             if not self._at and self._suspects:
                 self._alone = True
                 self._submit(self._suspects.popleft())
             return
         while len(self._at) < AHEAD * max(1, self._threads):
-            piece = self._pieces.next(todo, room)
+            piece = self._pieces.next(todo)
             if piece is None:
                 return
             self._submit(piece)
@@ -258,7 +247,7 @@ class ClusterPool(Generic[TaskT, ResultT]):
             raise _no_worker(self._cluster.address)
 
     def _hear(self, future: _Future) -> None:
-        if future.status not in ("finished", "error"):  # cancelled: Dask does so on a lost link
+        if future.status not in ("finished", "error"):  # Dask cancels on a lost link
             raise self._cluster.lost()
         piece, alone = self._at.pop(future), self._alone
         self._alone = False

@@ -1,14 +1,14 @@
-"""What a Dask worker does for our client: a task, in a process that may die or hang.
+"""Does a client's tasks in a Dask worker, each in a process that may die or hang.
 
-Each thread of the worker has a `Pool` of one process, so a mapper that crashes or hangs is tried
-again, bisected and convicted there as with `--workers`. A lost Dask worker is then no mapper's
-fault. The process is kept for the next task of the same job; it ends after `IDLE` seconds without.
+Each thread of the worker has a `Pool` of one process, so a lost Dask worker is no mapper's
+fault. The process is kept for the next task of the same job, for at most `IDLE` seconds.
 
-A worker whose topo_verify or mapper files differ from the client's refuses every task. Each result
-names its worker and, in a search, what the mappers have loaded there, which the client compares.
+A worker whose topo_verify or mapper files differ from the client's refuses every task. Each
+result names its worker and, in a search, what the mappers loaded there, which the client
+compares.
 
-What this does not show: that the results are the workers'. The scheduler believes whatever reaches
-it, and a Dask worker is hidden from other programs only from its first task on.
+What this does not show: that the results are the workers'. The scheduler believes whatever
+reaches it, and a Dask worker is hidden from other programs only from its first task on.
 """
 
 from __future__ import annotations
@@ -40,11 +40,9 @@ class ClusterTask(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """One task, as a client sends it.
 
     Attributes:
-        version: of this format.
         tool, own: the client's version of topo-verify, and the hash of its sources.
-        remade: `module:function`, which makes the `Work` from the job; `work.Remote`.
-        job, task: as JSON.
-        folder: the client's current folder, where relative paths begin, if the worker has it.
+        remade: as in `work.Remote`.
+        folder: the client's current folder, for relative paths, if the worker has it.
     """
 
     version: int
@@ -57,12 +55,7 @@ class ClusterTask(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class ClusterTaskDone(msgspec.Struct, frozen=True, tag=True):
-    """A task is finished.
-
-    Attributes:
-        place: the worker, for a sentence.
-        result: as JSON.
-    """
+    """A task is finished; `place` names the worker in a sentence."""
 
     place: str
     result: msgspec.Raw
@@ -71,10 +64,11 @@ class ClusterTaskDone(msgspec.Struct, frozen=True, tag=True):
 def do(assignment: bytes) -> bytes:
     """Do a `ClusterTask`, given and answered as JSON: a `ClusterTaskDone` or `WorkerFailed`."""
     try:
-        result = _threads.kept.do(_require_ours(assignment))
+        kept: _Kept = vars(_threads).setdefault("kept", _Kept())
+        result = kept.do(_require_ours(assignment))
     except InputError as error:
         return msgspec.json.encode(WorkerFailed(f"{_place()}: {error}", bug=False))
-    except Exception:  # noqa: BLE001  whatever it is, the client is told
+    except Exception:  # noqa: BLE001  the client gets it
         return msgspec.json.encode(WorkerFailed(f"{_place()}: {traceback.format_exc()}", bug=True))
     return msgspec.json.encode(ClusterTaskDone(_place(), msgspec.Raw(result)))
 
@@ -105,10 +99,7 @@ def _place() -> str:
 
 
 def dask_setup(_worker: object) -> None:
-    """Leave Ctrl-C to the client, and shield this process before it has a task.
-
-    Dask calls this when it starts a worker for `--dask local`.
-    """
+    """Leave Ctrl-C to the client, and shield this process; Dask calls this for `--dask local`."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     prepare()
 
@@ -127,7 +118,6 @@ class _Kept:
         self._alarm: threading.Timer | None = None
 
     def do(self, wanted: ClusterTask) -> bytes:
-        """The result of a task as JSON."""
         with self._lock:
             if self._alarm is not None:
                 self._alarm.cancel()
@@ -164,9 +154,4 @@ class _Kept:
         self._pool = self._work = None
 
 
-class _Mine(threading.local):
-    def __init__(self) -> None:
-        self.kept = _Kept()
-
-
-_threads = _Mine()
+_threads = threading.local()

@@ -1,25 +1,24 @@
 """Examines one shard by the compiled engine, and has the checkers judge a part of it again.
 
-The engine runs the algorithms in every world, judges all claims and adds up the numbers. It is not
-trusted. The checkers judge again, from runs of the reference algorithms:
+The engine is not trusted. The checkers judge again, from runs of the reference algorithms:
 
-- every world that the counts name: the first failing ones, of each claim too, so each finding is
-  one of the checkers; the most expensive ones; those in which the first of two algorithms costs
-  more. Verdicts and costs must be those of the counts.
-- a sample: the first worlds of each slice and about one world in `SAMPLE` with the next one, drawn
-  by the campaign's seed. The counts before such a step plus the reference's of the step must equal
-  the counts behind it, with the digest, which covers every door.
+- every world that the counts name: the first failing ones, of each claim too, so that each
+  finding comes from the checkers; the most expensive ones; those in which the first of two
+  algorithms costs more. Verdicts and costs must equal the counts'.
+- a sample: the first worlds of each slice and, drawn by the campaign's seed, about one world in
+  `SAMPLE` with the next one. The counts before such a step plus the reference's of the step must
+  equal the counts after it, with the digest, which covers every door.
 
-In all these worlds both engines must agree on every event. If they disagree, topo-verify has a bug,
+In these worlds both engines must agree on every event. If they do not, topo-verify has a bug,
 and the campaign ends.
 
-The engine calls a **native mapper** (`--library`) in the place of an algorithm; for the checkers it
-runs in its own process. If the two disagree, the mapper may do something else each time: the counts
-of that slice are discarded, and its worlds are undecided, except the one in which the two disagree,
-if a claim fails there by the checkers.
+The engine calls a **native mapper** (`--library`) in place of an algorithm; for the checkers it
+runs in its own process. If the two disagree, the mapper may behave differently each time: all
+worlds of the slice are undecided, except one where they disagree and a claim fails by the
+checkers.
 
-What this does not show: the other worlds were judged by the engine alone. If it is wrong in a share
-p of all worlds, n steps show it with a probability of at least 1 - (1 - p)^n.
+What this does not show: the engine alone judged the other worlds. If it is wrong in a share p of
+all worlds, n steps show it with a probability of at least 1 - (1 - p)^n.
 """
 
 from __future__ import annotations
@@ -54,7 +53,7 @@ SAMPLE = 1000
 """Average number of worlds between two steps that the checkers judge as well."""
 
 STEP = (1, 1, 1, 2)
-"""Numbers of worlds in such a step. A second world is not the first behind a pause."""
+"""Worlds in such a step. A second world is not the first after a pause."""
 
 SLICE = 50_000
 """Ranks examined between two heartbeats. The counts of each slice begin empty."""
@@ -83,11 +82,9 @@ def _native(text: str, beats: int) -> NativeCalls:
 def examine_compiled(
     campaign: c.Campaign, mappers: Sequence[Target], shard: c.Shard, beat: Beat
 ) -> c.ShardResult:
-    """Run algorithms of the catalogue in every world of a shard; see `campaign.examine`.
+    """Run catalogue algorithms in every world of a shard; see `campaign.examine`.
 
-    Raises:
-        Interrupted: Ctrl-C.
-        InternalError: the engine and the checkers disagree.
+    InternalError: the engine and the checkers disagree.
     """
     calls = None
     if is_native(mappers[0]):
@@ -131,7 +128,7 @@ class _CompiledShard:
 
     @property
     def _done(self) -> int:
-        """Number of finished runs; a native mapper has been through all worlds of the shard."""
+        """Number of finished runs; a native mapper has finished all worlds of the shard."""
         if self._calls is not None:
             return self._calls.worlds
         return self._tally.worlds * len(self._mappers)
@@ -140,13 +137,11 @@ class _CompiledShard:
         self._beat(self._done)
 
     def result(self) -> c.ShardResult:
-        """The result of the worlds examined so far."""
         tally = msgspec.structs.replace(self._tally, by_checkers=len(self._checked))
         rows = notable(self._rows.values(), self._campaign.seed)
         return c.ShardResult(tally, rows, None, self._seconds)
 
     def examine(self) -> None:
-        """Examine the shard, or as far as the campaign goes."""
         for start in range(self._shard.start, self._shard.stop, SLICE):
             self._beats()
             ranks = self._ranks(start, min(start + SLICE, self._shard.stop))
@@ -183,11 +178,11 @@ class _CompiledShard:
         return self._beat.within(self._campaign.limits.move_timeout)
 
     def _check(self, ranks: c.Shard, snapshots: list[Snapshot], end: Snapshot) -> None:
-        """Have the checkers judge what the counts name, and the sample."""
+        """Have the checkers judge the worlds that the counts name, and the sample."""
         if not snapshots and end.counts[0].worlds > max(STEP):
             why = "the engine made no pause"
-            raise _disagreement(f"m{ranks.edges}/{ranks.start}", why, end.rank)
-        for before, behind in _drawn(snapshots):
+            raise _Disagreement(f"m{ranks.edges}/{ranks.start}", why, end.rank)
+        for before, behind in [*zip([None, *snapshots], snapshots, strict=False)][::2]:
             self._beats()
             first = ranks.start if before is None else before.rank + 1
             self._require_same(before, behind, self._ranks(first, behind.rank + 1))
@@ -198,15 +193,15 @@ class _CompiledShard:
             self._judged(0, end.rank)  # the last world of the class is among these
 
     def _unlike(self, ranks: c.Shard, wrong: _Disagreement) -> Tally:
-        """The tally of worlds in which engine and checkers disagree: undecided."""
+        """The tally of a slice in which engine and checkers disagree."""
         alone = self._ranks(wrong.rank, wrong.rank + 1)
-        made = c.examine(self._campaign, self._mappers, alone)
-        others = sum(1 for _ in self._worlds.worlds(ranks)) - made.tally.worlds
-        tally = made.tally + Tally(worlds=others, undecided=others)
+        result = c.examine(self._campaign, self._mappers, alone)
+        others = sum(1 for _ in self._worlds.worlds(ranks)) - result.tally.worlds
+        tally = result.tally + Tally(worlds=others, undecided=others)
         ((place, name, world),) = self._worlds.worlds(alone)
-        for row in made.rows:
+        for row in result.rows:
             self._rows[place, row.turn] = row
-        if not (made.tally.failing or made.tally.undecided):
+        if not (result.tally.failing or result.tally.undecided):
             text, limits = self._mappers[0].text, self._campaign.limits
             row = lost_row(world, place, name, text, limits, str(wrong), external=True)
             self._rows[place, 0] = row
@@ -214,7 +209,7 @@ class _CompiledShard:
         return tally
 
     def _undecided(self, ranks: c.Shard) -> Tally:
-        """The tally of worlds among which the checkers decide the one that the engine could not."""
+        """The tally of a slice with a world that the checkers must decide."""
         middle = (ranks.start + ranks.stop) // 2
         if middle > ranks.start:
             first = self._slice(self._ranks(ranks.start, middle))
@@ -222,9 +217,9 @@ class _CompiledShard:
                 return first
             return first + self._slice(self._ranks(middle, ranks.stop))
         self._checked.add(ranks.start)
-        made = c.examine(self._campaign, self._mappers, ranks)
-        self._rows |= {(row.place, row.turn): row for row in made.rows}
-        return made.tally
+        result = c.examine(self._campaign, self._mappers, ranks)
+        self._rows |= {(row.place, row.turn): row for row in result.rows}
+        return result.tally
 
     # ------------------------------------------------------------ by the checkers
 
@@ -252,7 +247,7 @@ class _CompiledShard:
                     f"{name}: {ours.get(name)} by the reference, {theirs.get(name)} in the tally"
                 )
                 where = f"{ranks}, {', '.join(self._campaign.mappers)}"
-                raise _disagreement(where, difference, behind.rank)
+                raise _Disagreement(where, difference, behind.rank)
 
     def _require_named(
         self, which: int, counts: ShardCounts, others: Sequence[ShardCounts]
@@ -264,16 +259,16 @@ class _CompiledShard:
             claims = [claim for claim, first in firsts.items() if first == rank] or ["a claim"]
             for claim in claims:
                 if not row.failed or (claim in CLAIMS and claim not in row.failed):
-                    what = f"{claim} does not fail by the checkers, it does in the tally"
-                    raise _disagreement(f"{row.world}, {row.mapper}", what, rank)
+                    difference = f"{claim} does not fail by the checkers, it does in the tally"
+                    raise _Disagreement(f"{row.world}, {row.mapper}", difference, rank)
         named = [(which, rank, counts.most) for rank in counts.worst if counts.worlds]
         for pair in counts.dearer_worlds if which == 0 and len(others) == 2 else ():
             named += [(0, pair.rank, pair.cost), (1, pair.rank, pair.other)]
         for mapper, rank, cost in named:
             row = self._agreed(mapper, rank)
             if (row.cost, row.right) != (cost, True):
-                what = f"cost {row.cost} by the reference, {cost} in the tally"
-                raise _disagreement(f"{row.world}, {row.mapper}", what, rank)
+                difference = f"cost {row.cost} by the reference, {cost} in the tally"
+                raise _Disagreement(f"{row.world}, {row.mapper}", difference, rank)
 
     def _agreed(self, which: int, rank: int) -> Row:
         """The row of a run, once it agrees with the engine's verdict on this world alone."""
@@ -285,12 +280,12 @@ class _CompiledShard:
             counts = alone[-1].counts[which]
             difference = _verdict_difference(row, counts)
             if difference is not None:
-                raise _disagreement(f"{row.world}, {row.mapper}", difference, rank)
+                raise _Disagreement(f"{row.world}, {row.mapper}", difference, rank)
         self._rows[rank, which] = row
         return row
 
     def _judged(self, which: int, rank: int) -> _Judged:
-        """The run of the reference, judged, once its events are those of the engine."""
+        """The judged run of the reference, once its events are those of the engine."""
         if (rank, which) not in self._known:
             from topo_verify.campaign.compiled_shard import run_digest
 
@@ -298,13 +293,13 @@ class _CompiledShard:
             target, limits = self._mappers[which], self._campaign.limits
             name = f"m{self._shard.edges}/{rank}"
             world = World.from_id(name)
-            made = attempt(world, target, limits, where=name, beat=self._beats)
-            difference = _run_difference(made.run, *self._engine_run(made.run))
+            judged = attempt(world, target, limits, where=name, beat=self._beats)
+            difference = _run_difference(judged.run, *self._engine_run(judged.run))
             if difference is not None:
-                raise _disagreement(f"{name}, {target.text}", difference, rank)
-            statuses = made.report.claims.values()
-            digest = run_digest(rank, made.run.cost, statuses, made.run.trace)
-            self._known[rank, which] = _Judged(row_of(made, name, rank, which), digest)
+                raise _Disagreement(f"{name}, {target.text}", difference, rank)
+            statuses = judged.report.claims.values()
+            digest = run_digest(rank, judged.run.cost, statuses, judged.run.trace)
+            self._known[rank, which] = _Judged(row_of(judged, name, rank, which), digest)
             if self._calls is not None:  # such worlds are run again, each in a fresh process
                 self._rows[rank, which] = self._known[rank, which].row
         return self._known[rank, which]
@@ -313,27 +308,19 @@ class _CompiledShard:
         """The engine's cost, whether it has a map, and its events."""
         if self._calls is None:
             limits = self._campaign.limits
-            made = explore(run.world, run.algorithm, limits=limits, engine="compiled")
-            return made.cost, made.map is not None, made.trace
+            twin = explore(run.world, run.algorithm, limits=limits, engine="compiled")
+            return twin.cost, twin.map is not None, twin.trace
         with self._watched():
             native, _ = self._calls.run(run.world)
         return native.cost, native.map is not None, (run.trace[0], *native.events)
 
 
 class _Disagreement(InternalError):
-    """The engine and the checkers disagree.
+    """The engine and the checkers disagree; `rank` is of the world, or the last of a step."""
 
-    Attributes:
-        rank: of the world, or of the last one of the step.
-    """
-
-    rank = -1
-
-
-def _disagreement(where: str, what: str, rank: int) -> _Disagreement:
-    wrong = _Disagreement(f"{where}: the engines disagree: {what}")
-    wrong.rank = rank
-    return wrong
+    def __init__(self, where: str, difference: str, rank: int) -> None:
+        super().__init__(f"{where}: the engines disagree: {difference}")
+        self.rank = rank
 
 
 def _snapshots(
@@ -364,16 +351,7 @@ def _steps(campaign: c.Campaign, ranks: c.Shard) -> Iterator[int]:
         yield 1 + int(draw.expovariate(1 / SAMPLE))
 
 
-def _drawn(snapshots: Sequence[Snapshot]) -> Iterator[tuple[Snapshot | None, Snapshot]]:
-    before: Snapshot | None = None
-    for place, behind in enumerate(snapshots):
-        if place % 2 == 0:
-            yield before, behind
-        before = behind
-
-
 def _run_difference(run: Exploration, cost: int, has_map: bool, trace: Trace) -> str | None:  # noqa: FBT001  of `_engine_run`
-    """The first difference between a run of the reference and one of the engine, or None."""
     if (run.cost, run.map is not None) != (cost, has_map):
         return f"cost {run.cost} by the reference, {cost} by the compiled engine"
     for at, (ours, theirs) in enumerate(zip(run.trace, trace, strict=False)):
@@ -389,7 +367,6 @@ def _without_map(event: Event) -> Event | int | None:
 
 
 def _verdict_difference(row: Row, counts: ShardCounts) -> str | None:
-    """The first difference between the two verdicts on a run, or None."""
     if bool(row.findings) != bool(counts.failing):
         words = ("no claim fails", "a claim fails")
         ours, theirs = words[bool(row.findings)], words[bool(counts.failing)]
@@ -411,33 +388,32 @@ def _tally(counts: Sequence[ShardCounts]) -> Tally:
     shares: dict[str, tuple[int, int]] = {}
     claims: dict[str, int] = {}
     for claim in CLAIMS:
-        for one in counts:
-            for status, runs in one.statuses[claim].items():
+        for row in counts:
+            for status, runs in row.statuses[claim].items():
                 if runs:
                     statuses[claim][status] = statuses[claim].get(status, 0) + runs
-        judged, of = (sum(one.shares[claim][side] for one in counts) for side in (0, 1))
+        judged, of = (sum(row.shares[claim][side] for row in counts) for side in (0, 1))
         shares[claim] = judged, of
-        if failing := sum(one.newly_failing_claims[claim] for one in counts):
+        if failing := sum(row.newly_failing_claims[claim] for row in counts):
             claims[claim] = failing
     first = counts[0]
     return Tally(
-        worlds=max(one.worlds for one in counts),
-        failing=sum(one.newly_failing for one in counts),
+        worlds=max(row.worlds for row in counts),
+        failing=sum(row.newly_failing for row in counts),
         statuses=statuses,
         shares=shares,
         claims=claims,
         costs={
-            one.algorithm: Costs(one.worlds - one.failing, one.total, one.most, one.attained)
-            for one in counts
-            if one.worlds > one.failing
+            row.algorithm: Costs(row.worlds - row.failing, row.total, row.most, row.attained)
+            for row in counts
+            if row.worlds > row.failing
         },
         pairs=Pairs(first.dearer, first.cheaper, first.excess) if len(counts) == 2 else Pairs(),
-        digest=_as_digest(sum(one.digest for one in counts)),
+        digest=_as_digest(sum(row.digest for row in counts)),
     )
 
 
 def _as_digest(digest: int) -> str:
-    """A digest of the engine, 64 bits, as one of a tally."""
     # In the highest of 256 bits, where sums of digests wrap around as the engine's do.
     return f"{digest % (1 << 64) << 192:064x}"
 
@@ -457,7 +433,7 @@ def _fields(tally: Tally) -> dict[str, object]:
 def _names(
     which: int, counts: ShardCounts | None, met: Sequence[Sequence[Row]]
 ) -> dict[str, object]:
-    """The worlds that an algorithm's counts name, once more worlds are counted."""
+    """The worlds that an algorithm's counts name, after more worlds are counted."""
     failing = [] if counts is None else list(counts.failing_ranks)
     most, worst = (0, []) if counts is None else (counts.most, list(counts.worst))
     dearer = [] if counts is None else [tuple(pair) for pair in counts.dearer_worlds]

@@ -3,11 +3,10 @@
     (counts,) = examine_range(["basic"], 7, "any", 0, 10_000)
     counts.failing, counts.claims["map-isomorphic"]
 
-Where the kernel leaves a verdict open (`judging/`), the checkers judge the trace; a run that did
-not fit into the workspace is first made again in a larger one. `examine_steps` also yields the
-counts on the way. `benchmarks/compiled.py --only basic nine ten` prints what a run costs.
+The checkers judge a trace whose verdict the kernel leaves open (`judging/`); a run that did not
+fit into the workspace is first repeated in a larger one.
 
-What this does not show: that the kernels are right; tests compare them with the reference, and a
+What this does not show: that the kernels are right. Tests compare them with the reference, and a
 search has the checkers judge some steps again.
 """
 
@@ -71,19 +70,17 @@ class ShardCounts(msgspec.Struct, frozen=True):
     """The counts of one algorithm in a range of worlds.
 
     Attributes:
-        worlds, failing: number of worlds, and of those where a claim fails.
-        claims: for each claim, the failing worlds and the rank of the first; -1: none.
-        newly_failing, newly_failing_claims: worlds where a claim, or this claim, fails for it and
-            for no algorithm before it.
+        claims: for each claim, the number of failing worlds and the rank of the first; -1: none.
+        newly_failing, newly_failing_claims: worlds where a claim, or this claim, fails for it
+            and for no algorithm before it.
         undecided: runs with an undecided and no failing claim.
         statuses: for each claim, number of runs by status.
-        shares: for each claim, how much was judged, of how much.
-        total, most, attained: of costs without a failing claim, in edge traversals: sum, highest,
-            and number of runs with it.
+        shares: for each claim, how many cases were judged, of how many.
+        total, most, attained: costs without a failing claim: sum, highest, its number of runs.
         worst, failing_ranks: the first ranks of those, and of failing worlds.
-        digest: a hash of ranks, verdicts, costs and doors, 64 bits; digests add up.
-        dearer, cheaper, excess: of the first of two algorithms: worlds where it costs more and less
-            than the second, and the highest excess.
+        digest: a 64-bit hash of ranks, verdicts, costs and doors; digests add up.
+        dearer, cheaper, excess: worlds where the first of two algorithms costs more and less
+            than the second, and its highest excess.
         dearer_worlds: the first worlds in which it costs more.
     """
 
@@ -133,12 +130,11 @@ def examine_range(  # noqa: PLR0913  all that is asked of the engine
         kind: the class of worlds; ranks are those of class `any`.
         claims: the number of claims judged: 8, 9 or 10.
         stop_at_first: end at the first world in which a claim fails.
-        faults: the mistake to plant, for some of the names, which may be any text then.
-        room: words of trace, at most `TRACE`; longer traces are made again. Counts do not depend on
-            it.
+        faults: the mistake to plant, by name; these names may be any text.
+        room: words of trace, at most `TRACE`; longer traces are made again, with the same counts.
     Raises:
-        InputError: numba is missing, no such algorithm or fault, too many edges, or a faulty mapper
-            needs too much room.
+        InputError: numba is missing, no such algorithm or fault, too many edges, or a faulty
+            mapper needs too much room.
     """
     require("the compiled engine")
     shard = _Shard(
@@ -161,11 +157,9 @@ def examine_steps(  # noqa: PLR0913  all that is asked of the engine
     faults: Mapping[str, str] | None = None,
     calls: NativeCalls | None = None,
 ) -> Iterator[Snapshot]:
-    """`examine_range`, with a snapshot after each step.
+    """`examine_range`, with a snapshot after each step; `steps` are numbers of worlds.
 
-    Args:
-        calls: a native mapper, whose name is the only one of `algorithms`.
-        steps: the number of worlds in each step.
+    A native mapper, `calls`, has the only one of the names.
     """
     require("the compiled engine")
     shard = _Shard(
@@ -263,11 +257,11 @@ class _Shard:
         case.cost, case.doors_hash = run.cost, doors_hash(run.events)
         events = (Start(percept=first_percept(world)), *run.events)
         judgements = check(world, events, run.stopped)[: len(self.claims)]
-        for k, one in enumerate(judgements):
-            case.status[k] = STATUSES.index(one.status)
-            case.judged[k], case.of[k] = one.judged, one.of
-        found = {one.status for one in judgements}
-        self.undecided[row] += "undecided" in found and "failed" not in found
+        for k, judgement in enumerate(judgements):
+            case.status[k] = STATUSES.index(judgement.status)
+            case.judged[k], case.of[k] = judgement.judged, judgement.of
+        statuses = {judgement.status for judgement in judgements}
+        self.undecided[row] += "undecided" in statuses and "failed" not in statuses
 
     def _run_again(self, world: World, name: str, row: int) -> CompiledRun:
         """The last run, made again with more room if it did not fit."""
@@ -355,7 +349,7 @@ class CompiledChecks:
     def __call__(
         self, world: World, trace: Sequence[Event], stopped: str | None = None, *, strict: bool
     ) -> Sequence[Judgement]:
-        """The judgements of `check`."""
+        """Judge as `check` does."""
         if stopped is not None or not self._holds(world, trace):
             return check(world, trace, stopped, strict=strict)
         case = layout.CaseWords(self._case)

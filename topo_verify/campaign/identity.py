@@ -1,10 +1,9 @@
 """What a mapper rests on, so that results of different mappers are never added up.
 
-For an algorithm of the catalogue that is topo_verify alone. For a user's mapper it is every file
-that its process loaded or opened for reading, and what it was made with (programs/loaded.py). For
-a program it is each file that its command or `--depends` names.
-
-No such list is complete, so some shards of a store are examined again.
+A catalogue algorithm rests on topo_verify alone; a user's mapper on every file that its process
+loaded or opened for reading, and on the values it was made with (programs/loaded.py); a program
+on each file that its command or `--depends` names. No such list is complete, so some shards of a
+store are examined again.
 """
 
 from __future__ import annotations
@@ -40,8 +39,8 @@ def source_hash(mappers: Iterable[Target]) -> str:
     digest = sha256(own_hash().encode())
     for mapper in mappers:
         if not isinstance(mapper.mapper, Algorithm | Steered):
-            for path, made in sorted(loaded.hashes(named_files(mapper.text)).items()):
-                digest.update(f"\0{path}\0{made}".encode(errors="surrogateescape"))
+            for path, hashed in sorted(loaded.hashes(named_files(mapper.text)).items()):
+                digest.update(f"\0{path}\0{hashed}".encode(errors="surrogateescape"))
     return digest.hexdigest()
 
 
@@ -55,7 +54,7 @@ def own_hash() -> str:
 
 
 def named_files(text: str) -> list[str]:
-    """The files that a TARGET names: of a program, of a library, or of a Python mapper."""
+    """The files that a TARGET names: of a program, a library or a Python mapper."""
     if text.startswith(LIBRARY):
         return [library_file(text)[0]]
     if text.startswith(PREFIX):
@@ -79,10 +78,7 @@ def _module_file(name: str) -> str | None:
 
 
 def runs_here(target: Target) -> bool:
-    """Whether a user's mapper runs in this process, where it could replace checkers.
-
-    A store does not mix such results with others.
-    """
+    """Whether a user's mapper runs in this process, where it could replace checkers."""
     return not isinstance(target.mapper, Algorithm | Steered | Program)
 
 
@@ -90,11 +86,7 @@ def runs_here(target: Target) -> bool:
 
 
 class Identity:
-    """What the mappers of a campaign rest on, in this process; made before any of them runs.
-
-    Args:
-        depends: further files that they depend on.
-    """
+    """What a campaign's mappers rest on in this process; made before any of them runs."""
 
     def __init__(self, mappers: Sequence[Target], depends: Sequence[str] = ()) -> None:
         self._mappers, self.depends = mappers, tuple(depends)
@@ -118,51 +110,43 @@ class Identity:
         return loaded.loaded(self._values)
 
 
-def merged(one: Loaded, other: Loaded, where: str) -> Loaded:
-    """What either has loaded; `where` begins the error message.
-
-    Raises:
-        InputError: they differ in a file, a distribution or the values.
-    """
-    for path, made in other.files.items():
-        if one.files.get(path, made) != made:
+def merged(first: Loaded, second: Loaded, where: str) -> Loaded:
+    """What either has loaded. InputError, which begins with `where`, if the two disagree."""
+    for path, digest in second.files.items():
+        if first.files.get(path, digest) != digest:
             raise InputError(
                 f"{where}: the mapper read {shown(path)}, which changed while the search ran: start"
                 " the search again"
             )
-    if one.values and other.values and one.values != other.values:
+    if first.values and second.values and first.values != second.values:
         raise InputError(
             f"{where}: the mapper is made with other values each time (arguments of a partial, a"
             " closure, defaults): give it the same ones, or search without a ledger"
         )
-    for name, path in other.modules.items():
-        if (known := one.modules.get(name, path)) != path:
+    for name, path in second.modules.items():
+        if (known := first.modules.get(name, path)) != path:
             raise InputError(
                 f"{where}: the mapper's module {shown(name)} is {shown(known)} in one process and"
                 f" {shown(path)} in another: give all the same search path for modules"
             )
     return Loaded(
-        {**one.files, **other.files},
-        {**one.distributions, **other.distributions},
-        one.values or other.values,
-        {**one.modules, **other.modules},
+        {**first.files, **second.files},
+        {**first.distributions, **second.distributions},
+        first.values or second.values,
+        {**first.modules, **second.modules},
     )
 
 
 def require_equal(here: Loaded, there: Loaded, where: str) -> None:
-    """Raise an InputError unless all that mappers loaded on another machine is the same here.
-
-    Args:
-        where: the beginning of the error message, which names the other machine.
-    """
+    """Raise an InputError unless everything that mappers loaded elsewhere is the same here."""
     if here.values and there.values and here.values != there.values:
         raise InputError(
             f"{where}: the mapper is made with other values there (arguments of a partial, a"
             " closure, defaults): give it the same ones in every process"
         )
-    for path, made in there.files.items():
+    for path, digest in there.files.items():
         known = loaded.file_hash(path)
-        if known != made:
+        if known != digest:
             fault = "is another file here" if known else "is not a file here"
             raise InputError(
                 f"{where}: the mapper read {shown(path)}, which {fault}: give every machine the"
@@ -181,11 +165,7 @@ def require_equal(here: Loaded, there: Loaded, where: str) -> None:
 
 
 class MapperChanged(InputError):
-    """What a mapper rests on has changed since its results were kept.
-
-    Attributes:
-        change: what has changed.
-    """
+    """What a mapper rests on has changed since its results were kept; `change` says how."""
 
     def __init__(self, where: str, change: str) -> None:
         super().__init__(f"{where}: {change}; name another file, or remove this one to start anew")
@@ -193,16 +173,16 @@ class MapperChanged(InputError):
 
 
 def require_unchanged(then: Loaded, now: Loaded, where: str) -> None:
-    """Raise MapperChanged, which begins with `where`, unless files and values are unchanged."""
+    """Raise MapperChanged unless files, versions and values are unchanged."""
     if then.values and now.values and then.values != now.values:
         raise MapperChanged(
             where,
             "the mapper was made with other values (arguments of a partial, a closure, defaults)",
         )
-    for path, made in then.files.items():
-        if loaded.file_hash(path) != made:
-            what = "has changed" if os.path.exists(path) else "is gone"  # noqa: PTH110
-            raise MapperChanged(where, f"{shown(path)}, which the mapper read, {what}")
+    for path, digest in then.files.items():
+        if loaded.file_hash(path) != digest:
+            change = "has changed" if os.path.exists(path) else "is gone"  # noqa: PTH110
+            raise MapperChanged(where, f"{shown(path)}, which the mapper read, {change}")
     for name, version in then.distributions.items():
         installed = _version(name)
         if installed != version:

@@ -1,4 +1,4 @@
-"""The judgement of one run by every claim: `examine` runs a mapper and judges it, `judge` a run.
+"""Judges one run by every claim.
 
 report = examine(my_mapper, world)             # -> Report: ok, claims, findings
 assert_maps(my_mapper, world)                  # raises ClaimFailed with the report
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 
 class JudgedRun(NamedTuple):
-    """What a report judges: a world, a trace, and why it ended without a map, if it did."""
+    """A world, a trace in it, and why the run ended without a map, or None."""
 
     world: World
     trace: Sequence[Event]
@@ -48,7 +48,6 @@ class JudgedRun(NamedTuple):
 
 
 _RUN = "_run"
-"""The attribute of a report that holds its `JudgedRun`."""
 
 
 class Report(msgspec.Struct, frozen=True, dict=True):
@@ -56,7 +55,7 @@ class Report(msgspec.Struct, frozen=True, dict=True):
 
     Attributes:
         world, target: the world and the mapper, as the command line names them.
-        ok: no claim failed. (Only `ok` is a success; the other statuses are neither.)
+        ok: no claim failed. (Only the status `ok` is a success.)
         cost: edge traversals.
         claims: the status of each claim by name.
         findings: all violations, each with the command line that shows it again.
@@ -83,7 +82,7 @@ class Report(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def playback(self) -> Playback | None:
-        """The run, event by event, with its findings; None where `run` is."""
+        """The run event by event, with its findings; None if `run` is None."""
         from topo_verify.player.scenes import Playback
 
         if self.run is None:
@@ -91,7 +90,7 @@ class Report(msgspec.Struct, frozen=True, dict=True):
         return Playback(self.run.world, self.run.trace, self.judgements, self.run.stopped)
 
     def walk(self) -> list[str]:
-        """The lines of the walk to the first finding; none without a finding or a `run`."""
+        """The lines of the walk to the first finding; empty without a finding or a `run`."""
         from topo_verify.player import walk
 
         if not self.findings or self.playback is None:
@@ -100,17 +99,18 @@ class Report(msgspec.Struct, frozen=True, dict=True):
 
     def of(self, run: JudgedRun | None) -> Report:
         """This report, with the run that it judges."""
-        # No field: JSON and equality leave it out, and the trace may be long.
+        # Not a field: JSON and equality leave it out, and the trace may be long.
         vars(self)[_RUN] = run
         return self
 
     def with_findings(self, findings: Sequence[Finding]) -> Report:
-        """The report with these findings instead of its own."""
+        """A copy of this report with other findings."""
         judgements = tuple(
             msgspec.structs.replace(
-                one, findings=tuple(f for f in findings if f.claim == one.claim)
+                judgement,
+                findings=tuple(f for f in findings if f.claim == judgement.claim),
             )
-            for one in self.judgements
+            for judgement in self.judgements
         )
         changed = msgspec.structs.replace(self, findings=tuple(findings), judgements=judgements)
         return changed.of(self.run)
@@ -154,20 +154,20 @@ _WORDS: dict[Status, str] = {
 
 
 def in_words(claims: Mapping[str, Status], hold: str) -> str:
-    """How many of the claims hold, and how many have each other status."""
+    """How many claims hold, and how many have each other status."""
     counts = Counter(claims.values())
     words = [f"{counts['ok']} of {len(claims)} {hold}"]
     return ", ".join(
-        words + [f"{counts[one]} {word}" for one, word in _WORDS.items() if counts[one]]
+        words + [f"{counts[status]} {word}" for status, word in _WORDS.items() if counts[status]]
     )
 
 
 def shortfalls(judgements: Sequence[Judgement]) -> list[str]:
     """A line for each claim that was judged only in part."""
     return [
-        f"{one.claim}: {_WORDS[one.status]}, {one.judged} of {one.of}"
-        for one in judgements
-        if one.status in ("partial", "undecided")
+        f"{judgement.claim}: {_WORDS[judgement.status]}, {judgement.judged} of {judgement.of}"
+        for judgement in judgements
+        if judgement.status in ("partial", "undecided")
     ]
 
 
@@ -184,7 +184,7 @@ def examine(
     """Run a mapper in a world and judge the run by every claim.
 
     Args:
-        where: the world as the command line names it, for the findings; default: its id.
+        where: the world's name in findings; default: its id.
         strict: judge claim 10 also in worlds with more than 2,000 edges.
     Raises:
         InputError: there is no such mapper or policy.
@@ -202,7 +202,7 @@ def assert_maps(
     limits: Limits | None = None,
     strict: bool = False,
 ) -> None:
-    """Assert that every claim holds of a mapper in a world: the one line of a property test.
+    """Assert that every claim holds of a mapper in a world, e.g. in a property test.
 
     Args:
         strict: judge claim 10 also in worlds with more than 2,000 edges.
@@ -215,8 +215,7 @@ def assert_maps(
     run = explore(world, mapper, pick=pick, order=order, limits=limits)
     report = judge(run, options=limits.options if limits else (), strict=strict)
     if not report.ok:
-        # The report and not its text, which is made when somebody reads it: Hypothesis has an
-        # example fail many times, and counts the seconds.
+        # The report, not its text: Hypothesis repeats a failing example, and the text takes time.
         raise ClaimFailed(report) from run.error
     if report.undecided:
         names = ", ".join(name for name, status in report.claims.items() if status == "undecided")
@@ -224,20 +223,19 @@ def assert_maps(
 
 
 class Checks(Protocol):
-    """Gives the judgements of `check`, perhaps in a quicker way."""
+    """A function that gives the judgements of `check`, perhaps faster."""
 
     def __call__(
         self, world: World, trace: Sequence[Event], stopped: str | None = None, *, strict: bool
     ) -> Sequence[Judgement]:
-        """The judgements of `check`."""
+        """Judge as `check` does."""
         ...
 
 
 class CheckedTraces:
     """Checks each distinct trace in a world once: mappers in small worlds often leave the same.
 
-    The checkers read only the percept of a `start`, so traces of two mappers may be equal. All of
-    the rest is compared as bytes; what cannot be written as bytes is checked each time.
+    The checkers read only the percept of a `start`; the rest is compared as bytes.
     """
 
     def __init__(self) -> None:
@@ -246,14 +244,14 @@ class CheckedTraces:
     def __call__(
         self, world: World, trace: Sequence[Event], stopped: str | None = None, *, strict: bool
     ) -> list[Judgement]:
-        """The judgements of `check`."""
+        """Judge as `check` does."""
         start, *events = trace
         kinds = tuple(map(type, trace))
         try:
-            written = _encoder.encode((getattr(start, "percept", None), events))
+            encoded = _encoder.encode((getattr(start, "percept", None), events))
         except (TypeError, ValueError, OverflowError):
             return check(world, trace, stopped, strict=strict)
-        key = world, kinds, written, stopped, strict
+        key = world, kinds, encoded, stopped, strict
         if key not in self._known:
             self._known[key] = check(world, trace, stopped, strict=strict)
         return self._known[key]
@@ -270,15 +268,11 @@ def judge(
     strict: bool = False,
     known: Checks | None = None,
 ) -> Report:
-    """Judge a run by every claim; see `examine`.
+    """Judge a run by every claim; the arguments are those of `examine` and `judge_trace`.
 
-    If the history does not entail the map, the mapper also runs in the witness world, with the same
-    limits. (A deterministic mapper makes the same moves there.) Of a run without a trace only
-    `TRACELESS` are judged.
-
-    Args:
-        options: the options that the replay command needs besides world and target.
-        known: replaces `check`.
+    If the history does not entail the map, the mapper also runs in the witness world, where a
+    deterministic mapper makes the same moves. Of a run without a trace only `TRACELESS` are
+    judged.
     """
     where = where or world_argument(run.world)
     words = (*options, *strict_option(run.world, strict=strict))
@@ -349,14 +343,13 @@ def judge_trace(  # noqa: PLR0913  an argument an option
     """Judge a trace of any origin in its world.
 
     Args:
-        target: the mapper that left the trace, as the command line names it.
-        where: the world as the command line names it; default: its id.
-        replay_command: the command line that shows the findings again; default: `replay` of the
-            target in the world.
+        target: the mapper, as the command line names it.
+        where: the world's name in findings; default: its id.
+        replay_command: default: `replay` of the target in the world.
         known: replaces `check`.
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`.
-        InternalError: an algorithm of the catalogue is right at a cost below that of any proof.
+        InternalError: a catalogue algorithm is right at a cost below that of any proof.
     """
     where = where or world_argument(world)
     replay_command = replay_command or replay_line(where, target)
@@ -366,7 +359,7 @@ def judge_trace(  # noqa: PLR0913  an argument an option
             finding,
             world=where,
             replay=replay_command,
-            message=shown(finding.message, limit=LINE),  # it may quote what a mapper raised
+            message=shown(finding.message, limit=LINE),  # it may quote an exception
         )
         for judgement in judgements
         for finding in judgement.findings
@@ -381,11 +374,7 @@ def judge_trace(  # noqa: PLR0913  an argument an option
 
 
 def _with_least(report: Report, world: World, replay_command: str) -> Report:
-    """The report; `cost-within-bound` fails if a right run costs less than any proof of the map.
-
-    Raises:
-        InternalError: the run is an algorithm's of the catalogue.
-    """
+    """The report; `cost-within-bound` fails if a right run costs less than any proof of the map."""
     if not report.ok or report.cost >= (least := world.least_cost()):
         return report
     message = f"no claim fails at a cost of {report.cost}, and the least cost of a proof is {least}"
@@ -397,27 +386,26 @@ def _with_least(report: Report, world: World, replay_command: str) -> Report:
     return _failing(report, msgspec.structs.replace(wrong, replay=replay_command), report.cost)
 
 
-def _with_count(report: Report, made: int, replay_command: str) -> Report:
+def _with_count(report: Report, moves: int, replay_command: str) -> Report:
     """The report; `cost-honest` fails unless the trace holds as many moves as the robot made."""
-    if report.cost == made:
+    if report.cost == moves:
         return report
     claim = "cost-honest"
     message = (
-        f"the robot made {made} moves and the trace holds {report.cost}: somebody changed the"
+        f"the robot made {moves} moves and the trace holds {report.cost}: somebody changed the"
         " trace, as a mapper in the same process can"
     )
     wrong = Finding(
-        claim, None, made, report.cost, message, world=report.world, replay=replay_command
+        claim, None, moves, report.cost, message, world=report.world, replay=replay_command
     )
-    return _failing(report, wrong, made)
+    return _failing(report, wrong, moves)
 
 
 def _failing(report: Report, wrong: Finding, cost: int) -> Report:
-    """The report with one more finding, before the others, and with this cost."""
     claim = wrong.claim
     judgements = tuple(
-        msgspec.structs.replace(one, status="failed") if one.claim == claim else one
-        for one in report.judgements
+        msgspec.structs.replace(known, status="failed") if known.claim == claim else known
+        for known in report.judgements
     )
     claims: dict[str, Status] = {**report.claims, claim: "failed"}
     changed = msgspec.structs.replace(
@@ -427,9 +415,9 @@ def _failing(report: Report, wrong: Finding, cost: int) -> Report:
 
 
 def undecided(run: Exploration, report: Report) -> bool:
-    """Whether no claim is refuted, but one is undecided, or a map is missing without a fault.
+    """Whether no claim is refuted, but one is undecided or a map is missing without a fault.
 
-    That is so if the run exceeded its time while it moved, or its program declined the world.
+    The latter: the time ran out during moves, or a program declined the world.
     """
     if not report.findings:
         return report.undecided
@@ -440,7 +428,7 @@ def undecided(run: Exploration, report: Report) -> bool:
 def _with_run_in_witness(
     finding: Finding, run: Exploration, options: Sequence[str], *, lucky: bool
 ) -> Finding:
-    """The finding, with the same mapper's run in the witness world that it names, if any."""
+    """The finding, with the mapper's run in the witness world that it names, if any."""
     if finding.claim != "map-entailed" or finding.witness is None or run.mapper is None:
         return finding
     witness = World.from_text(finding.witness)
@@ -463,14 +451,14 @@ def _with_run_in_witness(
 
 
 def world_argument(world: World) -> str:
-    """The argument that names this world: its id, or a file to save if that is too large."""
+    """The world's argument on a command line: its id, or a file to save if that is too large."""
     return (
         world.id if len(world.edges) <= rank_order.MAX_ID_EDGES else f"{world.name or 'world'}.json"
     )
 
 
 def strict_option(world: World, *, strict: bool) -> tuple[str, ...]:
-    """The option that asks every claim in a large world."""
+    """The option `--strict`, if it matters in this world."""
     return ("--strict",) if strict and len(world.edges) > LARGE else ()
 
 

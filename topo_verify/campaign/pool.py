@@ -1,23 +1,19 @@
-"""The pool of worker processes: tasks in, results out, whatever a task does to its process.
+"""A pool of worker processes that survives whatever a task does to its process.
 
-A mapper under test may end its process, crash it, or hold it for ever. So:
+- A worker that ends, or writes no heartbeat for longer than any limit allows, is lost; the rest
+  of its process group is killed.
+- A task that loses its worker is retried, `Work.attempts` times in all, since something else may
+  have killed the worker. Then it is bisected around the item where the worker was last seen.
+  `Work.lost` gives the result of a task that cannot be cut.
+- No loss is forgotten: `Work.survived` gives the result of a task that passed after a loss.
+- Workers are forks that no other program can look into (programs/launcher.py), in their own
+  process groups, which end with this process (worker.py).
 
-- A worker that ends, or writes no heartbeat for longer than any limit allows, is lost; the rest of
-  its process group is killed.
-- A task that loses its worker is tried again, `Work.attempts` times in all: something else may have
-  killed the worker. Then it is cut around the item where the worker was last seen, down to the one
-  item that kills. `Work.lost` gives the result of a task that cannot be cut.
-- No loss is forgotten: `Work.survived` gives the result of a task that lost a worker and passed
-  later.
-- Workers are forks that no other program can look into (programs/launcher.py), in process groups of
-  their own, which end with this process (worker.py).
-
-**Why not a library?** `concurrent.futures` gives the whole pool up (`BrokenProcessPool`) when one
-worker dies, does not say which task was to blame, and cannot end a worker that hangs. `pebble`
-replaces a dead worker and names its task, but its timeout is for the whole task: no heartbeat, so
-    no
-bisection. The workers of both keep standard output where a mapper can write to it, and fetch tasks
-under a shared lock, with which one of them may die.
+**Why not a library?** If one worker dies, `concurrent.futures` gives up the whole pool
+(`BrokenProcessPool`) and does not say which task was to blame; it cannot end a worker that
+hangs. `pebble` replaces a dead worker and names its task, but its timeout covers the whole task:
+without a heartbeat it cannot bisect. Workers of both keep standard output where a mapper can
+write to it, and fetch tasks under a shared lock, which a dying worker may hold.
 """
 
 from __future__ import annotations
@@ -37,13 +33,12 @@ TURN = 0.2
 
 
 class Pool(Generic[TaskT, ResultT]):
-    """Workers on this machine, a `TaskBackend`.
+    """At most `size` workers on this machine, each started when there is a task for it.
 
-    On leaving, idle workers end by themselves, busy ones get SIGTERM, then SIGKILL.
+    On leaving, idle workers end by themselves; busy ones get SIGTERM, then SIGKILL.
 
     Args:
-        size: the most workers; each is started when there is a task for it.
-        in_flight: called now and then with the number of items done in unfinished tasks.
+        in_flight: receives, from time to time, the number of items done in unfinished tasks.
         folder: where workers are started; default: the current folder.
     Raises (by `run`):
         InputError: a worker says that the input is bad, or another process speaks for a worker.
@@ -73,28 +68,27 @@ class Pool(Generic[TaskT, ResultT]):
             worker.await_end()
             worker.kill()
 
-    def run(
-        self, tasks: Iterable[TaskT], *, room: Callable[[], bool] = lambda: True
-    ) -> Generator[tuple[TaskT, ResultT]]:
-        """As `TaskBackend.run`. The first tasks are handed out at once."""
-        todo = iter(tasks)
-        self._hand_out(todo, room)
-        return self._results(todo, room)
+    def run(self, tasks: Iterable[TaskT]) -> Generator[tuple[TaskT, ResultT]]:
+        """Yield each task, the same object, and its result, as tasks finish.
 
-    def _results(
-        self, todo: Iterator[TaskT], room: Callable[[], bool]
-    ) -> Generator[tuple[TaskT, ResultT]]:
+        The first tasks are handed out at once.
+        """
+        todo = iter(tasks)
+        self._hand_out(todo)
+        return self._results(todo)
+
+    def _results(self, todo: Iterator[TaskT]) -> Generator[tuple[TaskT, ResultT]]:
         while self._at:
             self._listen()
-            self._hand_out(todo, room)  # first: workers are busy while a result is looked at
+            self._hand_out(todo)  # first: keeps workers busy while the caller reads a result
             while self._pieces.finished:
                 yield self._pieces.finished.popleft()
-            self._hand_out(todo, room)
+            self._hand_out(todo)
 
-    def _hand_out(self, todo: Iterator[TaskT], room: Callable[[], bool]) -> None:
+    def _hand_out(self, todo: Iterator[TaskT]) -> None:
         idle = [worker for worker in self._workers if worker not in self._at]
         while len(self._at) < self._size:
-            piece = self._pieces.next(todo, room)
+            piece = self._pieces.next(todo)
             if piece is None:
                 return
             if not idle:
@@ -135,14 +129,14 @@ class Pool(Generic[TaskT, ResultT]):
                     raise InternalError(f"in a worker: {text}") if bug else InputError(text)
 
     def _lose(self, worker: WorkerProcess, silence: float | None) -> None:
-        """The worker died or hung: try its piece again, then cut it, then give it up."""
+        """The worker died or hung: retry its piece, then cut it, then give it up."""
         self._workers.remove(worker)
         status = worker.kill()
         piece = self._at.pop(worker, None)
         if piece is None:  # it was idle, so no task is to blame
             return
         loss = Loss(status, silence, loading=not worker.ready, items=worker.items)
-        if worker.ready:  # one that dies while it loads would do so over any piece
+        if worker.ready:  # one that dies while it loads would die with any piece
             piece.whole.losses.append((piece.task, loss))
             piece.deaths += 1
             if piece.deaths < self._work.attempts:

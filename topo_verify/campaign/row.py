@@ -1,12 +1,10 @@
-"""A row: what one mapper did in one world, judged by every claim, as frozen data.
-
-It holds no object of a mapper: it is what another process would send.
-"""
+"""A row: what one mapper did in one world, as data that another process can send."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from hashlib import sha256
+from operator import attrgetter
 from typing import Any
 
 import msgspec
@@ -19,7 +17,7 @@ SECOND_TRY = "; at the second try it delivered one"
 
 
 class Judged(msgspec.Struct, frozen=True, array_like=True):
-    """The status of a claim in a run, and how much of the run it rests on."""
+    """The status of one claim in a run, and how many of its cases were judged."""
 
     status: Status
     judged: int
@@ -27,7 +25,7 @@ class Judged(msgspec.Struct, frozen=True, array_like=True):
 
 
 class MostSaved(msgspec.Struct, frozen=True):
-    """A world, what the reference policies cost in it, and the least that a run costs."""
+    """A world, the cost of the reference policies in it, and the least cost of a run."""
 
     world: str
     reference: int
@@ -40,13 +38,12 @@ class MostSaved(msgspec.Struct, frozen=True):
 
 
 class PolicyCosts(msgspec.Struct, frozen=True):
-    """What any choices of a mapper can cost, in edge traversals.
+    """What a mapper can cost whatever its policies choose, in edge traversals.
 
     Attributes:
-        worlds: in how many worlds; those in which no claim fails, whatever is chosen.
+        worlds: where no claim fails, whatever is chosen.
         states, choices: the number of states with more than one way, and of their ways.
-        cheapest, reference, dearest: sums of costs: the least that a run can cost in each world,
-            the cost of the reference policies, the most.
+        cheapest, reference, dearest: summed over the worlds.
         most_saved: where the cheapest run saves the greatest share.
     """
 
@@ -67,7 +64,7 @@ class PolicyCosts(msgspec.Struct, frozen=True):
             self.cheapest + other.cheapest,
             self.reference + other.reference,
             self.dearest + other.dearest,
-            max(saved, key=lambda one: one.share, default=None),
+            max(saved, key=attrgetter("share"), default=None),
         )
 
 
@@ -75,29 +72,23 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """What one mapper did in one world.
 
     Attributes:
-        world: its name, as the command line names it.
-        vertices, edges: the size of the world.
-        place: its rank among the worlds of its size, or its place in a list.
-        turn: the number of runs in the same world before this one.
-        least: the least cost of a proof in it, in edge traversals.
+        world: its name on the command line.
+        place: the world's rank among those of its size, or its place in a list.
+        turn: number of runs in the same world before this one.
+        least: least cost of a proof in the world, in edge traversals.
         mapper: the TARGET.
-        policies: `pick` and `order` of an algorithm of the catalogue; None: it has none.
-        cost: edge traversals.
         free, moving: hypotheses rejected without motion, and with motion.
-        confirmed: hypotheses confirmed.
-        claims: the judgement of each claim, in the order of `CLAIMS`; empty if there was no run.
-        findings: what is wrong, at most `KEPT_FINDINGS` of each claim.
+        claims: judgements in the order of `CLAIMS`; empty without a run.
+        findings: at most `KEPT_FINDINGS` of each claim.
         undecided: why the run decides nothing, or None.
-        ended: `map`, or how it ended without one: a limit, a misbehaviour, `no-map`,
-            `worker-lost`.
+        ended: `map`; otherwise a limit, a misbehaviour, `no-map` or `worker-lost`.
         stopped: the same in words, or None.
-        lost: how an earlier try was ended, perhaps by nothing that the mapper did; or None.
-        moves, decisions, map: digests of the doors, of the declared decisions (None: there are
-            none) and of the delivered map (its id; None: there is no valid one).
-        timed_out: a limit of time struck, whatever the run is said to have ended by.
-        seconds: processor time of mapper and robot. It is in no result but `timing`.
-        note: what the study's `Look` noted about the run.
-        choices: what any choices can cost there, if this is the last of the runs that try them.
+        lost: how an earlier try ended, perhaps not by the mapper's fault; or None.
+        moves, decisions, map: digests of doors, declared decisions and a valid map.
+        timed_out: a time limit struck, however the run ended.
+        seconds: processor time of mapper and robot, for `timing` only.
+        note: what the study's `Look` returned.
+        choices: possible costs; in the last of the runs that try all choices.
     """
 
     world: str
@@ -128,7 +119,7 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def late(self) -> bool:
-        """Whether it was cut off without a map and without any other finding."""
+        """Whether a time limit cut it off and nothing else is wrong."""
         return self.undecided is not None and bool(self.findings)
 
     @property
@@ -140,12 +131,12 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def by_chance(self) -> bool:
-        """Whether its process was lost, and may not be lost when it is run again."""
+        """Whether it lost a process, so another run may end differently."""
         return self.lost is not None or (self.stopped or "").endswith(SECOND_TRY)
 
     @property
     def right(self) -> bool:
-        """Whether no claim fails; an undecided claim is no failure."""
+        """Whether it was judged and no claim fails; an undecided claim is no failure."""
         return not self.findings and bool(self.claims)
 
     @property
@@ -161,17 +152,18 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def digest(self) -> str:
-        """A hash of what happened, the same in another process if the mapper is deterministic.
+        """A hash of claim statuses, cost and doors; a deterministic mapper has the same each time.
 
-        It covers the status of every claim, the cost and the doors; of a run out of time, whose
-        length depends on the machine, only that. It covers neither evidence nor the numbering of
-        the map.
+        Evidence and the map's numbering do not matter. Runs out of time hash alike: their length
+        depends on the machine.
         """
         if self.ended == "world-timeout":
             return hashed([self.mapper, "out of time"])
-        return hashed([self.mapper, [one.status for one in self.claims], self.cost, self.moves])
+        return hashed(
+            [self.mapper, [judged.status for judged in self.claims], self.cost, self.moves]
+        )
 
 
 def hashed(value: object) -> str:
-    """The first sixteen hexadecimal digits of a hash."""
+    """The first sixteen hexadecimal digits of the value's SHA-256."""
     return sha256(msgspec.json.encode(value)).hexdigest()[:16]

@@ -1,17 +1,16 @@
-"""The one way to run a mapper in a world: `explore`; judge.py judges the run.
+"""Runs a mapper in a world: `explore`. judge.py judges the run.
 
-A **mapper** is any callable that takes a robot and returns a map: an object with the attributes, or
-a mapping with the keys, `vertices`, `edges`, `marker`, and optionally `cost`. It is not trusted: if
-it raises, returns something else, exceeds its budget or loops without moving, that is a finding.
+A **mapper** is any callable that takes a robot and returns a map: an object with the attributes,
+or a mapping with the keys, `vertices`, `edges`, `marker`, and optionally `cost`.
 
     run = explore(world, "enhancement-ii")         # -> Exploration: map, cost, trace
 
-The compiled engine (`topo_verify.compiled`) runs algorithms of the catalogue some hundred times as
-fast. It is given the world, and is not trusted: its runs are judged like any.
+The compiled engine (`topo_verify.compiled`) runs catalogue algorithms about a hundred times as
+fast. It is given the world and is not trusted: its runs are judged like any other.
 
-What this does not show: a mapper in the same process can be stopped only if it runs Python code and
-does not catch BaseException in a loop (`topo_verify.robot.limits`), and can find world and trace. A
-mapper in its own process cannot.
+What this does not show: a mapper in this process can find world and trace, and can be stopped
+only if it runs Python code and does not catch BaseException in a loop
+(`topo_verify.robot.limits`). A mapper in its own process can do neither.
 """
 
 from __future__ import annotations
@@ -62,7 +61,7 @@ class Exploration:
     Attributes:
         algorithm: the mapper's name, as a TARGET.
         trace: all events; together with the world it is a certificate.
-        map: the map that it delivered, or None.
+        map: the delivered map, or None.
         stopped: why it delivered none, or None.
         error: the exception that it raised, or None.
         cost: moves counted by the simulator, in edge traversals.
@@ -100,7 +99,7 @@ class Exploration:
 
     @property
     def rejected_free(self) -> int:
-        """Number of hypotheses rejected where the robot had not moved since its last decision."""
+        """Number of hypotheses rejected without a move since the last decision."""
         return sum(isinstance(e, Reject) for e in self.trace) - self.rejected_moving
 
     @property
@@ -154,9 +153,9 @@ def explore(
     Args:
         world: a world, or a text as on the command line: m5/17, nyc, a file.
         mapper: a callable, a name of the catalogue, or any other TARGET of one mapper.
-        pick, order: policies, for algorithms of the catalogue; default: the reference policies.
+        pick, order: policies of a catalogue algorithm; default: the reference policies.
         limits: moves and seconds; default: the bound of claim 7, 5 s between moves, 60 s in all.
-        engine: runs an algorithm of the catalogue, "reference" or "compiled".
+        engine: runs a catalogue algorithm, "reference" or "compiled".
         trace: keep the trace; False, for the compiled engine: only cost and map.
     Returns:
         The run. If the mapper delivers no map, `map` is None and `stopped` says why.
@@ -175,7 +174,7 @@ def explore(
     policies = policies_of(target)
     start = _start(world, target, policies)
     if isinstance(target.mapper, Program):
-        target.mapper.start()  # here: no limit of a run counts what it takes to load a mapper
+        target.mapper.start()  # before the run, whose limits do not count it
     finish, stopped, error, limit = _run(target.mapper, robot, limits)
     if limit in ("move-timeout", "world-timeout"):
         robot.settle()
@@ -184,7 +183,7 @@ def explore(
     misbehaved = None
     if isinstance(target.mapper, Program):
         misbehaved = target.mapper.misbehaved
-        # Here and not in the next run: ending a process takes time that no limit should count.
+        # Here, not in the next run, whose limits would count the time.
         target.mapper.settle()
     events = (start, *robot.events)
     return Exploration(
@@ -214,10 +213,10 @@ def _require_order(world: object, mapper: object) -> None:
 def _on(engine: Engine, target: Target, limits: Limits, *, trace: bool) -> Target:
     if engine not in ENGINES:
         raise InputError(f"engine={engine!r}: expected one of {', '.join(ENGINES)}")
-    (found,) = on_engine(engine, (target,), limits)
-    if not trace and not isinstance(found.mapper, CompiledAlgorithm):
+    (target,) = on_engine(engine, (target,), limits)
+    if not trace and not isinstance(target.mapper, CompiledAlgorithm):
         raise InputError("trace=False: the reference engine always keeps the trace; leave it out")
-    return found
+    return target
 
 
 def _start(world: World, target: Target, policies: Policies | None) -> Start:
@@ -235,16 +234,16 @@ def _compiled(
 ) -> Exploration:
     from topo_verify.compiled.explore import run_world
 
-    made = run_world(world, mapper.name, trace=trace, budget=limits.budget, fault=mapper.fault)
+    run = run_world(world, mapper.name, trace=trace, budget=limits.budget, fault=mapper.fault)
     return Exploration(
         world,
         target.text,
         mapper.policies,
-        (_start(world, target, mapper.policies), *made.events) if trace else (),
-        made.map,
-        made.stopped,
-        cost=made.cost,
-        limit=None if made.map is not None else "budget",
+        (_start(world, target, mapper.policies), *run.events) if trace else (),
+        run.map,
+        run.stopped,
+        cost=run.cost,
+        limit=None if run.map is not None else "budget",
         mapper=mapper,
         limits=limits,
     )
@@ -256,38 +255,38 @@ def _run(
     """The delivered map; or why there is none, the mapper's exception and the limit that struck."""
 
     def survey() -> Finish | Undelivered:
-        # What a program is given stays on this side of its pipe.
+        # A program gets only text, so it may be given the robot itself.
         return mapper(robot) if isinstance(mapper, Program) else deliver(mapper, robot.handle)
 
     try:
-        found = within(limits, lambda: robot.cost, survey)
+        result = within(limits, lambda: robot.cost, survey)
     except MapperStopped as stop:
         stop = robot.stopped or stop
         return None, str(stop), None, stop.limit
-    error = found.error if isinstance(found, Undelivered) else None
-    # A mapper that swallows the robot's exception and goes on is still stopped by the first limit.
+    error = result.error if isinstance(result, Undelivered) else None
+    # The first limit counts, even if the mapper swallowed the robot's exception.
     if robot.stopped is not None:
         return None, str(robot.stopped), error, robot.stopped.limit
-    if isinstance(found, Undelivered):
-        return None, found.why, error, None
-    return found, None, None, None
+    if isinstance(result, Undelivered):
+        return None, result.why, error, None
+    return result, None, None, None
 
 
 # ---------------------------------------------------------------- engines
 
 Engine = Literal["reference", "compiled"]
-"""What runs an algorithm of the catalogue."""
+"""What runs a catalogue algorithm."""
 
 ENGINES: tuple[Engine, ...] = get_args(Engine)
 
 
 @dataclass(frozen=True, slots=True)
 class CompiledAlgorithm:
-    """An algorithm of the catalogue, to be run by the compiled engine.
+    """A catalogue algorithm for the compiled engine.
 
     Attributes:
-        fault: the name of a seeded fault that is planted in it; empty: none.
-        trace: keep the trace of a run; False: cost and map alone.
+        fault: the seeded fault that is planted in it, or "".
+        trace: keep the trace of a run; False: only cost and map.
     """
 
     name: str
@@ -296,11 +295,11 @@ class CompiledAlgorithm:
 
     @property
     def policies(self) -> Policies:
-        """Those of the reference; the kernels know no others."""
+        """The reference policies; the kernels have no others."""
         return REFERENCE
 
     def __call__(self, robot: Robot) -> object:
-        """Raise an InternalError: the engine needs the world, and a robot hides it."""
+        """Raise an InternalError: the engine needs the world, which a robot hides."""
         raise InternalError(f"the compiled {self.name} was called with a robot: {robot!r}")
 
 
@@ -309,22 +308,18 @@ WITH_POLICIES = Algorithm, CompiledAlgorithm
 
 
 def policies_of(target: Target) -> Policies | None:
-    """The policies of an algorithm of the catalogue; None for other mappers."""
+    """The policies of a catalogue algorithm; None for other mappers."""
     mapper = target.mapper
     return mapper.policies if isinstance(mapper, WITH_POLICIES) else None
 
 
 def on_engine(engine: Engine, targets: Iterable[Target], limits: Limits) -> tuple[Target, ...]:
-    """The same algorithms, to be run by this engine.
-
-    Raises:
-        InputError: the compiled engine cannot run one of them, or has no such limits.
-    """
-    found = tuple(targets)
+    """The same mappers, prepared for this engine; InputError if it cannot run one of them."""
+    mappers = tuple(targets)
     if engine == "reference":
-        return found
-    require_compiled(found, limits)
-    return tuple(Target(target.text, CompiledAlgorithm(target.text)) for target in found)
+        return mappers
+    require_compiled(mappers, limits)
+    return tuple(Target(target.text, CompiledAlgorithm(target.text)) for target in mappers)
 
 
 def is_native(target: Target) -> bool:
@@ -336,15 +331,14 @@ def planted(fault: str) -> CompiledAlgorithm | None:
     """The compiled mapper with this seeded fault; None if no kernel has it."""
     from topo_verify.compiled.faults import PLANTED
 
-    found = PLANTED.get(fault)
-    return None if found is None else CompiledAlgorithm(found[1], fault)
+    entry = PLANTED.get(fault)
+    return None if entry is None else CompiledAlgorithm(entry[1], fault)
 
 
 def require_compiled(targets: Iterable[Target], limits: Limits, *, libraries: bool = False) -> None:
     """Raise an InputError unless the compiled engine can run these mappers under these limits.
 
-    Args:
-        libraries: native mappers are allowed, too.
+    `libraries` allows native mappers, too.
     """
     require("--engine compiled")
     for target in targets:

@@ -1,19 +1,19 @@
-"""A store: the SQLite file in which finished shards are kept, and from which a campaign resumes.
+"""The SQLite file that keeps finished shards, so that a campaign can resume.
 
     with Store("search.db") as store:
         memory = store.resumed(campaign, mappers)
         for shard, result in results(campaign, backend, store=memory): ...
 
-`meta` holds versions, the identity of each campaign, and what its mappers loaded, so that only
-results of the same campaign are added up. A campaign whose mapper has changed may begin anew: its
-shards before number `begun` count no more. `shards` has a line for each finished shard, `rows` the
-rows kept of it.
+`meta` holds versions, each campaign's identity and what its mappers loaded, so that results of
+different campaigns are never added up. `shards` has a line for each finished shard, `rows` its
+kept rows. If a mapper has changed, its campaign may begin anew; shards before number `begun`
+then no longer count.
 
-A shard is written in one transaction. The file is locked while it is open, by a lock of the
-operating system that ends with the process. Workers never open it.
+Each shard is one transaction. An operating system lock, which ends with the process, protects
+the open file. Workers never open it.
 
-**Checksums.** Each shard has one over its fields, its rows and the checksum before it, and `meta`
-one over all. They are verified on opening, and that of a shard on reading. They guard against
+**Checksums.** Each shard has one over its content and the previous checksum, `meta` one over
+everything. They are verified on opening, a shard's also on reading. They guard against
 accidents, not against forgery.
 """
 
@@ -74,19 +74,17 @@ CREATE INDEX rows_of ON rows (shard)
 _FIELDS = "name, edges, start, stop, key, tally, written"
 
 _LOADED = "loaded"
-"""The key under which a campaign says what its mappers have loaded; it grows."""
+"""The key, in a campaign's `meta`, of what its mappers have loaded; it grows."""
 
 _BEGUN = "begun"
-"""The key of the first shard that counts, after a change of the mappers."""
+"""The key of the first shard that counts after a change of the mappers."""
 
 
 class Store:
-    """An open store, which locks its file; `campaign` for each one in it.
+    """An open store, which locks its file. It may hold several campaigns.
 
-    Args:
-        path: the file; a new one is made if it does not exist.
     Raises:
-        InputError: the file is no store, is of another version, was changed, is in use, or cannot
+        InputError: the file is no store, has another version, was changed, is in use, or cannot
             be written.
     """
 
@@ -97,7 +95,7 @@ class Store:
         self.places: dict[tuple[str, str], int] = {}
         self.written: dict[str, tuple[str, str]] = {}
         with explained(self.path):
-            # An absolute path: SQLite takes some relative names for something else than a file.
+            # An absolute path: some relative names mean something else to SQLite.
             self._base = sqlite3.connect(Path(path).absolute(), timeout=0, isolation_level=None)
             try:
                 self._open()
@@ -122,11 +120,9 @@ class Store:
         all_rows: bool = False,
         renew: Callable[[str], None] | None = None,
     ) -> StoredCampaign:
-        """A campaign with the sources and files of its mappers; see `campaign`.
+        """The stored campaign with this identity, sources and files; see `campaign`.
 
-        Args:
-            mappers: those of the campaign; algorithms of the catalogue may be left out.
-            depends: further files that they depend on.
+        Catalogue algorithms may be left out of `mappers`; `depends` are further files.
         """
         identity, now = campaign.identity(source_hash(mappers)), Identity(mappers, depends).loaded()
         return self.campaign(identity, now, name=name, all_rows=all_rows, renew=renew)
@@ -140,13 +136,13 @@ class Store:
         all_rows: bool = False,
         renew: Callable[[str], None] | None = None,
     ) -> StoredCampaign:
-        """The campaign of this name, which is begun if the file does not have it.
+        """The campaign of this name, begun if the file does not have it.
 
         Args:
             now: what the mappers have loaded until now.
             all_rows: keep every row, not only the notable ones.
-            renew: if only the mappers have changed, begin the campaign anew and call this with a
-                sentence that says so.
+            renew: if only the mappers have changed, begin anew and pass a sentence about it to
+                this.
         Raises:
             InputError: the file has another campaign of this name.
         """
@@ -187,7 +183,7 @@ class Store:
             raise MapperChanged(where, "the source of the mapper has changed since")
 
     def _begin_anew(self, name: str, identity: Mapping[str, str]) -> int:
-        """Let the shards of a campaign count no more; their number."""
+        """Discount the shards of a campaign; return their number."""
         old = [place for place in self.places if place[0] == name]
         for place in old:
             del self.places[place]
@@ -206,11 +202,7 @@ class Store:
     # ------------------------------------------------------------ reading and writing
 
     def read(self, number: int) -> tuple[tuple[Any, ...], list[str]]:
-        """The fields of a shard and its rows.
-
-        Raises:
-            InputError: it is not what was written.
-        """
+        """The fields of a shard and its rows; InputError if the checksum is wrong."""
         with explained(self.path):
             ask = f"SELECT {_FIELDS}, sum FROM shards WHERE number = ?"  # noqa: S608  no input in it
             fields = self._base.execute(ask, (number,)).fetchone()
@@ -270,10 +262,10 @@ class Store:
     # ------------------------------------------------------------ opening
 
     def _open(self) -> None:
-        """Lock the file and check every checksum; give a new file its tables."""
+        """Lock the file and verify it; give a new file its tables."""
         self._base.execute("PRAGMA locking_mode = EXCLUSIVE")
         self._base.execute("BEGIN EXCLUSIVE")  # locks now, and for longer than COMMIT
-        if Path(self.path).stat().st_size == 0:  # what was cut off has been rolled back by now
+        if Path(self.path).stat().st_size == 0:  # SQLite has rolled back a torn write by now
             for statement in _SCHEMA.split(";\n"):
                 self._base.execute(statement)
             self.meta = {("", "format"): FORMAT, ("", "version"): str(VERSION)}
@@ -294,7 +286,7 @@ class Store:
             raise changed(self.path, f"the database ({shown(str(intact[0]))})")
         columns = [column[1] for column in self._base.execute("PRAGMA table_info(meta)")]
         entries = list(self._base.execute("SELECT * FROM meta"))
-        # SQLite gives what it finds: the type of a value stands beside it in the file.
+        # In SQLite each value has its own type, whatever the column says.
         if not all(type(word) is str for entry in entries for word in entry):
             raise changed(self.path, "its table meta")
         if columns == ["key", "value"]:
@@ -319,11 +311,11 @@ class Store:
         for shard, row in self._base.execute("SELECT shard, row FROM rows ORDER BY rowid"):
             rows.setdefault(shard, []).append(row)
         ask = f"SELECT number, {_FIELDS}, sum FROM shards ORDER BY number"  # noqa: S608  no input in it
-        for number, *fields, made in self._base.execute(ask):
+        for number, *fields, digest in self._base.execute(ask):
             expected = checksum(self.sums[-1], fields, rows.pop(number, []))
-            if number != len(self.sums) or made != expected:
+            if number != len(self.sums) or digest != expected:
                 raise changed(self.path, f"the shard {len(self.sums)}")
-            self.sums.append(made)
+            self.sums.append(digest)
             self._note(number, fields)
         if rows or count != len(self.sums) - 1:
             raise changed(self.path, "the number of its rows")
@@ -331,7 +323,6 @@ class Store:
             raise changed(self.path, "its table meta")
 
     def _inode(self) -> tuple[int, int] | None:
-        """The identity of the file of this name now; None if there is none."""
         try:
             status = Path(self.path).stat()
         except OSError:
@@ -340,11 +331,7 @@ class Store:
 
 
 class StoredCampaign:
-    """The finished shards of one campaign in a store; a `ShardMemory`.
-
-    Attributes:
-        loaded: which files and distributions the mappers loaded.
-    """
+    """The finished shards of one campaign in a store; a `ShardMemory`."""
 
     def __init__(
         self, store: Store, name: str, loaded: Loaded, now: Loaded, *, all_rows: bool
@@ -353,8 +340,8 @@ class StoredCampaign:
         self.loaded = loaded
         self._notable: tuple[Row, ...] = ()
         if not all_rows:
-            kept = (row for shard in self.known() for row in self._require(shard).rows)
-            self._notable = notable(kept)
+            results = filter(None, map(self.get, self.known()))
+            self._notable = notable(row for result in results for row in result.rows)
 
     @property
     def path(self) -> str:
@@ -363,7 +350,7 @@ class StoredCampaign:
 
     @property
     def since(self) -> tuple[str, str] | None:
-        """When the first shard was written, and the last; None: there is none."""
+        """When the first and the last shard were written; None before the first."""
         return self._store.written.get(self._name)
 
     def known(self) -> list[Shard]:
@@ -377,11 +364,7 @@ class StoredCampaign:
         return sorted(shards, key=lambda shard: (shard.edges, shard.start))
 
     def get(self, shard: Shard) -> ShardResult | None:
-        """The result of a shard; None if it is not finished.
-
-        Raises:
-            InputError: it is not what was written.
-        """
+        """The result of a shard; None if it is not finished; InputError if it was changed."""
         number = self._store.places.get((self._name, shard.key))
         if number is None:
             return None
@@ -392,24 +375,22 @@ class StoredCampaign:
         except msgspec.MsgspecError as error:
             raise changed(self.path, f"the shard {number} ({error})") from error
 
-    def _require(self, shard: Shard) -> ShardResult:
-        result = self.get(shard)
-        assert result is not None, "it is among those that are known"
-        return result
-
     def put(self, shard: Shard, result: ShardResult) -> None:
-        """Record a finished shard, durably.
+        """Record a finished shard durably.
 
-        Raises:
-            InputError: the file cannot be written, or was removed; a file that the mappers loaded
-                has changed.
+        InputError: the file cannot be written, or a file that the mappers loaded has changed.
         """
         rows = result.rows
-        if not self._all_rows:  # a row that others in the file put out of the list is not needed
+        if not self._all_rows:  # drop rows that are not notable beside those of the file
             self._notable = notable([*self._notable, *rows])
             kept = set(map(id, self._notable))
             rows = tuple(row for row in rows if id(row) in kept)
-        loaded = self._without_itself(result.loaded or self._now)
+        loaded = result.loaded or self._now
+        files = dict(loaded.files)
+        files.pop(
+            str(Path(self.path).absolute()), None
+        )  # the store was opened in this process, too
+        loaded = msgspec.structs.replace(loaded, files=files)
         self.loaded = merged(self.loaded, loaded, f"store {self.path}")
         now = datetime.now(UTC).isoformat(timespec="seconds")
         tally = msgspec.json.encode(result.tally).decode()
@@ -417,15 +398,9 @@ class StoredCampaign:
         texts = [msgspec.json.encode(row).decode() for row in rows]
         self._store.write(self._name, {}, self.loaded, (*place, tally, now), texts)
 
-    def _without_itself(self, loaded: Loaded) -> Loaded:
-        # In this process the store, too, is a file that was opened.
-        own = str(Path(self.path).absolute())
-        files = {path: made for path, made in loaded.files.items() if path != own}
-        return msgspec.structs.replace(loaded, files=files)
-
 
 def checksum(before: str, *parts: Sequence[Any]) -> str:
-    """The checksum of a shard, given that of the one before it."""
+    """The checksum of a shard, given the previous shard's."""
     return sha256(msgspec.json.encode([before, *parts])).hexdigest()
 
 
@@ -461,7 +436,7 @@ def no_store(path: str) -> InputError:
 
 
 def changed(path: str, part: str) -> InputError:
-    """The error for a part of the store that was changed after it was written."""
+    """The error for a changed part of the store."""
     return InputError(
         f"store {path}: {part} is not what topo-verify wrote: copy the file again, or remove it and"
         " start anew"
@@ -470,12 +445,12 @@ def changed(path: str, part: str) -> InputError:
 
 @contextmanager
 def explained(path: str) -> Generator[None]:
-    """Turn an error of SQLite's into an InputError that says how to fix it."""
+    """Turn SQLite's errors into an InputError that says how to fix it."""
     try:
         yield
     except InputError:  # it is a ValueError, too
         raise
-    # Of a changed file: text that is no text, numbers beyond all bounds.
+    # A changed file may hold invalid text and huge numbers.
     except (UnicodeError, ValueError, OverflowError, MemoryError) as error:
         raise changed(path, f"the database ({shown(str(error))})") from error
     except sqlite3.Error as error:

@@ -1,6 +1,6 @@
-"""A tally: the numbers that rows add up to. And `notable`: the rows that are kept as examples.
+"""A `Tally`, the sums of rows, and `notable`, which chooses the rows kept as examples.
 
-Both add up in any grouping that keeps the order of the worlds:
+Worlds can be grouped in any way that keeps their order:
 
     tally + tally
     notable(notable(rows) + notable(rows)) == notable(rows + rows)
@@ -26,12 +26,7 @@ KEPT_FAILING, KEPT_WORST, KEPT_PAIRS, SAMPLE = 3, 10, 10, 50
 
 
 class Costs(msgspec.Struct, frozen=True):
-    """Costs of one mapper's runs in which no claim fails, in edge traversals.
-
-    Attributes:
-        runs, total, most: their number, their sum, the highest.
-        attained: number of worlds with the highest cost.
-    """
+    """Costs of one mapper's runs without a failing claim; `attained`: worlds with the highest."""
 
     runs: int = 0
     total: int = 0
@@ -45,12 +40,7 @@ class Costs(msgspec.Struct, frozen=True):
 
 
 class Pairs(msgspec.Struct, frozen=True):
-    """The first two mappers in the same worlds, both right.
-
-    Attributes:
-        dearer, cheaper: number of worlds where the first costs more, and less.
-        most: the largest difference where it costs more.
-    """
+    """Worlds where the first of two right mappers costs more, and less; its largest excess."""
 
     dearer: int = 0
     cheaper: int = 0
@@ -62,21 +52,18 @@ class Pairs(msgspec.Struct, frozen=True):
 
 
 class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
-    """The numbers of some worlds.
+    """The sums over the rows of some worlds.
 
     Attributes:
-        worlds, failing, undecided: worlds; those where a claim fails; those left open.
         timeouts: runs that a time limit ended, or that lost their worker each time.
-        late: runs that were cut off and say nothing else.
+        late: runs that a time limit ended and that show nothing else.
         lost: worlds in which a worker was lost, perhaps not by a mapper's fault.
         statuses: for each claim, the number of runs with each status.
-        shares: for each claim, how much was judged in all runs together, of how much.
-        claims: for each claim that fails, the number of worlds.
-        costs: of each mapper.
-        pairs: the first mapper with the second.
-        digest: a hash of what happened in every world, in any order.
+        shares: for each claim, how many cases were judged, of how many.
+        claims: for each failing claim, the number of worlds.
+        digest: a hash of all results, whatever the order of the worlds.
         by_checkers: worlds that the checkers judged again after another engine.
-        choices: the possible costs, if every choice of the mappers is tried.
+        choices: possible costs, if every choice of the mappers is tried.
     """
 
     worlds: int = 0
@@ -98,17 +85,13 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
         return Tally(*map(added, msgspec.structs.astuple(self), msgspec.structs.astuple(other)))
 
     def amended(self, row: Row) -> Tally:
-        """The tally with a lost worker in one of its worlds, whose runs count already."""
+        """The tally once a run that it counts turned out to have lost its worker."""
         if row.undecided is not None:
             return self + Tally(undecided=1, lost=1)
         return self + Tally(failing=1, claims=dict.fromkeys(row.failed, 1))
 
     def judgements(self, findings: Sequence[Finding] = ()) -> tuple[Judgement, ...]:
-        """The judgement of each claim on all runs: `ok` only if it is `ok` in each.
-
-        Args:
-            findings: those to show.
-        """
+        """The joint judgement of each claim: `ok` only if it is `ok` in every run."""
         return tuple(
             Judgement(
                 claim,
@@ -122,7 +105,7 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
 
 
 def added(a: Any, b: Any) -> Any:
-    """The sum of a field of two tallies; a text is a digest, "" that of none."""
+    """The sum of one field of two tallies; texts are digests."""
     # isinstance would leave pyright without the types of the parts.
     if issubclass(a.__class__, dict):
         return {**a, **b, **{key: added(a[key], b[key]) for key in a if key in b}}
@@ -150,7 +133,7 @@ def joint_status(runs: Mapping[str, int]) -> Status:
 
 @dataclass
 class Counts:
-    """Counts rows, world by world: `tally` without a sum of tallies for each world."""
+    """Counts rows world by world: faster than adding a `Tally` for each world."""
 
     worlds: int = 0
     failing: int = 0
@@ -170,7 +153,7 @@ class Counts:
     _choices: PolicyCosts = field(default_factory=PolicyCosts)
 
     def enter(self, rows: Sequence[Row]) -> None:
-        """Count one world: the rows of all mappers in it."""
+        """Count one world, given the rows of all mappers in it."""
         failed: dict[str, None] = {}
         paid: dict[str, int] = {}
         digests = sha256()
@@ -248,13 +231,11 @@ class Counts:
 
 @dataclass
 class Notable:
-    """The rows to keep: failing, lost, most expensive, more expensive than the other mapper's.
+    """Chooses the rows to keep, among them a sample drawn by `seed`.
 
-    And the first and the last of each size. `enter` worlds in their order. Whether a row is kept
-    depends only on the worlds of its size.
-
-    Attributes:
-        seed: draws the sample, of failing rows and of others.
+    First and last of each size, failing, lost, most expensive, and more expensive than the other
+    mapper's. The choice depends only on the worlds of one size. Call `enter` in the order of the
+    worlds.
     """
 
     seed: int = 0
@@ -270,7 +251,7 @@ class Notable:
     )
 
     def enter(self, rows: Sequence[Row]) -> None:
-        """Consider one world."""
+        """Consider the rows of one world."""
         for row in rows:
             self._keep("first", row, 1)
             self._kept["last", row.edges] = [row]
@@ -319,12 +300,12 @@ class Notable:
 
 
 def sample_key(seed: int, world: str) -> str:
-    """The key of a world: evenly distributed, drawn by the seed, the same in every process."""
+    """A key, drawn by the seed, that orders worlds at random but equally in every process."""
     return sha256(f"{seed} {world}".encode()).hexdigest()[:12]
 
 
 def notable(rows: Iterable[Row], seed: int = 0) -> tuple[Row, ...]:
-    """Those of these rows that are kept, in the order of their worlds."""
+    """The rows worth keeping, in the order of their worlds; see `Notable`."""
     kept = Notable(seed)
     worlds: dict[tuple[int, int], list[Row]] = {}
     for row in rows:

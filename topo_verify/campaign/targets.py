@@ -7,16 +7,11 @@
     --library file.so:symbol    a function of a shared library, in its own process
     --library path/file.py:name a function that numba compiles; as path/file.py:name, too
     all                         the algorithms that are right in every world
-    basic,path/file.py:name     several of these, but for programs and libraries
+    basic,path/file.py:name     several of these, except programs and libraries
 
-Conversely, `text_of` gives the text by which a command line finds a callable again:
-
-| the callable | its text |
-| --- | --- |
-| an algorithm of the catalogue | its name |
-| what a module holds under a name | `package.module:name` |
-| likewise, but other programs do not find the module by its name | `path/file.py:name` |
-| anything else, such as a closure, or what a notebook holds | `module:<name>`, which finds none |
+Conversely, `text_of` names a callable by its catalogue name, its module, its file if other
+programs do not find the module by name, or else, as for a closure or what a notebook holds, by
+`module:<name>`, which finds nothing.
 
 Source: docs/semantics.md, section 16.
 """
@@ -48,14 +43,12 @@ def targets(
 ) -> tuple[Target, ...]:
     """The mappers that a TARGET names, in its order.
 
-    A program starts in its first world; a mapper in its own process now.
+    A program starts in its first world, a mapper in its own process now. If `in_process`,
+    mappers outside the catalogue share this process.
 
-    Args:
-        pick, order: policies for algorithms of the catalogue.
-        in_process: a mapper outside the catalogue shares this process.
     Raises:
-        InputError: there is no such mapper or policy; it cannot be called; the command is empty; or
-            policies are given for another mapper.
+        InputError: there is no such mapper or policy; it cannot be called; the command is empty;
+            or policies are given for another mapper.
     """
     mappers = (_target(name, in_process=in_process) for name in each_text(text))
     return tuple(_with_policies(mapper, pick, order) for mapper in mappers)
@@ -77,7 +70,7 @@ def each_text(text: str) -> tuple[str, ...]:
 
 
 def _names_jitted(text: str) -> bool:
-    """Whether `path/file.py:name` names a function compiled by numba, as its source shows it."""
+    """Whether `path/file.py:name` names a function compiled by numba, as its source shows."""
     place, _, name = text.rpartition(":")
     if not place.endswith(".py"):
         return False
@@ -107,11 +100,7 @@ def one_target(
     order: str | None = None,
     in_process: bool = True,
 ) -> Target:
-    """The target that a callable or a text names; see `targets`.
-
-    Raises:
-        InputError: as `targets`; or the text names several mappers, or the object is no callable.
-    """
+    """The target that a callable or a text names; InputError if it names several."""
     if isinstance(mapper, Target):
         return _with_policies(mapper, pick, order)
     if not isinstance(mapper, str):
@@ -204,7 +193,7 @@ def target_arguments(text: str) -> tuple[str, ...]:
 
 
 def text_of(mapper: Mapper) -> str:
-    """The text of a callable; see the table above."""
+    """The text of a callable."""
     if isinstance(mapper, Algorithm):
         known = CATALOGUE.get(mapper.name)
         ours = known is not None and replace(mapper, policies=known.policies) == known
@@ -237,7 +226,7 @@ def _name_in(module: ModuleType, mapper: Mapper) -> str | None:
 
 
 def _place(module: ModuleType) -> str | None:
-    """How another program, started in this folder, names the module; None if it cannot."""
+    """How another program in this folder would name the module; None if it cannot."""
     name, file = module.__name__, getattr(module, "__file__", None)
     if name == "__main__":
         return file if file is not None and _is_guarded(module, Path(file)) else None
@@ -253,10 +242,7 @@ def _place(module: ModuleType) -> str | None:
 
 
 def _is_guarded(script: ModuleType, path: Path) -> bool:
-    """Whether a script may be loaded again: its current line stands below a `__name__` guard.
-
-    Without one it would do its work again when it is loaded.
-    """
+    """Whether a script's current line is below a `__name__` guard, so it may be loaded again."""
     if path.suffix != ".py" or not path.is_file():
         return False
     frame = inspect.currentframe()

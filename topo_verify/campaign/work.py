@@ -1,7 +1,7 @@
-"""What the workers of a pool do, as a value: tasks, results, and what becomes of a lost task.
+"""The work of a pool: tasks, results, and what a lost worker means for its task.
 
-A job, a task and a result are data (JSON), opaque to this file. A task that loses its workers is
-cut into pieces; their results are joined.
+Jobs, tasks and results are JSON data, opaque to this file. A task that loses its workers is cut
+into pieces, whose results are joined.
 """
 
 from __future__ import annotations
@@ -9,13 +9,12 @@ from __future__ import annotations
 import os
 import signal
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, TypeVar
 
 TaskT = TypeVar("TaskT")
 ResultT = TypeVar("ResultT")
-ResultT_co = TypeVar("ResultT_co", covariant=True)
 
 
 def processors() -> int:
@@ -30,9 +29,9 @@ class Loss:
 
     Attributes:
         status: its exit status in words, `exit code 3` or `signal 9`.
-        silence: seconds without a heartbeat after which it was killed; None: it ended itself.
+        silence: seconds without a heartbeat until it was killed; None: it ended by itself.
         loading: it was not ready for its first task yet.
-        items: number of finished items of its task.
+        items: finished items of its task.
     """
 
     status: str
@@ -78,10 +77,9 @@ class Remote(Generic[TaskT, ResultT]):
     """What other machines need to do a task.
 
     Attributes:
-        remade: `module:function`, which makes the same `Work` from its job, as JSON.
-        task: the type of a task.
-        parts: a task in parts, without a look at its items; fewer than two: it cannot be cut.
-        lost: the result of a task that cannot be cut and lost its machines; it convicts no mapper.
+        remade: `module:function` that makes the same `Work` from its job, as JSON.
+        parts: a task cut without reading its items; fewer than two parts: it cannot be cut.
+        lost: the result of an uncuttable task that lost its machines; it convicts no mapper.
         require_ours: raises an InputError if a result of the named worker used other files.
     """
 
@@ -94,20 +92,17 @@ class Remote(Generic[TaskT, ResultT]):
 
 @dataclass(frozen=True, kw_only=True)
 class Work(Generic[TaskT, ResultT]):
-    """What the workers of a pool do, and what becomes of a task that loses them.
+    """What workers do, and what becomes of a task that loses them.
 
     Attributes:
-        serve: the function that a worker runs, `module:function`; a `worker.Serve`.
+        serve: `module:function` of a `worker.Serve`.
         job: what each worker gets before its first task.
-        result: the type of a result.
         lost: the result of a task that was lost with its last worker; it may raise.
         survived: the result of a task that lost workers, given its last result, the losses by
             piece, and the pieces that were given up.
         silence: seconds without a heartbeat after which a worker is lost.
         loading: seconds that a worker has to get ready.
         attempts: the most workers that may be lost with a task.
-        division: how a task is cut; None: it cannot be.
-        remote: what other machines need; None: this one only.
     """
 
     serve: str
@@ -124,53 +119,15 @@ class Work(Generic[TaskT, ResultT]):
     remote: Remote[TaskT, ResultT] | None = None
 
 
-class TaskBackend(Protocol[TaskT, ResultT_co]):
-    """Does tasks: a pool on this machine, or a cluster."""
-
-    def run(
-        self, tasks: Iterable[TaskT], *, room: Callable[[], bool] = ...
-    ) -> Iterator[tuple[TaskT, ResultT_co]]:
-        """Each task, the very object, and its result, in the order in which tasks are finished.
-
-        Args:
-            room: asked before a task is taken; while it says no, none is.
-        """
-        ...
-
-
-def in_order(
-    backend: TaskBackend[TaskT, ResultT], tasks: Iterable[TaskT], *, ahead: int
-) -> Iterator[ResultT]:
-    """The results in the order of the tasks.
-
-    Args:
-        tasks: different objects.
-        ahead: the most tasks taken before the first of them is finished: a slow one must not fill
-            the memory with results that wait for it.
-    """
-    taken: deque[TaskT] = deque()
-    results: dict[int, ResultT] = {}  # by the identity of the task, which `taken` keeps alive
-
-    def take() -> Iterator[TaskT]:
-        for task in tasks:
-            taken.append(task)
-            yield task
-
-    for finished, result in backend.run(take(), room=lambda: len(taken) < ahead):
-        results[id(finished)] = result
-        while taken and id(taken[0]) in results:
-            yield results.pop(id(taken.popleft()))
-
-
 # ---------------------------------------------------------------- tasks and their pieces
 
 
 @dataclass(eq=False)
 class WholeTask(Generic[TaskT, ResultT]):
-    """A task as it was taken, and its pieces in order; at first, it is its only piece.
+    """A task and its pieces in order; at first, it is its only piece.
 
     Attributes:
-        losses: how workers were lost with it, each with its piece.
+        losses: each with its piece.
         given_up: the pieces that were lost with their last worker.
     """
 
@@ -182,12 +139,7 @@ class WholeTask(Generic[TaskT, ResultT]):
 
 @dataclass(eq=False)
 class Piece(Generic[TaskT, ResultT]):
-    """A task or a part of one.
-
-    Attributes:
-        deaths: number of workers lost with it.
-        results: its result, once it is there.
-    """
+    """A task or a part of one; `results` holds at most one."""
 
     task: TaskT
     whole: WholeTask[TaskT, ResultT]
@@ -196,24 +148,17 @@ class Piece(Generic[TaskT, ResultT]):
 
 
 class Pieces(Generic[TaskT, ResultT]):
-    """The pieces of the tasks of some work, as long as a pool lives.
-
-    Attributes:
-        queue: pieces that go before new tasks.
-        finished: finished tasks with their results, until the pool takes them.
-    """
+    """The pieces of a pool's tasks: `queue` before new tasks, and `finished` ones."""
 
     def __init__(self, work: Work[TaskT, ResultT]) -> None:
         self._work = work
         self.queue: deque[Piece[TaskT, ResultT]] = deque()
         self.finished: deque[tuple[TaskT, ResultT]] = deque()
 
-    def next(self, todo: Iterator[TaskT], room: Callable[[], bool]) -> Piece[TaskT, ResultT] | None:
-        """The next piece; None if there is none, or no room for a new task."""
+    def next(self, todo: Iterator[TaskT]) -> Piece[TaskT, ResultT] | None:
+        """The next piece to be done, or None."""
         if self.queue:
             return self.queue.popleft()
-        if not room():
-            return None
         for task in todo:
             whole: WholeTask[TaskT, ResultT] = WholeTask(task)
             whole.pieces.append(Piece(task, whole))
@@ -236,7 +181,7 @@ class Pieces(Generic[TaskT, ResultT]):
             results: list[ResultT] = []
             for other in whole.pieces:
                 results += other.results
-                if division.last(results[-1]):  # a worker may have been at what lies behind
+                if division.last(results[-1]):  # drop what other workers did behind it
                     break
             self._finish_whole(whole, division.join(results))
 

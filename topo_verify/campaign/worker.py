@@ -1,16 +1,15 @@
 """One worker of a `Pool`: the process, which does tasks, and its parent's handle on it.
 
     in          the key and the job, then the tasks: a JSON value a line
-    out         a sealed message a line: WorkerReady, a TaskDone for each task; at last perhaps
-                WorkerFailed
-    heartbeat   three words in a file: finished items of the task, a number that grows, and
-                milliseconds until the next sign of life is due (0: as usual)
+    out         a sealed message a line: WorkerReady, TaskDone …, perhaps WorkerFailed
+    heartbeat   three words in a file: finished items of the task, a number that grows,
+                milliseconds until the next heartbeat is due (0: as usual)
 
-- **A worker ends with its parent.** It is a fork of the launcher, which sees its control end; on
-  Linux the kernel kills a worker with the launcher, because a mapper in C code lets no thread run.
-  Elsewhere the thread that reads tasks sees the channel end.
+- **A worker ends with its parent.** It is a fork of the launcher, which sees its control end. On
+  Linux the kernel kills a worker with the launcher, because a mapper in C code lets no thread
+  run; elsewhere the thread that reads tasks sees the channel end.
 - **No other program speaks for a worker.** A worker is shielded from its first moment
-  (launcher.py). Each message carries a *seal*: its number and its text, signed with a key that only
+  (launcher.py). Each message carries a *seal*: its number and text, signed with a key that only
   parent and worker know. A forged message ends the work.
 - **A mapper cannot disturb the channel**: standard input is empty, prints go to standard error.
 - **Ctrl-C is for the parent**, which ends the workers.
@@ -47,10 +46,10 @@ Beat = Callable[[int], None]
 """Called in the course of a task, before anything slow: (items finished so far)."""
 
 Handler = Callable[[bytes, Beat], Any]
-"""Does one task: takes it as JSON, returns the result, which msgspec can write as JSON."""
+"""Does one task, given as JSON; msgspec must be able to write the result as JSON."""
 
 Serve = Callable[[bytes], AbstractContextManager[Handler]]
-"""Takes the job as JSON and prepares for its tasks; clears up on leaving the context."""
+"""Takes the job as JSON and prepares for its tasks."""
 
 
 def function_at(place: str) -> Any:
@@ -63,7 +62,7 @@ END_GRACE = 5.0
 """Seconds that an idle worker has to leave its context and end."""
 
 LOOK = 1.0
-"""Most seconds between two looks of the pool at a heartbeat, while the pool runs."""
+"""Most seconds between two looks of the running pool at a heartbeat."""
 
 TERM_GRACE = 2.0
 """Seconds that a busy worker has to end after SIGTERM."""
@@ -90,13 +89,9 @@ WorkerMessage = WorkerReady | TaskDone | WorkerFailed
 
 
 class Heartbeat:
-    """The signs of life that a worker writes and its parent reads.
+    """The heartbeat, in shared memory, so that machine code can write it at `address`.
 
-    Shared memory, so that machine code can write to it; a pipe would fill up while the parent is
-    busy.
-
-    Attributes:
-        address: of its words.
+    A pipe would fill up while the parent is busy.
     """
 
     def __init__(self, file: int) -> None:
@@ -113,7 +108,7 @@ class Heartbeat:
 
     @contextmanager
     def within(self, seconds: float) -> Generator[None]:
-        """The next sign of life is due in `seconds`, as long as the block runs."""
+        """Allow `seconds` until the next heartbeat, as long as the block runs."""
         self._words[2] = int(1000 * seconds)
         try:
             yield
@@ -121,17 +116,15 @@ class Heartbeat:
             self._words[2] = 0
 
     def read(self) -> tuple[int, int, float]:
-        """Number of finished items, number of beats, and when the next one is due."""
+        """Number of finished items, number of beats, and seconds until the next one is due."""
         items, count, due = self._words
         return items, count, due / 1000
 
 
 class Seal:
-    """Signs the messages of one worker, each with its number, against forgery and repetition.
+    """Signs the numbered messages of one worker, against forgery and repetition.
 
-    Args:
-        key: known to the worker and to its parent.
-        process: the worker's process id: a copy of it signs nothing.
+    `process` is the worker's id: a copy of the worker signs nothing.
     """
 
     def __init__(self, key: str, process: int) -> None:
@@ -144,11 +137,7 @@ class Seal:
         return blake2b(numbered, key=self._key, digest_size=32).hexdigest().encode() + b" " + text
 
     def opened(self, line: bytes) -> bytes:
-        """The next message without its seal.
-
-        Raises:
-            InputError: its seal is not that of the worker's next message.
-        """
+        """The next message without its seal; InputError if that is another's."""
         text = line.partition(b" ")[2]
         if not compare_digest(line, self.sealed(text)):
             raise InputError(
@@ -162,12 +151,8 @@ class Seal:
 
 
 class WorkerProcess:
-    """A worker, as its parent sees it: made, `start` tasks, `kill`.
+    """A worker, as its parent sees it; `serve` and `job` are as in `Work`.
 
-    Args:
-        serve: the function that it runs, `module:function`; a `Serve`.
-        job: what it gets before its first task.
-        folder: where it is started; default: the current folder.
     Attributes:
         items: finished items of its task at its last heartbeat.
         due: seconds until its next heartbeat is due; 0: as usual.
@@ -190,7 +175,7 @@ class WorkerProcess:
 
     @property
     def out(self) -> socket.socket:
-        """The socket on which its messages come."""
+        """Its end of the channel."""
         return self.process.channel
 
     def start(self, task: object) -> None:
@@ -199,15 +184,11 @@ class WorkerProcess:
         self._write(task)
 
     def _write(self, data: object) -> None:
-        with suppress(ConnectionError):  # it is dead: reading from it will tell
+        with suppress(ConnectionError):  # it is dead, as reading from it shows
             self.out.sendall(msgspec.json.encode(data) + b"\n")
 
     def hear(self) -> list[WorkerMessage] | None:
-        """The messages that have come; None if it has ended.
-
-        Raises:
-            InputError: another process wrote a message.
-        """
+        """The messages that have come; None if it has ended."""
         text = self._received()
         if not text:
             return None
@@ -240,17 +221,17 @@ class WorkerProcess:
         self._grace = TERM_GRACE if busy else END_GRACE
 
     def await_end(self) -> None:
-        """Wait until it has ended by itself after `dismiss`, but not for long."""
+        """Wait briefly until it has ended after `dismiss`."""
         until = monotonic() + self._grace
         with suppress(TimeoutError):
-            while (left := until - monotonic()) > 0:
-                self.out.settimeout(left)
+            while (seconds := until - monotonic()) > 0:
+                self.out.settimeout(seconds)
                 if not self._received():
                     return
 
     def kill(self) -> str:
-        """Kill it and whatever it started. Returns its exit status in words."""
-        # Its number names no other group: it is not reaped before `wait`.
+        """Kill it with its process group; return its exit status in words."""
+        # Its id names no other group: it is not reaped before `wait`.
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(self.process.pid, signal.SIGKILL)
         code = self.process.wait()
@@ -278,7 +259,7 @@ def main(commands: BinaryIO, out: BinaryIO, heartbeat: int) -> None:
         pass  # the parent is gone, and needs no result
     except InputError as error:
         send(WorkerFailed(str(error), bug=False))
-    except Exception:  # noqa: BLE001  whatever it is, the parent is told
+    except Exception:  # noqa: BLE001  the parent gets it
         send(WorkerFailed(traceback.format_exc(), bug=True))
 
 
@@ -298,7 +279,7 @@ def _work(
 
 def _send(out: BinaryIO, seal: Seal, process: int, message: WorkerMessage) -> None:
     if os.getpid() != process:
-        os._exit(1)  # code that the worker runs has doubled it
+        os._exit(1)  # a fork made by the code that the worker runs
     out.write(seal.sealed(msgspec.json.encode(message)) + b"\n")
     out.flush()
 

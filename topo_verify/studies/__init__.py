@@ -1,19 +1,19 @@
 """Questions put to many runs.
 
-verify/        the main job
-search/        every world of a class
-conform/       an implementation against the reference
-baseline/      record and compare
-faults.py      the seeded faults, and which check finds which
-arena/         mappers ranked by cost
-game/          what the best explorer pays
-reproduce/     the paper's figures
-gap.py         how far a rule is from the best possible
-corpus.py      what WORLDS means
-beside.py      a function called in worker processes
-log_file.py    a robot's log, read from a file
-log_report.py  what a log proves without its world
+verify/          the main job
+search/          every world of a class
+conform/         an implementation against the reference
+baseline/        record and compare
+faults.py        which check finds which seeded fault
+arena/           mappers ranked by cost
+game/            what the best explorer pays
+reproduce/       the paper's figures
+gap.py           how far a rule is from the best possible
+corpus.py        what WORLDS means
+beside.py        calls a function in worker processes
+log_file.py      reads a robot's log from a file
+log_report.py    what a log proves without its world
 certificates.py  the same, stated and proved in Coq
-advice.py      where a robot goes next
-map_check.py   a map judged by a log
+advice.py        where a robot goes next
+map_check.py     judges a map by a log
 """

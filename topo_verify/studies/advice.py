@@ -1,11 +1,11 @@
-"""Advice for a robot whose log does not prove its map yet: which way to go on, and the way back.
+"""Advice for a robot whose log does not prove its map yet: where to go on, and the way back.
 
-The nearest open door is bad advice: behind it lie new open doors, and only the marker tells that
-two places are one. So the mapper `homing` explores **in thought**: the fold of the log answers its
-moves. The robot goes to the first door that the fold does not know, and asks again.
+The nearest open door is bad advice: behind it lie new open doors, and only the marker shows that
+two places are one. So the mapper `homing` explores **in thought**: the fold of the log answers
+its moves. The robot goes to the first door that the fold does not know, and asks again.
 
-**This ends.** In the robot's world the mapper makes finitely many moves, and the fold answers one
-more of them each time. What this does not show: that no shorter walk proves the map.
+**This ends**, since the mapper makes finitely many moves in the robot's world, and the fold
+answers one more of them each time. What this does not show: that no shorter walk proves the map.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A function of ours called in worker processes, while this process does something else."""
+"""Calls a function in worker processes, while this process does something else."""
 
 from __future__ import annotations
 
@@ -33,12 +33,9 @@ def serve_calls(job: bytes) -> Generator[Handler]:
 
 
 class Beside(Generic[R]):
-    """Calls a function with each of some names. Life cycle: `with` it, then `result`.
+    """Calls a module's function with each of some names: `with` it, then `result`.
 
-    Args:
-        function: of a module; its other arguments and its result are JSON.
-        result: the type of the result.
-        workers: the number of processes.
+    `arguments` follow the name; they and the result are JSON.
     """
 
     def __init__(
@@ -68,7 +65,7 @@ class Beside(Generic[R]):
         self._pool.__exit__()
 
     def result(self, name: str) -> R:
-        """The result of the call with a name, once it is finished."""
+        """The result of the call with this name, once it is finished."""
         while name not in self._results:
             finished, result = next(self._finished)
             self._results[finished] = result

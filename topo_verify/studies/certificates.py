@@ -1,4 +1,4 @@
-"""Certificates for Coq of what a log proves: made here and checked, or received and checked."""
+"""Coq certificates of what a log proves: made here and checked, or received and checked."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ NumbersChecker = Callable[[Sequence[int]], certificates.CertificateCheck]
 
 
 class CertifiedDecisions(msgspec.Struct, frozen=True):
-    """How many of the decisions that follow Coq accepted.
+    """How many of the entailed decisions Coq accepted.
 
     Attributes:
         by: the checker; "" if nothing was checked.
-        why: the reason why some are not certified; "" if all are.
+        why: why some are not certified; "" if all are.
     """
 
     certified: int
@@ -31,17 +31,17 @@ class CertifiedDecisions(msgspec.Struct, frozen=True):
 
 
 class KernelCheck(msgspec.Struct, frozen=True):
-    """The certificate for Coq of one log, and the answer of its checker.
+    """The Coq certificate of a log, and the answer of its checker.
 
     Attributes:
         statement: map, undetermined or impossible.
         file: the certificate.
         accepted: null if nothing checked the certificate.
         by: the checker.
-        why: the reason why nothing was checked.
+        why: why nothing was checked.
         command: checks it again, in the folder of the certificate.
         delivered: whether Coq accepted that the delivered map is the world.
-        decisions: those of the log that follow, certified.
+        decisions: the certified ones among those that follow.
     """
 
     statement: str
@@ -70,13 +70,13 @@ class CertificateEntry(msgspec.Struct, frozen=True):
     """One received certificate.
 
     Attributes:
+        certificate: its file.
         accepted: null if nothing checked the certificate.
         by: what accepted or refused it; "" if nothing did.
-        statement: map, undetermined or impossible, of an accepted certificate; else null.
-        why: the reason why it is refused, not checked, or silent about a part of the log; else "".
+        statement: map, undetermined or impossible, if accepted; else null.
+        why: why it is refused, unchecked, or silent about a part of the log; else "".
         delivered: whether it states that the delivered map is the world.
-        decisions: those of the log if one is given, else those in the certificate.
-        certificate: its file.
+        decisions: those of the log, if one is given; else those in the certificate.
     """
 
     certificate: str
@@ -91,10 +91,8 @@ class CertificateEntry(msgspec.Struct, frozen=True):
 def prove_log(
     trace: str, log: Trace, certificate: Certificate, file: str, check: NumbersChecker
 ) -> KernelCheck:
-    """Write the certificate of a log to a file and have it checked.
+    """Write the certificate of a log (in the file `trace`) to a file and have it checked.
 
-    Args:
-        trace: the file of the log.
     Raises:
         InternalError: Coq refuses it, or it states another result than the fold.
     """
@@ -146,7 +144,7 @@ def _certified(
 
 
 def check_received(file: str, log: Trace | None, check: NumbersChecker) -> CertificateEntry:
-    """The result of checking a received certificate, about this log if one is given.
+    """Check a received certificate, about this log if one is given.
 
     Raises:
         InputError: the file is not a certificate, or no certificate can be about that log.

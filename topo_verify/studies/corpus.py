@@ -5,11 +5,11 @@
 | `corpus` | every world of 1 to 4 edges, 20 of each strategy, the street network |
 | `edges<=5` | every world of 1 to 5 edges, in the order of their ids |
 | `generated:200` | 200 worlds, spread evenly over the strategies |
-| `generated:200:STRATEGY` | 200 worlds of one strategy, such as `planar_worlds(max_edges=20)` |
-| a folder | the world files in it, in the order of their names |
+| `generated:200:STRATEGY` | 200 worlds of one strategy, e.g. `planar_worlds(max_edges=20)` |
+| a folder | the world files in it, by name |
 | any WORLD | this world: a path, `family:…`, an id, `nyc` |
 
-A corpus lists its worlds anew each time. Source: docs/semantics.md, section 16.
+Source: docs/semantics.md, section 16.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ STRATEGIES = (
     "symmetric_worlds(min_edges=1, max_edges=24)",
     "uniform_worlds(edges=12)",
 )
-"""What `generated:N` draws from, in this order."""
+"""The strategies of `generated:N`, in this order."""
 
 MOST_GENERATED = 1_000_000
 MOST_ENUMERATED = 9
@@ -71,7 +71,7 @@ class Named:
 
 @dataclass(frozen=True)
 class CorpusPart:
-    """The worlds that one text names; `listed` lists them anew."""
+    """The worlds that one text names; each call of `listed` lists them anew."""
 
     text: str
     total: int
@@ -106,7 +106,7 @@ class Corpus:
 
     @cached_property
     def digest(self) -> str:
-        """A hash of the worlds in order; `edges<=N` stands for its own."""
+        """A hash of the worlds in order; the text `edges<=N` stands for its worlds."""
         digest = sha256(b"topo-verify/corpus 1")
         for part in self.parts:
             digest.update(msgspec.json.encode([part.text if part.finite else "", part.total]))
@@ -134,7 +134,7 @@ class CorpusWorlds:
 
 
 def corpus_from(texts: Sequence[str] = DEFAULT, *, seed: int = 0) -> Corpus:
-    """The worlds that these texts name, in order; without texts the default corpus.
+    """The worlds that these texts name, in order.
 
     Raises:
         InputError: a text names no worlds, or a file holds none.
@@ -205,11 +205,7 @@ def _generated(text: str, seed: int) -> CorpusPart:
 
 
 def drawn(asked: str, strategy: str, number: int, seed: int) -> list[World]:
-    """Worlds of a strategy given as text, asked for by the option `asked`.
-
-    Raises:
-        InputError: there is no such strategy, or it draws no worlds.
-    """
+    """Worlds of a strategy; InputError, which begins with `asked`, if it draws none."""
     from hypothesis.errors import HypothesisException
 
     from topo_verify.strategies.sample import resolve_strategy, sample

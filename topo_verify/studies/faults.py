@@ -1,11 +1,11 @@
-"""Tries all checks on all seeded faults: which finds which, how fast, in which smallest world.
+"""Tries every check on every seeded fault: does it find the fault, how fast, in which world?
 
     search       every world of 1, 2, … edges up to the first size in which a claim fails
     properties   property tests on two strategies, five seeds each
     proofs       a theorem whose version with the same mistake the solver refutes
 
-A fault is caught if each check that was asked for finds it, and its claim fails in worlds of the
-smallest size. A harmless difference must be found by none. A run out of time is undecided.
+A fault is caught if each requested check finds it and its claim fails in worlds of the smallest
+size. A harmless difference must be found by none. A run out of time is undecided.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Literal, get_args
 
 import msgspec
 
-from topo_verify.campaign.progress import Progress
+from topo_verify.campaign.campaign import Progress
 from topo_verify.campaign.run import Engine, explore, planted, require_compiled
 from topo_verify.checkers import CLAIMS
 from topo_verify.checkers.findings import Verdict
@@ -45,11 +45,11 @@ class Caught(msgspec.Struct, frozen=True):
 
     Attributes:
         name, part, why, claim, harmless, target: of the fault.
-        search, properties: None if the check was not asked for.
-        proofs: None also if no theorem has this mistake.
+        search, properties: null if the check was not requested.
+        proofs: null also if no theorem has this mistake.
         asked: the number of checks that apply to it.
         undecided: nothing is wrong, but a run was out of time or a theorem is UNKNOWN.
-        ok: a fault is caught by every check that was asked; a harmless difference by none.
+        ok: every requested check caught the fault; none, for a harmless difference.
     """
 
     name: str
@@ -67,11 +67,7 @@ class Caught(msgspec.Struct, frozen=True):
 
 
 def named_faults(names: Sequence[str]) -> list[Fault]:
-    """The faults with these names; without names all.
-
-    Raises:
-        InputError: no fault has one of the names.
-    """
+    """The faults with these names; without names all. InputError for an unknown name."""
     unknown = [name for name in names if name not in FAULTS]
     if unknown:
         raise InputError(
@@ -152,7 +148,7 @@ def _to_the_end(
 def entry_of(
     fault: Fault, searched: Smallest | None, drawn: Examples | None, proved: Proof | None
 ) -> Caught:
-    """The entry of a fault, given what the checks found."""
+    """The entry of a fault, given the results of the checks."""
     asked: list[bool | None] = []
     if searched is not None:
         caught = bool(searched.failing) if fault.harmless else fault.claim in searched.claims
@@ -198,7 +194,7 @@ STRATEGIES = (
     "worlds(max_edges=30)",
     "worlds(min_edges=16,max_edges=24,max_degree=4,simple=True)",
 )
-"""Any worlds, mostly small; and street networks whose ways home lead through places seen before."""
+"""Any worlds, mostly small; and street networks whose ways home lead through known places."""
 
 A_SECOND = Limits(move_timeout=1, world_timeout=1)
 """A mapper that circles on its map without moving fills the memory in a minute."""
@@ -208,7 +204,7 @@ TIMEOUT = 20.0
 
 
 class Smallest(msgspec.Struct, frozen=True):
-    """What exhaustive search found in worlds of the smallest size in which a claim fails.
+    """The worlds of the smallest size in which a claim fails.
 
     Attributes:
         edges: that size; the largest that was searched if nothing was found.
@@ -238,7 +234,7 @@ class Examples(msgspec.Struct, frozen=True):
     Attributes:
         median_examples: examples needed with the first strategy that succeeds with all seeds.
         strategy: that strategy.
-        examples: by strategy, for each seed; None where nothing was found.
+        examples: by strategy, for each seed; null where nothing was found.
         most: the number of examples after which a test gives up.
         undecided: how many examples were cut off.
     """
@@ -399,8 +395,8 @@ def examples_to_detection(
 def fails(fault: Fault, world: World) -> bool | None:
     """Whether a claim fails in this world; None: the run was cut off, which says nothing.
 
-    Declaring more edges than there are is failing: a wrong map S may grow without end. A mapper
-    with a mistake may make 4m² moves, twice what the catalogue is known to need.
+    Declaring more edges than there are is failing: a wrong map S may grow without end. A faulty
+    mapper may make 4m² moves, twice what the catalogue is known to need.
     """
     edges = len(world.edges)
     bound = world.cost_bound

@@ -1,8 +1,7 @@
-"""How far a rule is from the best possible: what it walked though the history had refuted it.
+"""The gap of a rule: hypotheses that it walked though the history had refuted them.
 
 The fold of the history, with e and h joined, may contradict a false hypothesis before the robot
-tests it. The complete rule (`folding`) never walks such a hypothesis. The **gap** is the share of
-the false hypotheses that were walked all the same.
+tests it. The complete rule (`folding`) never walks such a hypothesis.
 
 Source: docs/semantics.md, section 11.
 """
@@ -23,9 +22,9 @@ class Gap(msgspec.Struct, frozen=True):
     """The gap of a rule to the best possible one.
 
     Attributes:
-        false: false hypotheses posed.
-        walked: how many of them were rejected by motion.
-        refutable: how many were walked although the history before the walk refuted them.
+        false: number of false hypotheses posed.
+        walked: number of those rejected by motion.
+        refutable: number of those walked although the history refuted them before.
         share: refutable / false; 0 without false hypotheses.
     """
 

@@ -29,11 +29,7 @@ COLUMNS = ("door", "degree", "marker")
 
 
 def read_log(path: str) -> Trace:
-    """The events in a file; `-` is standard input.
-
-    Raises:
-        InputError: it cannot be read, or holds no log.
-    """
+    """The events in a file; `-` is standard input. InputError if it holds no log."""
     name = "standard input" if path == "-" else path
     with nullcontext(files.standard_input()) if path == "-" else files.opened(path) as stream:
         lines = files.lines(stream, name=name)

@@ -34,9 +34,10 @@ class Certificate:
 
     Attributes:
         map: the one world that shows the log, or None.
-        open_darts: darts of the fold that were never crossed.
+        open_darts: number of darts of the fold that were never crossed.
         vertices, edges: of the map, else of the smaller witness; 0 if no world shows the log.
-        entailed, decisions: how many of the declared decisions follow from the log before them.
+        entailed, decisions: how many declared decisions follow from the log before them, of how
+            many.
         fold: of the log; None if no world shows it.
     """
 
@@ -76,7 +77,7 @@ def certify(trace: Sequence[Event]) -> Certificate:
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`; or
             its places have more than 2^20 doors together, and more than 16 an event.
-    Complexity: nearly linear for a plain log; claim 10 looks at every open dart once a decision.
+    Complexity: nearly linear for a plain log; claim 10 reads every open dart once a decision.
     """
     judged = judge_log(trace)
     shown = judged.broken is None
@@ -101,8 +102,8 @@ class OpenDoor(msgspec.Struct, frozen=True):
     """A door that the robot saw and never crossed, neither way.
 
     Attributes:
-        event: the first event of the log at which its place was reached.
-        door: which door, as counted at that event.
+        event: the first event at which its place was reached.
+        door: its number, as counted at that event.
         walk: a shortest way from where the log ends through crossed doors, this door last.
     """
 
@@ -170,7 +171,7 @@ def _doors(walk: _Walk) -> tuple[Door, ...]:
 def _reached(
     log: Sequence[Event], fold: Fold, places: AbstractSet[int]
 ) -> dict[int, tuple[int, int]]:
-    """Of each place, the first event there and the reference dart then."""
+    """The first event at each place, and the reference dart then."""
     reached: dict[int, tuple[int, int]] = {}
     at = fold.find((0, 0))
     for when, event in enumerate(log):

@@ -1,17 +1,17 @@
-"""A map and a log: is the map refuted, proved, or what is left to walk?
+"""Judges a map by a log: is it refuted, proved, or what is left to walk?
 
     check = check_map(world, read_trace(log))
     check.verdict        # REFUTED, PROVED or UNKNOWN
     check.onward         # UNKNOWN: the moves that prove it from where the log ends
 
-An edge of the map's breadth-first tree is **proved** if the fold has crossed it at the end of the
-tree path from v0; a chord, if its loop is closed in the fold. The fold has no open dart just if all
-edges are proved.
+An edge of the map's breadth-first tree is **proved** if the fold has crossed it at the end of
+the tree path from v0; a chord, if its loop is closed in the fold. All edges are proved exactly
+if the fold has no open dart.
 
-**What is minimised.** A plan goes home, perhaps over an unproved edge; then it walks the loops not
-yet proved, the shortest first, and hanging trees on its way. If every loop is proved, it walks the
-shortest-path tree from where the robot stands. The cheapest plan counts: optimal from the start
-alone and in a tree, elsewhere an upper bound (in general, a travelling salesman problem).
+**What is minimised.** A plan goes home, perhaps over an unproved edge; then it walks the loops
+not yet proved, shortest first, and hanging trees on its way. If every loop is proved, it walks
+the shortest-path tree from where the robot stands. The cheapest plan counts. It is optimal from
+the start and in a tree, elsewhere an upper bound (a travelling salesman problem).
 
 Source: docs/semantics.md, section 11.
 """
@@ -34,12 +34,12 @@ from topo_verify.world.least_cost import BreadthFirstTree, covering_walk
 from topo_verify.world.rooted_map import Dart, World
 
 MOST_DETOURS = 8
-"""Most unproved edges, the nearest, that are tried as a way home."""
+"""Most unproved edges, nearest first, that are tried as a way home."""
 
 
 @dataclass(frozen=True, slots=True)
 class MapCheck:
-    """What a log says of a map, and how to go on.
+    """The verdict on a map, and how to go on.
 
     Attributes:
         verdict: REFUTED: the map does not show this log. PROVED: it alone does.
@@ -56,16 +56,16 @@ class MapCheck:
 
     @property
     def doors(self) -> tuple[Door, ...]:
-        """The doors to take from where the log ends."""
+        """The doors of `onward`."""
         return tuple(event.door for event in self.onward)
 
 
 def check_map(world: World, log: Sequence[Event]) -> MapCheck:
-    """What this log says of the map `world`.
+    """Judge the map `world` by this log.
 
     Raises:
         InputError: the log does not begin with its only `start`, or goes on after `finish`.
-    Complexity: at most `MOST_DETOURS` + 2 plans, each folds the log once and takes O(cost) beside.
+    Complexity: at most `MOST_DETOURS` + 2 plans, each folds the log once and takes O(cost) besides.
     """
     replayed = ReplayedTrace(world, log)
     if not replayed.is_history:
@@ -116,7 +116,7 @@ def _refutation(replayed: ReplayedTrace) -> MapCheck:
 
 
 def _require_proof(fold: Fold, onward: Sequence[Move]) -> None:
-    """Raise an InternalError unless this way proves the map."""
+    """Raise an InternalError unless these moves prove the map."""
     for event in onward:
         fold.move(event.door, event.percept)
     if open_darts := fold.open_darts():
@@ -124,7 +124,7 @@ def _require_proof(fold: Fold, onward: Sequence[Move]) -> None:
 
 
 class _Planner:
-    """A map in its canonical numbering, a log folded, and the robot at its end."""
+    """A map in its canonical numbering, a folded log, and the robot at its end."""
 
     def __init__(self, world: World, history: Sequence[Event], at: Dart | None = None) -> None:
         self.tree = BreadthFirstTree(world.code)
@@ -229,7 +229,7 @@ def _detours(tree: BreadthFirstTree, at: Dart, chords: Sequence[Dart]) -> list[l
 
 
 def _around(world: World, at: Dart, unproved: Sequence[tuple[Dart, Dart]]) -> tuple[Door, ...]:
-    """A walk over these tree edges, which every spanning tree has, along shortest ways."""
+    """A shortest walk over these tree edges, which every spanning tree has."""
     there = world.with_marker(at)
     tree = BreadthFirstTree(there.code)
     number = {dart: place for place, dart in enumerate(_numbering(there, tree))}

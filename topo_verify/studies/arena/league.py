@@ -1,17 +1,17 @@
-"""From runs to the league table: places, paired intervals, coverage of claims, counterexamples.
+"""The league table: places, paired intervals, counterexamples.
 
-A mapper has a place in a suite if it was judged in all its worlds and no claim failed in any run of
-the call.
+A mapper has a place in a suite if it was judged in all its worlds and no claim failed in any run
+of the call.
 
 **Intervals.** With F families of equal weight, of which family f has n worlds, mean x and sample
-variance s², the standard error of the mean is the root of Σ s²/n over F. An **exact** family, every
-world of a finite class, has none. The interval is Student's, at 95 %; its degrees of freedom are
-those of B. L. Welch (Biometrika 34, 1947): (Σ a)² / Σ (a² / (n-1)) with a = s²/n. Two mappers are
-compared by their **paired** differences.
+variance s², the standard error of the mean is the root of Σ s²/n over F. An **exact** family,
+every world of a finite class, has none. The interval is Student's, at 95 %; its degrees of
+freedom are those of B. L. Welch (Biometrika 34, 1947): (Σ a)² / Σ (a² / (n-1)) with a = s²/n.
+Two mappers are compared by their **paired** differences.
 
-**Ties.** A mapper shares the place of the one above it unless the interval of its paired difference
-from the first mapper with that place lies above 0. A family of one drawn world has no interval, so
-all mappers tie.
+**Ties.** A mapper shares the place of the one above it unless the interval of its paired
+difference from the first mapper with that place lies above 0. A family of one drawn world has no
+interval, so all mappers tie.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ T = TypeVar("T")
 
 
 class LeagueBehind(msgspec.Struct, frozen=True):
-    """By how much more a mapper pays than the first of the table, in the same worlds.
+    """The excess cost of a mapper over the first of the table, in the same worlds.
 
     Attributes:
         mapper: the first of the table.
@@ -55,7 +55,7 @@ class LostWorld(msgspec.Struct, frozen=True):
 
     Attributes:
         other: what the first of the table pays.
-        excess: by how much more it pays, as a multiple of the least cost.
+        excess: the difference, as a multiple of the least cost.
         show: the command line that writes a page with both runs side by side.
     """
 
@@ -69,7 +69,7 @@ class LostWorld(msgspec.Struct, frozen=True):
 
 
 class FamilyCosts(msgspec.Struct, frozen=True):
-    """The costs of a mapper in one family of a suite: means over its worlds.
+    """The mean costs of a mapper in one family of a suite.
 
     Attributes:
         family: its name.
@@ -113,7 +113,7 @@ class LeagueEntry(msgspec.Struct, frozen=True, kw_only=True):
         undecided: worlds that were out of time or declined; `why`: the first reasons.
         place: 1 is the best; null: no place. Mappers that cannot be told apart share one.
         ratio: cost / LB, the mean over families.
-        losses: where it loses most against the first of the table, at most `KEPT_LOSSES` worlds.
+        losses: at most `KEPT_LOSSES` worlds where it loses most against the first of the table.
         rejected_free, rejected_moving: hypotheses, over all worlds.
         ms_per_move: milliseconds of processor time a move; varies from run to run.
     """
@@ -178,7 +178,6 @@ class League:
         return sum(len(self.worlds_of(mapper)) for mapper in self.mappers)
 
     def _counted(self, mapper: Target) -> dict[str, Row]:
-        """A mapper's runs up to the first failing one."""
         rows: dict[str, Row] = {}
         for world in self.worlds_of(mapper):
             if (row := self.rows.get((mapper.text, world))) is not None:
@@ -324,7 +323,7 @@ LEVEL = 0.95
 
 
 class MeanInterval(msgspec.Struct, frozen=True):
-    """A mean and its confidence interval; `low` and `high` are null where there is none.
+    """A mean and its confidence interval; `low` and `high` are null if there is no interval.
 
     Attributes:
         mean, low, high: the mean, and the ends of its interval.

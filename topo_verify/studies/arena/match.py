@@ -1,11 +1,11 @@
 """The runs of a league: one campaign for each mapper, which ends at its first failing world.
 
-**Memory** is the peak resident set of a fresh process in which the mapper plays one world, without
-processes that a program starts.
+**Memory** is the peak resident set of a fresh process in which the mapper plays one world,
+without processes that a program starts.
 
-**Hidden worlds.** A mapper can read the store while others play. So in the rows of drawn worlds a
-hash of the arena's seed and of the world's name replaces the name, and the map is left out. A
-finding still tells of its world.
+**Hidden worlds.** A mapper can read the store while others play. So in the rows of drawn worlds
+a hash of the arena's seed and the world's name replaces the name, and the map is left out. A
+finding still describes its world.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from topo_verify.algorithms import NAMED
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import Attempt
 from topo_verify.campaign.backend import MapperCampaign, here
+from topo_verify.campaign.campaign import Progress
 from topo_verify.campaign.identity import runs_here
-from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.store import Store
 from topo_verify.errors import InputError, plural
 from topo_verify.programs import serve
@@ -49,7 +49,7 @@ def matches(league: League, store: Store | None, tell: Tell = _silent) -> list[M
     """The campaign of each mapper.
 
     Args:
-        tell: called with a sentence about each mapper that has changed; its runs are made again.
+        tell: gets a sentence about each mapper that has changed; its runs are made again.
     Raises:
         InputError: the store's runs were made with other options, or another topo-verify.
     """
@@ -86,7 +86,7 @@ def _kept(
 
 
 def not_shown(campaigns: Sequence[MapperCampaign], store: Store) -> str:
-    """A sentence about the runs in the store that are of none of these campaigns; "": of none."""
+    """A sentence about the store's runs that belong to none of these campaigns, or ""."""
     planned: set[tuple[str, str]] = set()
     for campaign in campaigns:
         assert isinstance(campaign.store, _Hidden), "it was made by `matches`"
@@ -146,7 +146,6 @@ class _Hidden:
         return msgspec.structs.replace(shard, listed=listed)
 
     def _mark(self, name: str) -> str:
-        """What replaces the name of a world."""
         if not self.seed or ",seed=" not in name:
             return name
         return f"hidden-{sha256(f'{self.seed} {name}'.encode()).hexdigest()[:32]}"
@@ -162,7 +161,7 @@ def _renamed(result: c.ShardResult, name: str, other: str) -> c.ShardResult:
 
 
 def measure(league: League, store: Store | None, tell: Progress) -> None:
-    """Note the memory of each ranked mapper in its most expensive worlds."""
+    """Note the memory of each ranked mapper in its most expensive world."""
     ranked = [entry for entry in league.entries() if entry.place is not None]
     for done, entry in enumerate(ranked):
         assert entry.dearest is not None, "it was in every world"

@@ -11,7 +11,7 @@ Each world is of the first kind that fits:
 | `other_decisions` | right in both, at the same cost, by other moves or other decisions |
 | `equal` | right in both, at the same cost, by the same moves and decisions |
 
-Without declarations, then or now, moves alone are compared. The tolerance of P percent is exceeded
+If either run declares nothing, only moves are compared. The tolerance of P percent is exceeded
 in each world where 100·after > (100 + P)·before, in exact arithmetic.
 
 Source: docs/baselines.md.
@@ -52,12 +52,12 @@ EXAMPLES = 5
 
 
 class Change(msgspec.Struct, frozen=True):
-    """A world in which the mapper does not do what it did.
+    """A world in which the mapper does something else than in the baseline.
 
     Attributes:
         kind: what has changed.
-        before, after: costs, in edge traversals; None where the run was not right.
-        percent: how much more it costs (less if below 0), to a tenth; None without both costs.
+        before, after: costs, in edge traversals; null where the run was not right.
+        percent: the increase (a decrease if below 0), to a tenth; null without both costs.
         beyond: it exceeds the tolerance.
         message: what is wrong or has changed; "" where the costs say it.
     """
@@ -75,12 +75,12 @@ class Change(msgspec.Struct, frozen=True):
 
 
 class Group(msgspec.Struct, frozen=True):
-    """The worlds of one class: how many of each kind, and what those that are right cost.
+    """The numbers and costs of the worlds of one class.
 
     Attributes:
-        by, value: the property and what it is: edges 6-10, genus 1, shape simple.
+        by, value: the property and its value: edges 6-10, genus 1, shape simple.
         before, after: summed costs where the mapper is right then and now.
-        kinds: how many worlds are of each kind.
+        kinds: the number of worlds of each kind.
     """
 
     by: Property
@@ -163,11 +163,7 @@ class Comparison(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class BaselineWorlds:
-    """The worlds of a baseline with their names.
-
-    Raises:
-        InputError: an entry of the baseline names no world.
-    """
+    """The worlds of a baseline with their names; InputError if an entry names no world."""
 
     def __init__(self, baseline: Baseline, name: str = "baseline") -> None:
         self._baseline, self._name = baseline, name
@@ -187,10 +183,10 @@ def compare(
     tolerance: str | Fraction = "0",
     name: str = "baseline",
 ) -> Comparison:
-    """The comparison of a baseline with rows.
+    """Compare a baseline with the rows of a mapper.
 
     Args:
-        rows: the mapper's, in the order of the baseline; fewer, if they ended early.
+        rows: in the order of the baseline; fewer, if the runs ended early.
         tolerance: in percent; a float may be inexact.
     """
     changes: list[Change] = []
@@ -222,7 +218,7 @@ def compare(
 
 
 def _summed(changes: Sequence[Change]) -> tuple[int, int, dict[ChangeKind, int]]:
-    """Costs before and after where both are right; the worlds of each kind."""
+    """Costs before and after where both are right; the number of worlds of each kind."""
     right = [(c.before, c.after) for c in changes if c.before is not None and c.after is not None]
     kinds = Counter(change.kind for change in changes)
     before, after = sum(cost for cost, _ in right), sum(cost for _, cost in right)

@@ -1,8 +1,8 @@
 """The file of a baseline: gzip without a time stamp, holding JSON Lines.
 
-A header comes first, then a line for each world, with the world itself. Each line ends with `sum`,
-a hash of this and all earlier lines, so a reader can name the first line that was changed, lost or
-moved. Sums guard against accidents, not against forgery.
+A header comes first, then a line for each world, with the world itself. Each line ends with
+`sum`, a hash of this and all earlier lines, so a reader can name the first line that was
+changed, lost or moved. Sums guard against accidents, not against forgery.
 
 Source: docs/semantics.md, section 14; docs/baselines.md.
 """
@@ -45,7 +45,6 @@ class Header(msgspec.Struct, frozen=True, kw_only=True):
 
     Attributes:
         tool: the version of topo-verify that recorded it.
-        target, policies: the mapper, and its policies if known.
         worlds, seed: the arguments that gave the corpus.
         corpus, digest, total: its description, hash and number of worlds.
         limits: of each run.
@@ -70,12 +69,10 @@ class BaselineEntry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=Tru
     Attributes:
         world: its id; beyond 200 edges, its JSON.
         name: its name in the corpus, if that differs.
-        cost: edge traversals.
         moves: a hash of the doors, in their order.
         decisions: a hash of the declared decisions, if any.
         map: the id of the valid delivered map (beyond 200 edges `sha256:` and the hash of its
             code).
-        failed: the claims that fail.
         undecided: no claim was judged: out of time while it still moved, or declined.
     """
 
@@ -145,11 +142,7 @@ def _next_sum(before: str, body: bytes) -> str:
 
 
 def load(path: str | PathLike[str]) -> Baseline:
-    """The baseline in the file.
-
-    Raises:
-        InputError: the file cannot be read; see also `decode`.
-    """
+    """The baseline in the file; InputError if it cannot be read."""
     return decode(files.read(path), name=shown(path))
 
 
@@ -176,11 +169,7 @@ def decode(data: bytes, *, name: str = "baseline") -> Baseline:
 
 
 def world_of(entry: BaselineEntry, *, name: str, line: int) -> World:
-    """The world of the entry at this line.
-
-    Raises:
-        InputError: the entry's text names no world.
-    """
+    """The world of the entry at this line; InputError if its text names none."""
     try:
         return World.from_text(entry.world)
     except InputError as error:

@@ -1,8 +1,8 @@
 """Records a baseline: the rows of a mapper in every world of a corpus, as lines of a file.
 
-**The hash of the decisions** covers each `pose`, `reject`, `confirm` and `augment` with the number
-of moves before it. The evidence of a rejection and the purpose of a move say why, not what, and are
-left out. What this does not show: a difference between runs whose 64-bit hashes collide.
+**The hash of the decisions** covers each `pose`, `reject`, `confirm` and `augment` with the
+number of moves before it. Evidence and purposes explain a decision and are left out. What this
+does not show: a difference between runs whose 64-bit hashes collide.
 """
 
 from __future__ import annotations
@@ -119,7 +119,7 @@ class RecordEntry(msgspec.Struct, frozen=True, kw_only=True):
 def recorded(
     baseline: Baseline, target: Target, failing: Iterable[Row], file: str | None
 ) -> RecordEntry:
-    """The entry that reports on a recording; `failing` has the rows whose findings are shown."""
+    """The entry that reports on a recording, with the findings of the `failing` rows."""
     header = baseline.header
     right = [entry for entry in baseline.entries if entry.right]
     wrong = sum(bool(entry.failed) for entry in baseline.entries)

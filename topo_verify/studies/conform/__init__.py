@@ -1,6 +1,6 @@
 """Checks an implementation, in any language, against the reference.
 
-conform.py   the campaign; a row on the four levels, and the result on each; the transcript
+conform.py   the campaign; the result on each of the four levels; the transcript
 likeness.py  the first decision that differs from the reference's
 batch.py     a backend for a program with its own simulator
 """

@@ -5,8 +5,8 @@
 
 The simulated robot walks the run's doors and makes its declarations. Runs may come in any order.
 
-If a process fails, its unanswered worlds are bisected, down to the one that fails alone. If it is
-silent for the time limit of one world, the finding goes to the first unanswered world.
+If a process fails, its unanswered worlds are bisected, down to the one that fails alone. If it
+is silent for the time limit of one world, the finding goes to the first unanswered world.
 
 What this does not show: that doors were chosen from percepts alone.
 """
@@ -105,11 +105,7 @@ def _without_a_map(run: ms.BatchRun) -> Misbehaved:
 
 
 def batched(campaign: Campaign, shards: Iterator[Shard], _in_flight: InFlight) -> ShardResults:
-    """The backend: one process at a time.
-
-    Raises:
-        InputError: the target is no program.
-    """
+    """The backend: one process at a time; InputError if the target is no program."""
     look = None if campaign.look is None else function_at(campaign.look)(*campaign.asked)
     with BatchProgram(campaign) as program:
         while chunk := list(islice(shards, CHUNK)):
@@ -131,10 +127,9 @@ def _judged(campaign: Campaign, name: str, world: World, answer: BatchAnswer) ->
 
 
 class BatchProgram:
-    """Runs a program on batches of worlds. Life cycle: `with` it, then `answers`.
+    """Runs a program on batches of worlds: `with` it, then `answers`.
 
-    Raises:
-        InputError: the target is no program.
+    InputError: the target is no program.
     """
 
     def __init__(self, campaign: Campaign) -> None:
@@ -176,7 +171,7 @@ class BatchProgram:
         worlds: Sequence[tuple[str, World]],
         done: dict[int, BatchAnswer],
     ) -> Misbehaved | None:
-        """Send worlds to a fresh process and collect its runs; why it failed, if it did."""
+        """Send worlds to a fresh process and collect its runs; return why it failed, if it did."""
         self._child = child = Child(self.command, self._reaper)
         try:
             # Read while writing, or both may wait.

@@ -1,13 +1,13 @@
-"""An implementation in every world of a corpus, counted on four levels.
+"""Tries an implementation in every world of a corpus and counts the results on four levels.
 
     result      the map is the world, the cost is honest and within the bound
     claims      the declared decisions are sound and justified, and the history proves the map
     decisions   the run equals that of the reference, event for event
     cost        the cost relative to that of the reference
 
-A run without a map has one finding, on level `result`. A world is undecided if the implementation
-skips it, gives it up, or exceeds its time while it still moves; or if something else may have ended
-its process. `look` works in the process that makes the run.
+A run without a map has one finding, on level `result`. A world is undecided if the
+implementation skips it, gives it up, or exceeds its time while it still moves, or if something
+else may have ended its process. `look` works in the process that makes the run.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from msgspec.structs import asdict, replace
 
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import Attempt, Look, row_of
-from topo_verify.campaign.progress import Progress
+from topo_verify.campaign.campaign import Progress
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import explore
 from topo_verify.campaign.tally import Counts
@@ -76,10 +76,9 @@ class WorldFinding(msgspec.Struct, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True)
 class WorldOutcome:
-    """What a row says on each level.
+    """The outcome of a row on each level; `decisions` only beside a reference.
 
     Attributes:
-        states, findings: by level; `decisions` only beside a reference.
         why: why the world is undecided.
     """
 
@@ -200,16 +199,12 @@ class Asked(NamedTuple):
 
     @property
     def reference(self) -> Target:
-        """The same, to be run.
-
-        Raises:
-            InputError: there is no such algorithm or policy.
-        """
+        """The same, ready to run; InputError if there is no such algorithm or policy."""
         return one_target(self.name, pick=self.pick, order=self.order)
 
 
 def look(*texts: str) -> Look:
-    """Notes the likeness of runs to the reference's; `texts` are the fields of `Asked`."""
+    """Note how runs differ from the reference's; `texts` are the fields of `Asked`."""
     asked = Asked(*texts)
     reference = asked.reference
 
@@ -269,7 +264,7 @@ class CostRatio(msgspec.Struct, frozen=True):
     """Edge traversals summed up over the worlds that the implementation maps correctly.
 
     Attributes:
-        ratio: the implementation's cost relative to that of the reference; None if that is 0.
+        ratio: the implementation's cost relative to that of the reference; null if that is 0.
     """
 
     mapper: int
@@ -297,18 +292,18 @@ class LevelResult(msgspec.Struct, frozen=True, kw_only=True):
         target: the implementation.
         like: the algorithm that its decisions and its cost are compared with.
         level: result, claims, decisions or cost.
-        worlds: how many there are; each is counted in one of the next seven numbers.
+        worlds: their number; each is counted in one of the next seven numbers.
         passed, failed: judged on this level.
         skipped, errored: the program declined the world, or gave it up.
         undecided: out of time though it moved on, or nothing to judge on this level.
         not_declared: the same moves, but no decisions to compare.
-        not_tried: the work ended before, by time-outs or an interrupt.
+        not_tried: time-outs or an interrupt ended the work before.
         kinds: in how many worlds each kind of finding is met.
-        claims: for each claim of this level, in how many runs it has which status.
+        claims: for each claim of this level, the number of runs with each status.
         judgements: of each claim of this level: how much was judged in all runs, of how much.
         findings: of the first failing worlds of each kind.
         cost: over all worlds; priced: on level `cost`, world by world.
-        why: of the first worlds that are not decided, why.
+        why: why the first undecided worlds are undecided.
     """
 
     target: str
@@ -335,10 +330,9 @@ class LevelResult(msgspec.Struct, frozen=True, kw_only=True):
 class Conform:
     """An implementation in every world of a corpus.
 
-    Life cycle: `work`, then `level_results`, also if the work was cut off.
+    Call `work`, then `level_results`, also if the work was cut off. `again` is the command line
+    that repeats this, without the world.
 
-    Args:
-        again: the command line that asks for this again, without the world.
     Raises:
         InputError: there is no such algorithm or policy to compare it with.
     """

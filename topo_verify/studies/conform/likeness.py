@@ -1,8 +1,8 @@
-"""The first event in which two runs in one world differ.
+"""Finds the first event in which two runs in one world differ.
 
-Compared are the doors and percepts of moves and the declared decisions with their evidence; of a
-silent mapper the moves alone. Not compared are the purpose of a move, which of several
-contradictions is cited, and the map at the end.
+Doors and percepts of moves and declared decisions with their evidence are compared; of a mapper
+without declarations the moves alone. The purpose of a move, the choice among several
+contradictions, and the final map are not compared.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class KnownState(msgspec.Struct, frozen=True):
         moves: edge traversals so far.
         vertices: the degree of each vertex of S.
         explored: the explored edges of S, lesser dart first.
-        edge: the dart whose other end is in question, or None.
+        edge: the dart whose other end is in question, or null.
         left: its hypotheses that were neither rejected nor confirmed.
         doors: the doors taken since S last grew.
     """
@@ -45,7 +45,7 @@ class Difference(msgspec.Struct, frozen=True):
     Attributes:
         event: its index in the mapper's trace.
         at: the index of the reference's event.
-        expected, seen: the reference's event and the mapper's, in words; None: no more events.
+        expected, seen: the reference's event and the mapper's, in words; null: no more events.
         before: the last events in which they agree.
         state: the knowledge at this point.
     """
@@ -59,12 +59,12 @@ class Difference(msgspec.Struct, frozen=True):
 
 
 class Likeness(msgspec.Struct, frozen=True, omit_defaults=True):
-    """What is noted of a run beside a reference.
+    """The note about a run beside a reference.
 
     Attributes:
         reference: the cost of the reference, in edge traversals.
         silent: the world has edges, and no decision is declared.
-        detail: words that say more of why a program was stopped.
+        detail: further words about why a program was stopped.
     """
 
     reference: int
@@ -115,7 +115,7 @@ def _bare(event: ev.Event) -> ev.Event:
 
 
 def _state(trace: Sequence[ev.Event]) -> KnownState:
-    """What the reference knows after these events."""
+    """The knowledge of the reference after these events."""
     vertices: list[int] = []
     explored: list[tuple[int, int]] = []
     edge: int | None = None

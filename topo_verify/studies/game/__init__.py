@@ -4,5 +4,5 @@ values.py   the games and their values; what the catalogue pays
 search.py   the value of a game, by search over its states
 rules.py    the states, choices and answers of two games
 folds.py    folds as values
-drawn.py    a world of the game, and lower bounds on its cost to come
+drawn.py    a world of the game, and lower bounds on the remaining cost
 """

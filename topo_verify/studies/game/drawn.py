@@ -1,4 +1,4 @@
-"""A world that the robot may be in, and lower bounds on the cost to come there."""
+"""A world that the robot may be in, and lower bounds on the remaining cost there."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ class Rest(NamedTuple):
     Attributes:
         uncrossed: the end vertices of edges never crossed, two for each edge.
         trips: the lengths of the shortest missing closed trips, ascending.
-        ended, back: the moves on pendant edges never crossed, for a walk that begins and ends
-            anywhere; that begins at v0.
-        far: of each dart of the fold, its distance from v0 there.
+        ended, back: moves on pendant edges never crossed, for a walk that ends anywhere; that
+            begins at v0.
+        far: for each dart of the fold, its distance from v0 there.
     """
 
     uncrossed: tuple[int, ...]
@@ -80,10 +80,10 @@ class DrawnWorld:
     def proof_bound(self, code: FoldCode, at: int) -> int:
         """Least moves to close the fold here, even with the map in hand.
 
-        Every edge must be crossed. Let I be the space (modulo 2) of the closed trips made so far. A
-        missing trip adds at most one dimension; those of a lightest basis modulo I are the
-        shortest. The first may have `far` of its length behind it; or count the way home and all
-        but the longest. Pendant edges belong to no trip.
+        Every edge must be crossed. Let I be the space (modulo 2) of the closed trips made so
+        far. A missing trip adds at most one dimension; those of a lightest basis modulo I are
+        the shortest. The first may have `far` of its length behind it; or count the way home and
+        all but the longest. Pendant edges belong to no trip.
         """
         rest = self._rest_of(code)
         here = self.vertex[self.placed(code)[at]]
@@ -163,7 +163,7 @@ class DrawnWorld:
 
     @cached_property
     def _loops(self) -> list[tuple[int, int]]:
-        """Of the breadth-first tree, shortest first: length, and edges modulo 2."""
+        """Loops of the breadth-first tree, shortest first: length, and edges modulo 2."""
         loops = list[tuple[int, int]]()
         for chord in self._tree.chords:
             edges = 0
@@ -193,7 +193,7 @@ class DrawnWorld:
 
 
 def _extended(basis: list[int], vector: int) -> bool:
-    """Adds a vector modulo 2 to the basis; whether it was outside its span."""
+    """Add a vector modulo 2 to the basis; return whether it was outside its span."""
     for member in basis:
         vector = min(vector, vector ^ member)
     if vector:

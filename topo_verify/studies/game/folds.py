@@ -1,14 +1,14 @@
-"""Folds as values: what a history has shown, in a numbering that makes equal folds equal.
+"""Folds as values: histories with equal folds have equal codes.
 
 A **fold code** is the fold of a history (docs/semantics.md, section 11) in the numbering of the
-canonical code (section 12): the degrees of its vertices, and the other end of each dart, or `OPEN`.
-The marker points at dart 0, and only vertex 0 saw it.
+canonical code (section 12): the degrees of its vertices, and the other end of each dart, or
+`OPEN`. The marker points at dart 0, and only vertex 0 saw it.
 
-**What proves the map.** In a world below the fold, the visited part is a quotient of the fold, and
-beyond the open darts there may be anything that the class allows. So the quotients decide whether
-one world is left.
+**What proves the map.** In a world below the fold, the visited part is a quotient of the fold,
+and beyond the open darts there may be anything that the class allows. So the quotients decide
+whether one world is left.
 
-Written apart from `checkers.Fold`.
+Independent of `checkers.Fold`.
 """
 
 from __future__ import annotations
@@ -62,8 +62,8 @@ def distances(code: FoldCode, start: int) -> list[int]:
 def crossed(code: FoldCode, dart: int, sight: Sight) -> tuple[FoldCode, int]:
     """The fold after an open dart was crossed and this was seen; and the dart of arrival.
 
-    With the marker the place is v0; if its edge is known already, the two known ends are one dart,
-    and so on.
+    With the marker the place is v0; if its edge is known already, the two known ends are one
+    dart, and so on.
     """
     degrees, alpha = code
     degree, marker = sight
@@ -183,8 +183,8 @@ def is_closed(code: FoldCode) -> bool:
 def is_single_of_vertices(code: FoldCode, n: int) -> bool:
     """Whether one world with n vertices fits.
 
-    A quotient with n vertices lies in one for each way to pair its open darts. One with fewer and
-    an open dart lies in any number, since an unseen vertex may have any number of loops.
+    A quotient with n vertices lies in one for each way to pair its open darts. One with fewer
+    and an open dart lies in any number, since an unseen vertex may have any number of loops.
     """
     if is_closed(code):
         return True

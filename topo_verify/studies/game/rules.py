@@ -14,8 +14,8 @@
     answer      the percept behind it
     the end     one world of the class is left
 
-**Bound.** By partition refinement: darts that look alike for k moves, door by door, need k moves to
-be told apart. A world must be told from the one most like it.
+**Bound.** By partition refinement: darts that look alike for k moves, door by door, need k moves
+to be told apart. A world must be told from the one most like it.
 """
 
 from __future__ import annotations
@@ -125,8 +125,7 @@ ClassState = tuple[tuple[int, int], ...]
 class ClassRules:
     """The rules (`search.Rules`) of the game in a finite class.
 
-    Args:
-        counted: the numbers of the worlds whose costs count, unknown to the robot.
+    `counted` are the numbers of the worlds whose costs count, unknown to the robot.
     """
 
     def __init__(self, worlds: Sequence[DrawnWorld], counted: frozenset[int]) -> None:
@@ -151,7 +150,7 @@ class ClassRules:
         return sum(number in self._counted for number, _ in state)
 
     def parts(self, _state: ClassState) -> list[ClassState]:
-        """None: splitting would not improve the bounds."""
+        """No parts: splitting would not improve the bounds."""
         return []
 
     def bounds(self, state: ClassState) -> Iterator[int]:

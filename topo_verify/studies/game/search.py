@@ -6,11 +6,11 @@ ends the game. The value of a state is
     worst case   least over the choices of   moves + the greatest value over the answers
     sum          least over the choices of   moves · worlds + the sum of the values
 
-where `worlds` is how many worlds the state leaves open.
+where `worlds` is the number of worlds that the state leaves open.
 
-**Search.** The limit is a state's lower bound. Only choices with a lower bound within the limit are
-tried; if none attains it, the least value still possible is the next limit. So bounds rise until
-one is the value. The number of states is limited, not the time, so that two calls end alike.
+**Search.** The limit is a state's lower bound. Only choices with a lower bound within the limit
+are tried; if none attains it, the least value still possible is the next limit, until a bound is
+the value. The number of states is limited, not the time, so that two calls end alike.
 
 **Parts.** The values of parts of the worlds, or their sum, are a lower bound.
 """
@@ -52,11 +52,11 @@ class Rules(Protocol[S]):
         ...
 
     def choices(self, state: S, /) -> Iterable[GameChoice[S]]:
-        """What the robot may do next."""
+        """The robot's next choices."""
         ...
 
     def worlds(self, state: S, /) -> int:
-        """How many worlds that count a state leaves open."""
+        """The number of counting worlds that a state leaves open."""
         ...
 
     def parts(self, state: S, /) -> Sequence[S]:
@@ -64,7 +64,7 @@ class Rules(Protocol[S]):
         ...
 
     def bounds(self, state: S, /) -> Iterable[int]:
-        """Of a state without parts: a positive lower bound for each world."""
+        """For a state without parts: a positive lower bound for each world."""
         ...
 
 
@@ -138,7 +138,7 @@ class Solver(Generic[S]):
         return least
 
     def _answers(self, states: Sequence[S], paid: int, limit: float) -> float:
-        """What was paid and the value over these states; or a lower bound above the limit."""
+        """The value over these states plus `paid`; or a lower bound above the limit."""
         if not self._mean:
             total = paid + max(map(self.bound, states), default=0)
             for state in states:

@@ -1,6 +1,7 @@
 """The values of the games on the worlds with m edges: what the best robot pays.
 
-What a robot **knows** says when its game ends; what is **drawn**, in which worlds its cost counts.
+What a robot **knows** decides when its game ends; what is **drawn**, in which worlds its cost
+counts.
 
     nothing         the history has to prove the map among all worlds: no dart of its fold is open.
                     No sound mapper pays less: the best robot assumes m edges until refuted
@@ -135,11 +136,7 @@ def game_values(edges: int, *, most_states: float = MOST_STATES) -> Iterator[Gam
 def game_value(
     edges: int, knows: Knowledge, drawn: DrawnClass = "any", *, most_states: float = MOST_STATES
 ) -> GameValue:
-    """The value of one game.
-
-    Raises:
-        InputError: no world has this number of edges.
-    """
+    """The value of one game; InputError if no world has this number of edges."""
     games = list(_games(edges, knows, drawn))
     (worst, few), (total, many) = (
         _least(games, mean=mean, most_states=most_states) for mean in (False, True)
@@ -190,8 +187,8 @@ def _by_vertices(drawn: Sequence[DrawnWorld]) -> dict[int, list[DrawnWorld]]:
 def _least(games: Sequence[Rules[Any]], *, mean: bool, most_states: float) -> tuple[Least, int]:
     """The value over all games and their first percepts, and the states met.
 
-    A forced first move is made here, so each answer is searched apart: if one search is cut short,
-    the others still tell their values.
+    A forced first move is made here, so each answer is searched apart: if one search is cut
+    short, the others still give their values.
     """
     total = states = 0
     is_value = True
@@ -221,7 +218,7 @@ PLAYERS = tuple(NAMED)
 
 
 def mapper_costs(mapper: str, edges: int, values: Iterable[GameValue] = ()) -> MapperCosts:
-    """The costs of a mapper of the catalogue beside the values of the games.
+    """The costs of a catalogue mapper beside the values of the games.
 
     Raises:
         InternalError: the mapper is sound and costs less than the best robot.

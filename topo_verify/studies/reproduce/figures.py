@@ -1,8 +1,8 @@
 """The paper's figures as data: families of graphs, sizes, lines, and the numbers in its text.
 
-H. Wang, M. Jenkin and P. Dymond, section IV. The text states the families, 20 % holes, 30 graphs a
-point, and costs for the 10×10 lattice alone. The other sizes, the degree of the regular graphs, the
-marker's place and the policies are our choice.
+H. Wang, M. Jenkin and P. Dymond, section IV. The text states the families, 20 % holes, 30 graphs
+a point, and costs for the 10×10 lattice alone. The other sizes, the degree of the regular
+graphs, the marker's place and the policies are our choice.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Points of the figures: the runs that they need, means and standard errors, growth, CSV.
 
 **Runs.** There is one campaign for each line. In worlds of more than `LARGE` edges the compiled
-engine keeps no trace, so only the claims on map and cost are judged. A run that is out of time, or
-whose worker was killed, is not kept.
+engine keeps no trace, so only the claims on map and cost are judged. A run that is out of time,
+or whose worker was killed, is not kept.
 
 The standard error of a mean is the sample's standard deviation over √graphs.
 
@@ -45,8 +45,8 @@ class GrowthFit(msgspec.Struct, frozen=True):
 
     Attributes:
         exponent: of m.
-        stderr: its standard error; None for fewer than three points.
-        points: how many sizes it was fitted to.
+        stderr: its standard error; null for fewer than three points.
+        points: number of sizes that it was fitted to.
     """
 
     exponent: float
@@ -65,16 +65,16 @@ class FigurePoint(msgspec.Struct, frozen=True):
         figure: `3`, `6a` … `6f`.
         algorithm: a name of the catalogue, or `edges` (m), or `least-cost` (of a proof).
         size: the side of a lattice, or the nodes of a dense graph, before holes.
-        graphs: how many graphs the mean is over.
-        mean, stderr: the cost in edge traversals, and its standard error; None for one graph.
+        graphs: number of graphs that the mean is over.
+        mean, stderr: the cost in edge traversals, and its standard error; null for one graph.
         paper: the cost that the paper's text states for this point.
-        stated: how the text puts it.
-        pick, order: the policies; None for a yardstick.
+        stated: the words of that text.
+        pick, order: the policies; null for a yardstick.
         edges: the mean of m.
         held: claims that held in each run; of: claims that were asked of each. 0 for a yardstick.
         findings: what convicts the algorithm.
         undecided: runs that were out of time.
-        growth: of the line that the point is on; None for a line of one point.
+        growth: of the line that the point is on; null for a line of one point.
     """
 
     figure: str
@@ -103,7 +103,7 @@ class FigurePoint(msgspec.Struct, frozen=True):
 
     @property
     def is_reference(self) -> bool:
-        """Whether its policies are the reference, if any."""
+        """Whether its policies, if any, are the reference."""
         return self.pair in (None, fig.REFERENCE)
 
 
@@ -192,7 +192,7 @@ def _mean(values: Sequence[int]) -> tuple[float, float | None]:
 
 
 def growth(points: Iterable[tuple[float, float]]) -> GrowthFit | None:
-    """The growth of a line through these points, each (m, cost); None for fewer than two sizes."""
+    """The growth of a line through these points (m, cost); None for fewer than two sizes."""
     import numpy as np
 
     logs = [(log(edges), log(cost)) for edges, cost in points]
@@ -308,7 +308,7 @@ def line_campaigns(
 def every_pair(
     target: Target, _world: World, once: Callable[[Target], Attempt]
 ) -> Iterator[Attempt]:
-    """Runs of an algorithm with each of `PAIRS`."""
+    """Run an algorithm with each of `PAIRS`."""
     assert isinstance(target.mapper, Algorithm)
     for pair in fig.PAIRS:
         mapper = target.mapper.with_policies(pick=pair.pick, order=pair.order)
@@ -318,14 +318,14 @@ def every_pair(
 def without_large_traces(
     target: Target, world: World, once: Callable[[Target], Attempt]
 ) -> Iterator[Attempt]:
-    """The run of an algorithm by the compiled engine, without its trace in a large world."""
+    """Run an algorithm by the compiled engine, without its trace in a large world."""
     assert isinstance(target.mapper, CompiledAlgorithm)
     mapper = replace(target.mapper, trace=len(world.edges) <= LARGE)
     yield once(Target(target.text, mapper))
 
 
 def runs_of(row: Row) -> Iterator[PlannedRun]:
-    """The runs that a row is about: of a lost worker those of each pair."""
+    """The runs that a row stands for; for a lost worker, those of each pair."""
     pairs = fig.PAIRS if row.policies is None else (row.policies,)
     for pair in pairs:
         yield PlannedRun(row.world, row.mapper, pair.pick, pair.order)

@@ -1,17 +1,18 @@
-"""Worlds run again, alone and in another order: does the mapper remember the worlds before?
+"""Runs worlds again, alone and in another order: does the mapper remember earlier worlds?
 
-The counterexample, up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed, are run
-again, each in a fresh process. If none fails, `ROW` worlds, or all, are run by one process in a
+The counterexample, up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed, are
+run again, each in a fresh process. If none fails, one process runs `ROW` worlds, or all, in a
 shuffled order.
 
-    a failing world passes alone    `not-deterministic`: only after other worlds
-    another world fails alone       `not-deterministic`, too; and so in the row
-    other doors, another cost       no finding, for a mapper may draw lots; but the verdict is open
+    a failing world passes alone    `not-deterministic`: it fails only after other worlds
+    another world fails alone       `not-deterministic`, too; likewise in the row
+    other doors, another cost       no finding, since mappers may choose at random; but the
+    verdict is open
 
-What this does not show: a memory that none of the drawn worlds reveals. If a share p of the worlds
-would differ alone, it is noticed with probability 1 - (1 - p)^SAMPLE: a tenth in 99.5 of 100
-searches, a hundredth in 39. A mapper that fails in its k-th world is noticed if k is at most the
-length of the row.
+What this does not show: a memory that none of the drawn worlds reveals. If a share p of the
+worlds would differ alone, it is noticed with probability 1 - (1 - p)^SAMPLE: a tenth in 99.5 of
+100 searches, a hundredth in 39. A mapper that fails in its k-th world is noticed if k is at most
+the length of the row.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ import msgspec
 
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import calls_native, here
-from topo_verify.campaign.progress import Progress, no_progress
+from topo_verify.campaign.campaign import Progress, no_progress
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import SAMPLE, sample_key
 from topo_verify.campaign.targets import target_arguments
@@ -42,7 +43,7 @@ LONGEST = 64
 """Worlds before a failing one that are tried to make it fail again."""
 
 NEAR = 2**14
-"""Ranks back to look for them; a class may have few."""
+"""How many ranks back to look for them; a class may have few."""
 
 CLAIM = "not-deterministic"
 
@@ -61,13 +62,13 @@ class Unlike(msgspec.Struct, frozen=True):
 
 
 class RunAgain(msgspec.Struct, frozen=True):
-    """What came of the worlds that were run again.
+    """The result of the worlds that were run again.
 
     Attributes:
-        worlds: how many were run alone, each in a fresh process.
-        row: how many were run one after the other, in one process.
+        worlds: number of worlds run alone, each in a fresh process.
+        row: number of worlds run one after the other in one process.
         failures: those with another verdict, in their order.
-        others: those in which only doors or costs were other ones.
+        others: those where only doors or costs differed.
     """
 
     worlds: int = 0
@@ -169,7 +170,6 @@ def _rows(
     tell: Progress = no_progress,
     stop: c.Stop | None = None,
 ) -> list[Row]:
-    """The rows of the mapper in these worlds."""
     listed = c.ListedWorlds(len(worlds))
     once = msgspec.structs.replace(campaign, worlds=listed, keep="all", stop=stop or c.Stop())
     named = [(name, World.from_id(name)) for name in worlds]
@@ -251,7 +251,7 @@ def _unlike(campaign: c.Campaign, row: Row, message: str, replay: str) -> Unlike
 
 
 def _reproduced(campaign: c.Campaign, world: str, before: Sequence[str]) -> str | None:
-    """A command that makes a world fail behind others in one process, if found."""
+    """A command that makes a world fail after others in one process, if one is found."""
     number = 1
     while before and number <= LONGEST:
         row = [*before[-number:], world]

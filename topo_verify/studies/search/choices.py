@@ -3,7 +3,7 @@
 reference    the reference policies alone (and a mapper without policies)
 all          every named pick policy with every named order policy, `random` with a few seeds
 every        every choice that any policy could make, by searching states (`states/`): a vertex
-             with four loops has over a hundred million runs
+with four loops has over a hundred million runs
 """
 
 from __future__ import annotations

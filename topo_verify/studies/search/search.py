@@ -1,7 +1,7 @@
 """The search: a mapper in every world of a class, up to the smallest counterexample or EXHAUSTED.
 
-EXHAUSTED compares two numbers that are computed apart: in how many worlds mappers ran, and how many
-there are (`WorldClass.count`). A difference is a bug of ours.
+EXHAUSTED compares two independent numbers: of worlds in which mappers ran, and of all worlds
+(`WorldClass.count`). A difference is a bug of ours.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from msgspec.structs import astuple
 from topo_verify.algorithms import Algorithm, Steered
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import calls_native, clustered, here, pooled
+from topo_verify.campaign.campaign import Progress
 from topo_verify.campaign.cluster import both_given, connected
-from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import PolicyCosts, Row
 from topo_verify.campaign.run import Engine, is_native, require_compiled
 from topo_verify.campaign.tally import KEPT_PAIRS, KEPT_WORST, Costs, Pairs, Tally, notable
@@ -90,12 +90,12 @@ class EveryCost(PolicyCosts, frozen=True, kw_only=True):
     """With --policies every: what any policy of pick and order can cost.
 
     Attributes:
-        worlds: those in which no claim fails, whatever is chosen; the rest is about them.
+        worlds: where no claim fails, whatever is chosen; the rest is about them.
         states, choices: the number of states with more than one way, and of their ways.
         cheapest, reference, dearest: summed costs in edge traversals: the least and the most in
             each world, and of the reference policies.
         most_saved: where the cheapest run saves the greatest share of the reference cost.
-        decided_by: who made the choices that were judged: the `mapper`, or a `model` of it.
+        decided_by: who made the judged choices: the `mapper`, or a `model` of it.
         judged_by: what judged them.
     """
 
@@ -135,17 +135,17 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
 
     Attributes:
         edges: worlds of 1 to this many are asked for.
-        checked: in how many worlds every run was judged.
+        checked: number of worlds in which every run was judged.
         counterexample: the smallest, by (edges, rank).
-        claims: of each claim that fails, in how many worlds, and the smallest.
+        claims: for each failing claim, the number of worlds, and the smallest.
         not_declared: the claims that no run declared anything about.
-        from_ledger: in how many worlds mappers ran before, as the store says.
+        from_ledger: number of worlds in which mappers ran before, as the store says.
         lost: worlds in which a worker was lost, perhaps not by the mapper's fault.
-        run_again: what came of the worlds that were run again, alone and in a row.
+        run_again: the worlds that were run again, alone and in a row.
         engine: what ran and judged; judged_by: the same in words.
         decided_by: with --policies every, who decided the largest worlds: the `mapper`, or a
             `model` of it; else null.
-        by_checkers: in how many worlds the checkers judged.
+        by_checkers: number of worlds in which the checkers judged.
     """
 
     target: str
@@ -234,11 +234,11 @@ def search(  # noqa: PLR0913  an argument an option
     Args:
         target: a callable or a TARGET, which may name several mappers.
         keep_going: do not stop at the first counterexample.
-        policies: which choices an algorithm of the catalogue is tried with; `choices.py`.
+        policies: which choices a catalogue algorithm is tried with; `choices.py`.
         workers: number of worker processes; 0: this one.
         dask: the address of a Dask scheduler, or `local`.
     Raises:
-        InputError: no such mapper; nothing knows how many worlds the class has; and the like.
+        InputError: no such mapper; no formula counts the class; and the like.
         InternalError: mappers ran in another number of worlds than there are.
     """
     mappers = targets(target) if isinstance(target, str) else (one_target(target),)
@@ -288,14 +288,7 @@ def _require_texts(mappers: Sequence[Target]) -> None:
 
 
 class Search:
-    """A search in steps. Life cycle: `work`, then `entry`, also if the work was cut off.
-
-    Args:
-        mappers: the campaign's targets, as they run in this process.
-        store: the results of finished shards.
-    Raises:
-        InputError: nothing knows how many worlds there are.
-    """
+    """A search in steps: `work`, then `entry`, also if the work was cut off."""
 
     def __init__(
         self,

@@ -1,8 +1,8 @@
 """The parts of `verify`: their results, and the two that run no mapper.
 
-**counts.** Exhaustive results rest on the enumeration. So this part counts its different worlds and
-compares three numbers that are computed otherwise: the sum of completions F, a recurrence in the
-number of edges, and Tutte's number of planar worlds.
+**counts.** Exhaustive results rest on the enumeration. So this part counts the different worlds
+and compares the number with three others: the sum of completions F, a recurrence in the number
+of edges, and Tutte's number of planar worlds.
 
 **proofs.** The inductive theorems, the negatives and the mutants, about the rules of the catalogue.
 """
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import msgspec
 
-from topo_verify.campaign.progress import Progress
+from topo_verify.campaign.campaign import Progress
 from topo_verify.checkers.findings import Finding, Judgement, Verdict
 from topo_verify.errors import plural
 from topo_verify.world.enumeration import rank_order
@@ -29,11 +29,11 @@ class MapperCost(msgspec.Struct, frozen=True):
     """The cost of one mapper in one world.
 
     Attributes:
-        ratio: the cost relative to that of `basic`; None if a claim fails in this world.
+        ratio: the cost relative to that of `basic`; null if a claim fails in this world.
         of_least: the cost relative to the least cost at which a walk can prove the map.
         rejected_free, rejected_moving: hypotheses rejected without and by motion.
         confirmed: hypotheses confirmed.
-        reference: an algorithm of the catalogue, shown for comparison with a mapper of the user's.
+        reference: a catalogue algorithm, shown for comparison with a user's mapper.
     """
 
     algorithm: str
@@ -76,7 +76,7 @@ class Part(msgspec.Struct, frozen=True):
 
 
 class PartJob(Protocol):
-    """The work on one part. Life cycle: `work`, then `part`, also if `work` was interrupted."""
+    """The work on one part: `work`, then `part`, also if `work` was interrupted."""
 
     def work(self, tell: Progress) -> None:
         """Do the whole work."""

@@ -1,11 +1,11 @@
 """The parts that run mappers in worlds and have every claim judged.
 
 A part goes on after a counterexample, to count the failing worlds. With the compiled engine,
-`small-worlds` goes one size further for algorithms of the catalogue; in the smaller sizes the
-engine must count what the checkers counted.
+`small-worlds` goes one size further for catalogue algorithms; in the smaller sizes the engine
+must count what the checkers counted.
 
-Algorithms of the catalogue run in worker processes: the small worlds in one campaign, the worlds of
-all later parts in another (`Together`), so that no processor idles at the end of a part.
+Catalogue algorithms run in worker processes: the small worlds in one campaign, the worlds of all
+later parts in another (`Together`), so that no processor idles at the end of a part.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import KEPT_FINDINGS, Look
 from topo_verify.campaign.backend import here, pooled
+from topo_verify.campaign.campaign import Progress
 from topo_verify.campaign.judge import in_words, world_argument
-from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import explore
 from topo_verify.campaign.tally import KEPT_FAILING, Tally, joint_status, notable
@@ -36,7 +36,7 @@ from topo_verify.studies.verify.parts import MapperCost, Part
 from topo_verify.world.rooted_map import World
 
 MAX_TIMEOUTS = 3
-"""Time-outs after which a part stops; of failing worlds, too, where that is asked."""
+"""Time-outs, and for some parts failing worlds, after which a part stops."""
 
 
 @dataclass
@@ -161,9 +161,9 @@ class Trials:
 
 
 class Together:
-    """Runs algorithms of the catalogue in the worlds of several parts, in worker processes.
+    """Runs catalogue algorithms in the worlds of several parts, in worker processes.
 
-    Life cycle: `with` it, then `work` of each part, in any order.
+    `with` it, call `work` of each part, in any order.
     """
 
     def __init__(self, parts: Sequence[Trials]) -> None:
@@ -209,7 +209,7 @@ def with_ids(worlds: Iterable[World]) -> list[tuple[str, World]]:
 
 
 def part_claims(statuses: dict[str, dict[str, int]]) -> dict[str, dict[str, int]]:
-    """For each claim, in how many runs it has which status."""
+    """For each claim, the number of runs with each status."""
     return {
         claim: {status: statuses.get(claim, {}).get(status, 0) for status in get_args(Status)}
         for claim in CLAIMS
@@ -276,11 +276,7 @@ class SmallWorlds(Trials):
         self.total = sum(c.Ranks(edges).totals().values())
 
     def work(self, tell: Progress) -> None:
-        """Search every world of each size.
-
-        Raises:
-            InternalError: the compiled engine counts something else than the checkers.
-        """
+        """Search every world of each size; InternalError if the compiled engine differs."""
         stop = c.Stop(timeouts=MAX_TIMEOUTS)
         campaign = _campaign(c.Ranks(self._edges), self.targets, self.limits, stop)
         campaign = msgspec.structs.replace(campaign, keep="notable")

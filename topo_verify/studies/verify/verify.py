@@ -9,8 +9,8 @@
 | `generated-worlds` | 160 worlds as property tests draw them, 20 of each strategy | 40 |
 | `street-network` | a real street network, and the cost of each mapper there | the same |
 
-Uniformly drawn worlds have few vertices and many handles; the strategies draw lattices, trees and
-worlds with many similar places.
+Uniformly drawn worlds have few vertices and many handles; the strategies draw lattices, trees
+and worlds with many similar places.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from random import Random
 import msgspec
 
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.campaign.progress import Progress, no_progress
+from topo_verify.campaign.campaign import Progress, no_progress
 from topo_verify.campaign.targets import targets as targets_of
 from topo_verify.campaign.work import processors
 from topo_verify.compiled import available
@@ -63,10 +63,10 @@ def verify(
     limits: Limits | None = None,
     tell: Progress | None = None,
 ) -> Iterator[Part]:
-    """The parts, each yielded when these mappers were checked in it.
+    """Yield each part once these mappers were checked in it.
 
-    On KeyboardInterrupt the current part is yielded with its results so far; then the exception is
-    raised again.
+    On KeyboardInterrupt the current part is yielded with its results so far; then the exception
+    is raised again.
     """
     with ExitStack() as stack:
         beside = None
@@ -158,7 +158,7 @@ class BesideResult(msgspec.Struct, frozen=True):
 
 
 TASKS = ("engine", "proofs", "drawing")
-"""Done in processes of their own from the start."""
+"""Done in their own processes from the start."""
 
 
 def task_result(task: str, targets: str, seed: int) -> BesideResult:
@@ -191,6 +191,6 @@ class ProofsBeside:
         self._beside.result("proofs")
 
     def part(self, *, interrupted: bool = False) -> Part:
-        """The result; nothing, if it was interrupted."""
+        """The result; empty, if it was interrupted."""
         part = self._beside.result("proofs").part if not interrupted else None
         return part or Proofs().part(interrupted=True)

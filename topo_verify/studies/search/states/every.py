@@ -1,4 +1,4 @@
-"""What a search with every choice does with one world: its runs, and the range of its costs.
+"""Searches every choice in one world: the runs, and the range of their costs.
 
     worlds of up to 4 edges   decided by the mapper: each choice lies on a run of it that is judged
                               by every claim; `graph.py`
@@ -7,8 +7,8 @@
 
 Named policies run, too: the script replaces their code.
 
-A search that the model decides is SAMPLED. If the mapper's two runs cost something else, that is a
-bug of ours. If the model finds something wrong, running the mapper must find it, too.
+A search that the model decides is SAMPLED. If the mapper's two runs cost something else, or no
+run of the mapper confirms a fault that the model finds, that is a bug of ours.
 """
 
 from __future__ import annotations
@@ -46,8 +46,7 @@ Run = Callable[[Target], Attempt]
 class CostRange(NamedTuple):
     """What a mapper can cost in one world, in edge traversals, by what is chosen.
 
-    Attributes:
-        states, choices: how many states have more than one way, and how many ways they have.
+    `states` have more than one way; `choices` counts their ways.
     """
 
     states: int
@@ -88,7 +87,7 @@ def every_choice(
     run: Run,
     named: Sequence[Target],
 ) -> Iterator[Attempt]:
-    """Runs in a world; if a claim fails, first the one with the fewest choices up to there.
+    """Runs in a world; if a claim fails, first the one with the fewest choices before the failure.
 
     If none fails, the last run says what any choices can cost.
 
@@ -173,7 +172,7 @@ class RecordedChoices:
         self.words: list[str] = []
 
     def __call__(self, moment: sc.ChoicePoint) -> int:
-        """What the other chooser takes."""
+        """The other chooser's choice."""
         number = self._chooser(moment)
         self.choices.append(number)
         self.words.append(f"{'e' if moment.e is None else 'h'} = {moment.ways[number]}")
@@ -203,10 +202,8 @@ def with_choices(report: Report, text: str, choices: tuple[int, ...], limits: Li
 
 
 class ListedChoices:
-    """The choices of one run. Life cycle: run `target`, then `checked`, then `named`.
+    """The choices of one run, as `0,2,1`: run `target`, then `checked`, then `named`.
 
-    Args:
-        text: the choices, as `0,2,1`.
     Raises:
         InputError: the mapper leaves no choices open, or the text is no list.
     """
@@ -222,10 +219,9 @@ class ListedChoices:
         self.target = Target(target.text, sc.scripted(target.mapper, self._listed))
 
     def checked(self, run: Exploration) -> Exploration:
-        """The run, if it made each of the choices; it cannot be repeated in a witness world.
+        """The run; InputError if there were fewer ways, or fewer choices to be made.
 
-        Raises:
-            InputError: there were fewer ways, or fewer choices to be made.
+        It cannot be repeated in a witness world.
         """
         self._listed.require_all()
         return replace(run, mapper=None)

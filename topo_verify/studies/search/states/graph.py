@@ -1,8 +1,8 @@
 """All states of one world and the choices between them, found by running the mapper.
 
-`StateGraph` runs the mapper with lists of choices until every way of every state lies on a judged
-run. One run for a way suffices (`memory.py`): what follows on one run is what follows on any other.
-The graph checks that a known state has as many ways and moves as before.
+`StateGraph` runs the mapper with lists of choices until every way of every state lies on a
+judged run. One run for a way suffices, since runs continue alike from equal states
+(`memory.py`). The graph checks that a known state has as many ways and moves as before.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class ChoiceState:
 
     Attributes:
         prefix: the choices that first led to it.
-        moves: how many the mapper has made.
+        moves: number of moves that the mapper has made.
         ways: the state behind each way, `END` or `LOST`; None: not yet taken.
     """
 
@@ -63,7 +63,7 @@ class JudgedPath:
 
 @dataclass
 class StateGraph:
-    """The states of a mapper in one world. Life cycle: `search`, then everything else.
+    """The states of a mapper in one world: `search`, then everything else.
 
     Args:
         judged: runs a mapper in the world and judges it.
@@ -92,7 +92,7 @@ class StateGraph:
         return sum(len(node.ways) for node in self.nodes)
 
     def run(self, prefix: Sequence[int]) -> JudgedPath:
-        """The run that takes these ways, then ways that were not taken, or the first each time."""
+        """Run these ways, then ways that were not taken, or the first each time."""
         passed: list[_Passed] = []
         lost = False
         broken: Exception | None = None

@@ -94,7 +94,7 @@ def walk_home(world: WordTable, tree: Words, vu: int, h: int, place: int, row: W
 
 @kernel
 def shared_doors(row: WordTable, way: int, last: int) -> int:
-    """How many doors a way home shares with the last sequence."""
+    """Number of doors that a way home shares with the last sequence."""
     most = min(row[way, 0], row[last, 1])
     step = 0
     while step < most and row[way, 3 * step + 3] == row[last, 3 * step + 3]:
@@ -130,7 +130,7 @@ def pose(
 ) -> None:  # fmt: skip
     """Make H for e, walk every hypothesis, and find what each rules out.
 
-    `facts` gets: how many hypotheses, the place of the true one or -1, vu is v0, what is wrong.
+    `facts` gets: number of hypotheses, place of the true one or -1, vu is v0, what is wrong.
     """
     vu = world[0, e]
     at_marker = world[1, vu] == world[1, 0]
@@ -168,7 +168,7 @@ def pose(
 
 @kernel
 def free_order(row: WordTable, facts: Words, ends: Words) -> None:
-    """Where no hypothesis rules out another: the range of the costs and the number of states."""
+    """The range of the costs and the number of states if no hypothesis rules out another."""
     count, true = facts[0], facts[1]
     false = count - (true >= 0)
     last = row[true, 1] if true >= 0 else 0
@@ -230,7 +230,7 @@ def ordered(
 ) -> None:  # fmt: skip
     """The range of the costs behind e, and the number of states.
 
-    `best[remaining * (count + 1) + last]` gets the least and the most that is still to be paid.
+    `best[remaining * (count + 1) + last]` gets the least and the most that remains to be paid.
     """
     count = facts[0]
     full, wide = (1 << count) - 1, count + 1
@@ -291,7 +291,7 @@ def behind(
     world: WordTable, explored: int, entries: int, tree: Words, e: int, rule: int, overlap: int,
     darts: Words, row: WordTable, kills: Words, facts: Words, best: WordTable, ends: Words,
 ) -> None:  # fmt: skip
-    """All that may happen behind e: `facts` and `ends` get what is wrong, costs, counts."""
+    """Everything that may happen behind e: `facts` and `ends` get what is wrong, costs, counts."""
     pose(world, explored, entries, tree, e, rule, darts, row, kills, facts)
     if facts[0] == 0:
         ends[0], ends[1], ends[2], ends[3] = 0, 0, 0, 0
@@ -339,8 +339,8 @@ def search_world(
 ) -> None:  # fmt: skip
     """Search every state of a world with `size` darts.
 
-    `found` gets: what is wrong, states, choices, the least cost, the most, how many S. `low` gets
-    of each S and e the range behind e, and where it leads; `cost` the range from S on.
+    `found` gets: what is wrong, states, choices, least cost, highest cost, number of S. `low`
+    gets for each S and e the range behind e, and where it leads; `cost` the range from S on.
     """
     full, known = (1 << size) - 1, (1 << MOST_DARTS) - 1
     start = ((1 << 4 * VERTICES) - UNKNOWN - 1) << MOST_DARTS
@@ -384,7 +384,7 @@ def between(
     world: WordTable, size: int, full: int, work: WordTable, cost: WordCube, low: WordCube,
     found: Words, here: int, tree: Words, depth: Words,
 ) -> None:  # fmt: skip
-    """The range of what is still to be paid from an S, for each place of the robot."""
+    """The range of what remains to be paid from an S, for each place of the robot."""
     explored, entries = work[KEY, here] & full, work[KEY, here] >> MOST_DARTS
     for at in range(VERTICES):
         if not work[REACHED, here] >> at & 1:

@@ -1,4 +1,4 @@
-"""When two moments of two runs in one world are the same state: then what may follow is the same.
+"""When two moments of two runs in one world are the same state, with the same possible future.
 
 Two moments are one state only if these are equal:
 
@@ -13,9 +13,9 @@ A deterministic mapper then goes on alike, and its events are judged alike:
     8           by the sequences behind e; by what earlier sequences showed behind unexplored darts
     9, 10       by the fold of the whole history, and S on it
 
-What this does not see: module variables, the iterator of a `for` loop that a choice interrupts (the
-mapper has none), what a C object hides from `pickle`; the prior of `folding+planar`, which is that
-of the run made.
+What this does not see: module variables, the iterator of a `for` loop that a choice interrupts
+(the mapper has none), what a C object hides from `pickle`; the prior of `folding+planar`, which
+is that of the run made.
 """
 
 from __future__ import annotations
@@ -153,7 +153,7 @@ def _records(run: ReplayedTrace) -> Hashable:
 
 
 def _places(fold: Fold) -> Iterator[Hashable]:
-    """The places of a fold from v0 on: what each door leads to."""
+    """The places of a fold from v0 on, each with the ends of its doors."""
     numbers: dict[int, tuple[int, int]] = {}  # of a node: its number, and its dart found
     queue: list[Place] = []
 

@@ -1,9 +1,10 @@
 """One run of an algorithm that is told its choices one by one.
 
-Two things are open: between two edges, which e comes next; behind e, which hypothesis is tried next
-among those that the motion allows (`overlap`: those with the longest common prefix). So a run is a
-list of numbers, `--choices 0,2,1`: at each moment with more than one way, which way is taken,
-counted from 0 in the order of the darts of S. Behind the end of the list the first way is taken.
+Two things are open: between two edges, which e comes next; behind e, which hypothesis is tried
+next among those that the motion allows (`overlap`: those with the longest common prefix). So a
+run is a list of numbers, `--choices 0,2,1`: at each moment with more than one way, the number of
+the way taken, from 0 in the order of the darts of S. After the end of the list the first way is
+taken.
 
 What this does not show: other ways to walk (docs/semantics.md, section 5).
 """
@@ -127,7 +128,7 @@ def scripted(algorithm: Algorithm, chooser: Chooser) -> Callable[[Robot], Survey
 
 
 class Listed:
-    """Makes the choices of a list, then the first way each time. Life cycle: a run, `require_all`.
+    """Makes the choices of a list, then the first way each time: a run, then `require_all`.
 
     A wrong number counts as 0 during the run: an exception would be the mapper's.
     """
@@ -161,11 +162,7 @@ class Listed:
 
 
 def choices_of(text: str) -> tuple[int, ...]:
-    """The choices in a text such as `0,2,1`; none in an empty one.
-
-    Raises:
-        InputError: something else stands there.
-    """
+    """The choices in a text such as `0,2,1`; InputError if it is no list of numbers."""
     words = [word.strip() for word in text.split(",")] if text.strip() else []
     if not all(word.isascii() and word.isdecimal() and len(word) < 6 for word in words):
         raise InputError(f"--choices {text}: expected numbers with commas, as 0,2,1")

@@ -1,4 +1,4 @@
-"""A world as `kernel.py` takes it, and what the kernel found. numba and NumPy are loaded late."""
+"""A world as `kernel.py` takes it, and the kernel's result. numba and NumPy are loaded late."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ RULES: tuple[object, ...] = (NoRule, PrefixRule, HistoryRule)
 
 
 class KernelFound(NamedTuple):
-    """What the kernel found in one world.
+    """The kernel's result for one world.
 
     Attributes:
         wrong: what is wrong in some state, as a number of `kernel.py`; 0: nothing.
         cheap, dear: runs with the least and the highest cost.
-        maps: how many S there are.
+        maps: the number of S.
     """
 
     wrong: int
@@ -63,10 +63,10 @@ def require_kernel() -> None:
 def found_in(
     world: World, algorithm: Algorithm, shown: Sequence[Percept] | None = None
 ) -> KernelFound:
-    """What the kernel finds in a world whose darts are numbered as in its code.
+    """The kernel's result for a world whose darts are numbered as in its code.
 
     Args:
-        seen: the percept with each dart as the reference dart; default: the true ones.
+        shown: the percept with each dart as the reference dart; default: the true ones.
     Raises:
         InternalError: the world has too many states.
     """
@@ -102,7 +102,7 @@ class Ordered:
         self._world, self._order = world, order
 
     def __call__(self, moment: ChoicePoint) -> int:
-        """The place of the dart in the order; 0 if it says none."""
+        """The place of the dart in the order; 0 if the order has none."""
         darts = world_darts(moment.chart, self._world)
         if darts is None:
             return 0
