@@ -302,15 +302,16 @@ def _type(kind: Any) -> str:  # noqa: PLR0911  a return for each kind
 
 
 def _attributes(cls: type) -> dict[str, str]:
-    """The sentence of each field that the docstring of a class names."""
-    _, _, text = inspect.cleandoc(cls.__doc__ or "").partition("Attributes:\n")
-    found: dict[str, str] = {}
+    """The sentence of each field that the docstrings of a class and its bases name."""
+    texts = [inspect.cleandoc(base.__doc__ or "") for base in reversed(cls.__mro__)]
+    text = "".join(text.partition("Attributes:\n")[2] + "\n" for text in texts)
+    sentences: dict[str, str] = {}
     for line in re.findall(r"^ {4}(\w[\w, ]*: .*(?:\n {6,}.*)*)", text, re.MULTILINE):
         # "cost: over all worlds; priced: world by world" is about two fields.
         for part in re.split(r"; (?=`?\w+`?: )", " ".join(line.split())):
             names, _, sentence = part.partition(": ")
-            found |= dict.fromkeys(names.replace("`", "").split(", "), sentence)
-    return found
+            sentences |= dict.fromkeys(names.replace("`", "").split(", "), sentence)
+    return sentences
 
 
 def _meaning(record: Any, field: Any) -> str:

@@ -7,13 +7,12 @@
 
 The first test of a mapper runs it once in every world of 1 to N edges (`--topo-edges`). A test
 passes if its claim holds in every world. It fails, with the first such world and its replay
-command, if the claim fails or is undecided. It is skipped if in some world the mapper declared no
-decision that the claim is about.
+command, if the claim fails or is undecided. It is skipped if in some world the mapper declared
+no decision that the claim is about.
 
-The results travel in the `user_properties` of the test reports, for JUnit files and pytest-xdist.
-Pytest loads this file in every session, so it imports no room before there is a mapper to test.
-
-What this does not show: anything about worlds with more edges than N.
+The results travel in the `user_properties` of the test reports, for JUnit files and
+pytest-xdist. Pytest loads this file in every session, so it imports no room before there is a
+mapper to test.
 """
 
 from __future__ import annotations
@@ -224,9 +223,9 @@ def pytest_make_collect_report(
 def _profile(collector: pytest.Collector) -> Generator[None]:
     """Let property tests of mappers have no deadline, unless the user has loaded a profile.
 
-    A busy machine exceeds Hypothesis's 200 ms an example. A test takes its settings when its module
-    is imported, so the profile `topo` is active during the import of a module that mentions both
-    libraries.
+    A busy machine exceeds Hypothesis's 200 ms an example. A test takes its settings when its
+    module is imported, so the profile `topo` is active while a module that mentions both
+    libraries is imported.
     """
     text = collector.path.read_bytes() if isinstance(collector, pytest.Module) else b""
     if b"hypothesis" not in text or b"topo_verify" not in text:

@@ -374,7 +374,7 @@ def _lost_in_native_code(campaign: c.Campaign, shard: c.Shard, loss: Loss) -> c.
 
 
 def _open(campaign: c.Campaign, shard: c.Shard) -> c.ShardResult:
-    """The result of a shard that lost whole machines: its worlds are undecided."""
+    """The result of a shard that lost whole machines."""
     worlds = campaign.worlds.worlds(shard)
     mapper, limits = campaign.mappers[0], campaign.limits
     return counted(

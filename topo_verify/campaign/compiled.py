@@ -100,8 +100,6 @@ def examine_compiled(
 
 
 class _Judged(NamedTuple):
-    """A run of the reference, and its part of the digest."""
-
     row: Row
     digest: int
 
@@ -305,7 +303,6 @@ class _CompiledShard:
         return self._known[rank, which]
 
     def _engine_run(self, run: Exploration) -> tuple[int, bool, Trace]:
-        """The engine's cost, whether it has a map, and its events."""
         if self._calls is None:
             limits = self._campaign.limits
             twin = explore(run.world, run.algorithm, limits=limits, engine="compiled")

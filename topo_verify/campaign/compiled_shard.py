@@ -176,8 +176,6 @@ def examine_steps(  # noqa: PLR0913  all that is asked of the engine
 
 
 class _Shard:
-    """The arrays of one examination."""
-
     def __init__(  # noqa: PLR0913  as `examine_steps`
         self,
         algorithms: Sequence[str],

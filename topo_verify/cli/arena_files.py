@@ -1,4 +1,4 @@
-"""What `arena` shows to people, and the files of `arena --out DIR` beside store and page.
+"""The standings of `arena`, and the files of `arena --out DIR` beside store and page.
 
     table.md, table.csv      the tables
     runs.csv                 every run of the ranked mappers
@@ -8,7 +8,7 @@
     players/MAPPER.html      a ranked mapper in its most expensive world
     counterexamples/         of a mapper without a place: the world, drawn, and its run
 
-All but `timing.json` and the page are the same, byte for byte, for the same runs.
+All but `timing.json` and the page are equal, byte for byte, for equal runs.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ import msgspec
 from topo_verify.campaign.judge import in_words
 from topo_verify.campaign.run import explore
 from topo_verify.checkers import check
-from topo_verify.cli.failures import version
+from topo_verify.cli import version
 from topo_verify.cli.runs import target_title
 from topo_verify.errors import plural
 from topo_verify.player.page import player_page
@@ -62,8 +62,7 @@ def standings(
 ) -> Block:
     """The ranked mappers of a suite; a shared place is followed by `=`.
 
-    Args:
-        memory: for the columns of time and memory; None: without them.
+    `memory` adds columns of time and memory.
     """
     ranked = ranked_in(suite, table)
     if not ranked:
@@ -230,11 +229,7 @@ def write_folder(
     most_expensive: Sequence[Exhibit],
     counterexamples: Sequence[Exhibit],
 ) -> None:
-    """Write all files of the league into the folder.
-
-    Raises:
-        InputError: one of them cannot be written.
-    """
+    """Write all files of the league into the folder."""
     files.write(folder / "table.csv", table_csv(table))
     files.write(folder / "runs.csv", runs_csv(league, table))
     files.write(folder / "results.json", _results(league, table))

@@ -18,11 +18,7 @@ ALLOWED = {"--game", "texts", "--target", "--format", "--quiet"}
 
 
 def game_of_catalogue(output: Output, edges: int, names: Sequence[str]) -> int:
-    """Do `arena --game M [TARGET]...`; without names, or with `all`, for the whole catalogue.
-
-    Raises:
-        InputError: there is no such game or mapper, or another option was given.
-    """
+    """Do `arena --game M [TARGET]...`; without names, or with `all`, for the whole catalogue."""
     if others := [name for name in options.given() if name not in ALLOWED]:
         raise InputError(f"{others[0]} means nothing to --game: leave out one of them")
     asked = [name for text in names for name in text.split(",") if name != "all"]

@@ -28,7 +28,7 @@ from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
 
 MOST_OPEN_DOORS = 100
-"""Most open doors of a log that are listed, nearest first."""
+"""Most open doors of a log that are listed."""
 
 
 class DecisionCount(msgspec.Struct, frozen=True):
@@ -42,15 +42,15 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     """One log.
 
     Attributes:
-        verdict: PROVED. UNKNOWN: several worlds show the log. REFUTED: no world shows it, or a map
-            or decision in it does not follow.
+        verdict: PROVED. UNKNOWN: several worlds show the log. REFUTED: no world shows it, or a
+            map or decision in it does not follow.
         vertices, edges: of the proved map, else of the smaller witness.
         open_doors: at most 100, nearest to the end of the log first.
         advice: how to go on to prove the map; null: nothing is left to walk.
         witnesses: two worlds that show this log and differ: the files if written, else the ids.
         kernel: the certificate for Coq; null without --kernel.
         trace: the file of the log.
-        open_darts: how many darts of the map are not explored.
+        open_darts: the number of unexplored darts of the map.
     """
 
     trace: str
@@ -102,15 +102,15 @@ def certify(
 ) -> int:
     """Judge logs of percepts and doors, with no world at all.
 
-    TRACE is a file, or - for standard input: JSON Lines with a `start` and a `move` for each edge
-    crossed, or a CSV table with the columns door, degree, marker (no door in its first row).
-    PROVED: exactly one world shows this log, and it is the map. UNKNOWN (exit code 3): several
-    worlds show it; the open doors are named, and where to go next. REFUTED (1): no world shows it,
-    or a map or decision in it does not follow.
+    TRACE is a file, or - for standard input: JSON Lines with a `start` and a `move` for each
+    edge crossed, or a CSV table with the columns door, degree, marker (no door in its first
+    row). PROVED: exactly one world shows this log, and it is the map. UNKNOWN (exit code 3):
+    several worlds show it; the open doors are named, and where to go next. REFUTED (1): no world
+    shows it, or a map or decision in it does not follow.
 
-    --kernel states and proves the same in Coq, in a file certificate_LOG.cert; 3 if a part is not
-    checked. --check has Coq check a certificate that you received: accepted (0), refused (1), not
-    readable (2), not checked, or silent about a part of the log (3).
+    --kernel states and proves the same in Coq, in a file certificate_LOG.cert; 3 if a part is
+    not checked. --check has Coq check a certificate that you received: accepted (0), refused
+    (1), not readable (2), not checked, or silent about a part of the log (3).
     """
     _require_one_task(traces, received, about, others=bool(map_file or folder or proving))
     doing = partial(output.progress, done=0, total=1)

@@ -1,7 +1,7 @@
-"""`topo-verify explore`: run algorithms in given worlds; cost and verdict of each run.
+"""`topo-verify explore`: runs algorithms in given worlds; cost and verdict of each run.
 
-With --marker all two darts from which the world looks the same make one rooted map: one run serves
-both, and `same_as` marks the repeated entry.
+With `--marker all`, two darts from which the world looks the same make one rooted map: one run
+serves both, and `same_as` marks the repeated entry.
 """
 
 from __future__ import annotations
@@ -53,8 +53,8 @@ class ExploreEntry(msgspec.Struct, frozen=True):
         gap: with --gap, if the mapper declares every decision; otherwise null.
         marker: the dart that the marker points at, numbered as in the world's file.
         place: the vertex of the marker.
-        same_as: with `--marker all`, a smaller dart from which the world looks the same; this run
-            is that one's.
+        same_as: with `--marker all`, a smaller dart from which the world looks the same; this
+            run is that one's.
         rejected_free, rejected_moving: hypotheses rejected without motion, and by motion.
         confirmed: hypotheses confirmed.
     """

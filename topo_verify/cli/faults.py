@@ -8,8 +8,7 @@ import click
 
 from topo_verify.campaign.run import Engine
 from topo_verify.campaign.work import processors
-from topo_verify.cli import options
-from topo_verify.cli.failures import version
+from topo_verify.cli import options, version
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.errors import InputError, plural
 from topo_verify.report import account as acc
@@ -55,10 +54,10 @@ def faults(
 ) -> int:
     """Try the checks on mappers with one mistake each, and on some that differ harmlessly.
 
-    Every check must catch every fault: the search goes up to the first size with a failing world,
-    the property tests have Hypothesis's default number of examples. No check may catch a harmless
-    difference. A theorem with the same mistake must be refuted. NAME is a fault; by default all are
-    tried.
+    Every check must catch every fault: the search goes up to the first size with a failing
+    world, the property tests have Hypothesis's default number of examples. No check may catch a
+    harmless difference. A theorem with the same mistake must be refuted. NAME is a fault; by
+    default all are tried.
     """
 
     def tried() -> Iterator[Result[study.Caught]]:

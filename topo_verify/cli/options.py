@@ -1,4 +1,4 @@
-"""Options and help that several commands share."""
+"""Options that several commands share."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from topo_verify.campaign.run import ENGINES, policies_of
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import one_target, target_text, targets
 from topo_verify.checkers.claims import LARGE
-from topo_verify.cli.failures import epilog
+from topo_verify.cli import epilog
 from topo_verify.cli.output import Output
 from topo_verify.errors import InputError, plural, shown
 from topo_verify.programs.library import LIBRARY
@@ -93,9 +93,7 @@ def command(
 ) -> Callable[[Callable[..., int]], click.Command]:
     """Make a command that gets an `Output`, and whose --help ends with examples.
 
-    Args:
-        reports: it has --report, --junit and --badge.
-        group: the group that the command belongs to.
+    `reports` adds --report, --junit and --badge.
     """
     make = click.command if group is None else group.command
 
@@ -259,11 +257,7 @@ world_class = click.option(
 
 
 def make_folder(name: str, option: str) -> Path:
-    """The folder that an option names; created if missing.
-
-    Raises:
-        InputError: it cannot be created.
-    """
+    """The folder that an option names, made if missing; InputError if that is impossible."""
     try:
         Path(name).mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -296,13 +290,7 @@ in_process = click.option(
 
 @dataclass(frozen=True)
 class Mappers:
-    """The mappers that a command line names, and how they run.
-
-    Attributes:
-        texts: each TARGET; may be empty.
-        in_process: run a user's mapper in this process.
-        pick, order: policies for algorithms of the catalogue.
-    """
+    """The TARGETs of a command line, and how they run."""
 
     texts: tuple[str, ...]
     in_process: bool
@@ -320,13 +308,7 @@ class Mappers:
         )
 
     def load_one(self, usual: Policies | None = None) -> Target:
-        """The one mapper that is named.
-
-        Args:
-            usual: its policies unless others are given.
-        Raises:
-            InputError: several mappers are named, or one cannot be loaded.
-        """
+        """The only mapper, with the `usual` policies unless others are given."""
         how: dict[str, Any] = {"pick": self.pick, "order": self.order}
         target = one_target(self.texts[0], in_process=self.in_process, **how)
         if usual is None or policies_of(target) is None:
@@ -461,11 +443,7 @@ STORE, OLD_STORE = "runs.db", "runs.jsonl"
 
 @contextmanager
 def open_store(output: Output, folder: Path | None) -> Generator[Store | None]:
-    """The store in a folder; None without a folder.
-
-    Raises:
-        InputError: the file cannot be used.
-    """
+    """The store in a folder; None without a folder."""
     if folder is None:
         yield None
         return
@@ -489,7 +467,7 @@ def opened(path: str | None) -> AbstractContextManager[Store | None]:
 def stored_rows(
     output: Output, campaigns: Sequence[MapperCampaign], workers: int, store: Store | None
 ) -> Iterator[Row]:
-    """The rows of all campaigns; missing ones are made, and kept in the store."""
+    """The rows of all campaigns; missing ones are made and kept in the store."""
     total = sum(campaign.total for campaign in campaigns)
     if store is not None:
         output.timing["from_store"] = stored = sum(campaign.stored for campaign in campaigns)

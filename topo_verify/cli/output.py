@@ -1,9 +1,9 @@
-"""Run a command, print its results on stdout, and derive its exit code from them.
+"""Runs a command, prints its results on stdout, and derives its exit code.
 
-A command is a generator of `Result`s. `Output.run` drives it, keeps what was yielded before Ctrl-C
-or a broken pipe, and prints one of three forms: `pretty` for people, `json` (docs/semantics.md,
-section 16), `markdown`. What a mapper prints goes to stderr. --report, --junit and --badge are
-checked before the work begins, and written at the end, each file whole or not at all.
+A command is a generator of `Result`s. `Output.run` keeps what it yielded before Ctrl-C or a
+broken pipe, and prints one of three forms: `pretty` for people, `json` (docs/semantics.md,
+section 16), `markdown`. What a mapper prints goes to stderr. Files of --report, --junit and
+--badge are checked before the work begins, and written at the end, each whole or not at all.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ import click
 import msgspec
 
 from topo_verify.checkers.findings import Verdict
-from topo_verify.cli.failures import ExitCode, say, silence, version
+from topo_verify.cli import ExitCode, say, silence, version
 from topo_verify.cli.runs import FoundRuns
 from topo_verify.errors import InputError, plural, shown
 from topo_verify.report import account as acc

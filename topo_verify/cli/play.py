@@ -21,7 +21,7 @@ class PlayEntry(msgspec.Struct, frozen=True):
 
     Attributes:
         algorithms: whose runs it shows.
-        findings: how many findings are marked in it.
+        findings: the number of findings marked in it.
     """
 
     world: str

@@ -24,11 +24,11 @@ KINDS: tuple[TheoremKind, ...] = get_args(TheoremKind)
 
 
 class ReplayCount(msgspec.Struct, frozen=True):
-    """How many of the models found the simulator has confirmed.
+    """How many of the solver's models the simulator has confirmed.
 
     Attributes:
         replayed: those confirmed.
-        total: those found.
+        total: all models.
     """
 
     replayed: int
@@ -55,7 +55,7 @@ class ProveEntry(msgspec.Struct, frozen=True):
     Attributes:
         claim: the claims that rest on it, with commas.
         ok: the verdict is as expected, the premises are satisfiable, every model was replayed.
-        premises_satisfiable: whether all premises can hold; null: not asked.
+        premises_satisfiable: whether all premises can hold; null if not asked.
         solver: what decided it, with its version.
         edges: the bound of a bounded theorem.
         checked, total: how many cases were decided, of how many; null: it has no cases.
@@ -94,7 +94,7 @@ class ProveListEntry(msgspec.Struct, frozen=True):
         claim: the claims that rest on it, with commas.
         expected: the verdict that is expected.
         edges: the bound of a bounded theorem.
-        deep: whether it takes minutes, and --deep.
+        deep: whether it needs --deep, since it takes minutes.
         symbols: the statement as the solver gets it.
         solver_part: what the solver proves.
         argued: the steps that are argued in words, by their names in docs/proofs.md.
@@ -165,8 +165,8 @@ def prove(
     """Prove the theorems that the claims rest on, and refute what must not be provable.
 
     NAME is a theorem; by default all quick ones are proved. Inductive theorems hold in worlds of
-    any size, bounded ones in every world of a few edges; negatives and mutants must be REFUTED. A
-    vacuous theorem is UNKNOWN, which does not pass (exit 3).
+    any size, bounded ones in every world of a few edges; negatives and mutants must be REFUTED.
+    A vacuous theorem is UNKNOWN, which does not pass (exit 3).
     """
     from topo_verify.proofs.catalogue import choose
 

@@ -1,7 +1,7 @@
 """Worlds as the user names them; judged runs, findings and walks as shown.
 
-A search stores only the world and the claim of a counterexample. The mapper runs there again, and
-its walk is shown if the same claim fails again.
+A search stores only the world and the claim of a counterexample. The mapper runs there again,
+and its walk is shown if the same claim fails again.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ class NamedWorld:
 
     @cached_property
     def argument(self) -> str:
-        """A WORLD argument for a later call: one from standard input has its id, or is saved."""
+        """A WORLD argument for a later call; a large world from standard input is saved."""
         if self.text == "-":
             return self.world.id if self._has_id else _saved(self.world)
         return f"./{self.text}" if self.text.startswith("-") else self.text
@@ -73,13 +73,7 @@ class NamedWorld:
 
 
 def named_world(text: str, marker: int | None = None, stdin: bytes | None = None) -> NamedWorld:
-    """The world that the user names.
-
-    Args:
-        stdin: the content of standard input, if already read.
-    Raises:
-        InputError: no such world, no such dart.
-    """
+    """The world that the user names; `stdin` is the content of standard input, if already read."""
     world = resolve_world(text, stdin=None if stdin is None else BytesIO(stdin))
     if marker is not None:
         named_by_id = world.name == text
@@ -211,7 +205,7 @@ def finding_blocks(
 
 
 def finding_line(finding: Finding) -> str:
-    """One finding in a line: claim, event, message."""
+    """Claim, event and message of a finding."""
     event = "" if finding.event is None else f", event {finding.event}"
     return f"{finding.claim}{event}: {finding.message}"
 
@@ -254,11 +248,7 @@ def require_one_world(file: str | None, number: int) -> None:
 
 
 def write_page(file: str, world: World, name: str, runs: Sequence[PlayedRun]) -> None:
-    """Write the page that shows these runs in a world of this name.
-
-    Raises:
-        InputError: the file cannot be written.
-    """
+    """Write the page that shows these runs in a world of this name."""
     from topo_verify.player.page import player_page
 
     files.write(file, player_page(world, runs, name=name))
@@ -320,7 +310,7 @@ class FoundRuns:
 
         Args:
             world: an id, a family's call, or `nyc`; others are ignored, since a file may change.
-            reports: makes the reports where a mapper has several runs; default: one run each.
+            reports: makes the reports of a mapper with several runs.
         """
         if not self._most or (self._report is not None and not self._alone):
             return

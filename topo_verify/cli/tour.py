@@ -22,12 +22,12 @@ from topo_verify.world.rooted_map import Dart, World
 
 
 class LogAgainstMap(msgspec.Struct, frozen=True):
-    """What a log says of the map.
+    """The verdict of a log on the map.
 
     Attributes:
         log: the file.
-        verdict: REFUTED: the map does not show the log. PROVED: only the map shows it. UNKNOWN: the
-            map shows it, and other worlds do.
+        verdict: REFUTED: the map does not show the log. PROVED: only the map shows it. UNKNOWN:
+            other worlds show it, too.
         event: the event that refutes the map, counted from 0 with `start`; else null.
         message: why it does; "" otherwise.
         moves: the edge traversals of the log.
@@ -49,7 +49,7 @@ class TourEntry(msgspec.Struct, frozen=True):
         cost: the number of doors; without --against the least cost of the world.
         doors: those to take, from the start or from where the log of --against ends.
         seen: what should be seen behind each of these doors.
-        against: what the log of --against says; null without one.
+        against: the verdict of that log.
     """
 
     world: str
@@ -86,10 +86,10 @@ def tour(
 
     A robot that starts at the marker and sees all this has proved the map. It need not come back.
 
-    With --against, WORLD is a map and LOG is what a robot has seen so far, as for certify. REFUTED
-    (exit code 1): the event that refutes the map is named. PROVED (0). UNKNOWN (3): the edges not
-    proved yet are named, with a way to go on from where the log ends, the cheapest of several
-    plans.
+    With --against, WORLD is a map and LOG is what a robot has seen so far, as for certify.
+    REFUTED (exit code 1): the event that refutes the map is named. PROVED (0). UNKNOWN (3): the
+    edges not proved yet are named, with the cheapest of several ways to go on from where the log
+    ends.
     """
 
     def toured() -> Iterator[Result[TourEntry]]:
@@ -129,7 +129,7 @@ def tour(
 
 
 def _against(world: World, log: str) -> tuple[Trace, Sequence[Event], LogAgainstMap]:
-    """The log with the way on after it, that way, and what the log says of the map."""
+    """The log with the way on after it, that way, and the verdict on the map."""
     name = "standard input" if log == "-" else log
     log_events = read_log(log)
     try:

@@ -21,7 +21,7 @@ class TwinEntry(msgspec.Struct, frozen=True):
     Attributes:
         model: what a robot senses of the marker: where it lies (undirected), or nothing (none).
         id: of the twin; null: there is none, or it has over 200 edges.
-        why: the reason why no twin was found; "no exchange ..." does not exclude one.
+        why: why no twin was found; "no exchange ..." does not exclude one.
         rotation, edge_darts: of the twin; empty without one.
         file: the picture of both; null without -o.
     """

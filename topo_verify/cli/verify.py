@@ -8,8 +8,7 @@ from dataclasses import replace
 import click
 
 from topo_verify.checkers import CLAIMS, Finding
-from topo_verify.cli import options
-from topo_verify.cli.failures import version
+from topo_verify.cli import options, version
 from topo_verify.cli.output import Live, Output, Result
 from topo_verify.cli.runs import finding_blocks, unjudged
 from topo_verify.errors import plural

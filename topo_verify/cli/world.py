@@ -12,8 +12,7 @@ from typing import Any
 import click
 import msgspec
 
-from topo_verify.cli import options
-from topo_verify.cli.failures import epilog
+from topo_verify.cli import epilog, options
 from topo_verify.cli.output import Live, Output, Result, Rows, entry_of, written
 from topo_verify.cli.runs import NamedWorld, named_world, named_worlds
 from topo_verify.cli.twins import TwinEntry, rotation_table, twin_blocks, twin_entry
@@ -35,7 +34,7 @@ FORMATS: dict[str, tuple[Callable[[World], str | bytes], str]] = {
     "graphml": (graphml.encode, ".graphml"),
     "nx-json": (node_link.encode, ".nx.json"),
 }
-"""The encoder of each format of `convert --to`, and the ending by which it is read again."""
+"""The encoder of each format of `convert --to`, and the ending of its files."""
 
 
 class _Commands(click.Group):
@@ -364,8 +363,8 @@ class SampleEntry(msgspec.Struct, frozen=True):
 
     Attributes:
         id: null beyond 200 edges.
-        kind: the class that it was drawn from; null if it was a strategy.
-        strategy: the strategy that it was drawn from; null if it was a class.
+        kind: the class that it was drawn from, or null.
+        strategy: the strategy that it was drawn from, or null.
         file: the file that was written; null without -o.
     """
 
@@ -486,7 +485,7 @@ class DrawEntry(msgspec.Struct, frozen=True):
     """One picture.
 
     Attributes:
-        file: the file that was written; null without -o.
+        file: null without -o.
         layout: positions, planar, bridges, cell or ball.
         shown: the number of vertices shown: all of them except in a ball.
         bridges: how many times an edge passes over another one.

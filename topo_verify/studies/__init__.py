@@ -8,12 +8,12 @@ faults.py        which check finds which seeded fault
 arena/           mappers ranked by cost
 game/            what the best explorer pays
 reproduce/       the paper's figures
-gap.py           how far a rule is from the best possible
+gap.py           how far a rule is from the best
 corpus.py        what WORLDS means
-beside.py        calls a function in worker processes
-log_file.py      reads a robot's log from a file
+beside.py        calls in worker processes
+log_file.py      reads a robot's log
 log_report.py    what a log proves without its world
-certificates.py  the same, stated and proved in Coq
+certificates.py  the same in Coq
 advice.py        where a robot goes next
 map_check.py     judges a map by a log
 """

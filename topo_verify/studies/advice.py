@@ -4,8 +4,8 @@ The nearest open door is bad advice: behind it lie new open doors, and only the 
 two places are one. So the mapper `homing` explores **in thought**: the fold of the log answers
 its moves. The robot goes to the first door that the fold does not know, and asks again.
 
-**This ends**, since the mapper makes finitely many moves in the robot's world, and the fold
-answers one more of them each time. What this does not show: that no shorter walk proves the map.
+This ends, since the mapper makes finitely many moves, and the fold answers one more each time.
+What this does not show: that no shorter walk proves the map.
 """
 
 from __future__ import annotations

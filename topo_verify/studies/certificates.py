@@ -40,7 +40,7 @@ class KernelCheck(msgspec.Struct, frozen=True):
         by: the checker.
         why: why nothing was checked.
         command: checks it again, in the folder of the certificate.
-        delivered: whether Coq accepted that the delivered map is the world.
+        delivered: Coq accepted that the delivered map is the world.
         decisions: the certified ones among those that follow.
     """
 
@@ -75,7 +75,7 @@ class CertificateEntry(msgspec.Struct, frozen=True):
         by: what accepted or refused it; "" if nothing did.
         statement: map, undetermined or impossible, if accepted; else null.
         why: why it is refused, unchecked, or silent about a part of the log; else "".
-        delivered: whether it states that the delivered map is the world.
+        delivered: it states that the delivered map is the world.
         decisions: those of the log, if one is given; else those in the certificate.
     """
 

@@ -4,8 +4,7 @@
     properties   property tests on two strategies, five seeds each
     proofs       a theorem whose version with the same mistake the solver refutes
 
-A fault is caught if each requested check finds it and its claim fails in worlds of the smallest
-size. A harmless difference must be found by none. A run out of time is undecided.
+A fault is caught if each requested check finds it; a harmless difference must be found by none.
 """
 
 from __future__ import annotations
@@ -99,10 +98,8 @@ def try_faults(
 ) -> Iterator[Caught]:
     """Try the checks on each of these faults, in order.
 
-    Args:
-        workers: the number of processes; 0: this one.
-        thorough: count failing worlds of every size; harmless differences up to 5 edges.
-        engine: runs a fault that has a kernel in worlds of up to `COUNTED` edges.
+    If `thorough`, failing worlds of every size are counted, and harmless differences are tried
+    up to 5 edges. `engine` runs faults that have a kernel in worlds of up to `COUNTED` edges.
     """
     faults = list(faults)
     # A worker finds a fault by its name.
@@ -138,7 +135,6 @@ def _begun(fault: Fault, *, by: Sequence[Check], thorough: bool, engine: Engine)
 def _to_the_end(
     fault: Fault, entry: Caught, workers: int, *, thorough: bool, tell: Progress | None
 ) -> Caught:
-    """Search larger worlds if the smaller ones showed nothing."""
     if fault.harmless or entry.search is None or entry.search.failing:
         return entry
     larger = smallest(fault, first=COUNTED + 1, workers=workers, thorough=thorough, tell=tell)
@@ -209,8 +205,8 @@ class Smallest(msgspec.Struct, frozen=True):
     Attributes:
         edges: that size; the largest that was searched if nothing was found.
         failing, checked, total: numbers of worlds of that size.
-        undecided: in how many of all searched worlds a run was out of time.
-        claims: for each claim that fails there, in how many worlds.
+        undecided: number of searched worlds in which a run was out of time.
+        claims: for each failing claim, the number of worlds.
         world: the first of them.
         convicting: the first that claims 9 and 10 alone convict.
         message, replay: what is wrong in `world`, and the command line that shows it again.
@@ -236,7 +232,7 @@ class Examples(msgspec.Struct, frozen=True):
         strategy: that strategy.
         examples: by strategy, for each seed; null where nothing was found.
         most: the number of examples after which a test gives up.
-        undecided: how many examples were cut off.
+        undecided: the number of examples that were cut off.
     """
 
     median_examples: int | None

@@ -1,12 +1,10 @@
 """Certificates: what a log of percepts and doors proves without its world.
 
-    certificate = certify(read_trace(log))
-    certificate.map             # the world, proved; or None
-    certificate.witnesses       # else: two worlds, each of which shows this very log
+certificate = certify(read_trace(log))
+certificate.map             # the world, proved; or None
+certificate.witnesses       # else: two worlds, each of which shows this very log
 
-    for door in open_doors(certificate, 100): ...     # at most 100, nearest to the log's end first
-
-checkers/certificate.py judges the log and checks each world given out.
+for door in open_doors(certificate, 100): ...     # at most 100, nearest to the log's end first
 """
 
 from __future__ import annotations
@@ -36,8 +34,7 @@ class Certificate:
         map: the one world that shows the log, or None.
         open_darts: number of darts of the fold that were never crossed.
         vertices, edges: of the map, else of the smaller witness; 0 if no world shows the log.
-        entailed, decisions: how many declared decisions follow from the log before them, of how
-            many.
+        entailed, decisions: the declared decisions that follow from the log before them; all.
         fold: of the log; None if no world shows it.
     """
 
@@ -146,7 +143,6 @@ _Walk = tuple["_Walk", Door] | None
 
 
 def _places(fold: Fold) -> Iterator[tuple[int, int, _Walk]]:
-    """The places by distance: a node, its dart of arrival, the walk."""
     start, reference = fold.find(fold.at)
     reached = {start}
     queue: list[tuple[int, int, _Walk]] = [(start, reference, None)]

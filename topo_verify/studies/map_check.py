@@ -5,8 +5,7 @@
     check.onward         # UNKNOWN: the moves that prove it from where the log ends
 
 An edge of the map's breadth-first tree is **proved** if the fold has crossed it at the end of
-the tree path from v0; a chord, if its loop is closed in the fold. All edges are proved exactly
-if the fold has no open dart.
+the tree path from v0; a chord, if its loop is closed in the fold.
 
 **What is minimised.** A plan goes home, perhaps over an unproved edge; then it walks the loops
 not yet proved, shortest first, and hanging trees on its way. If every loop is proved, it walks
@@ -116,7 +115,6 @@ def _refutation(replayed: ReplayedTrace) -> MapCheck:
 
 
 def _require_proof(fold: Fold, onward: Sequence[Move]) -> None:
-    """Raise an InternalError unless these moves prove the map."""
     for event in onward:
         fold.move(event.door, event.percept)
     if open_darts := fold.open_darts():

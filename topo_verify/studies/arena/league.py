@@ -10,8 +10,7 @@ freedom are those of B. L. Welch (Biometrika 34, 1947): (Σ a)² / Σ (a² / (n-
 Two mappers are compared by their **paired** differences.
 
 **Ties.** A mapper shares the place of the one above it unless the interval of its paired
-difference from the first mapper with that place lies above 0. A family of one drawn world has no
-interval, so all mappers tie.
+difference from the first mapper with that place lies above 0.
 """
 
 from __future__ import annotations
@@ -113,9 +112,9 @@ class LeagueEntry(msgspec.Struct, frozen=True, kw_only=True):
         undecided: worlds that were out of time or declined; `why`: the first reasons.
         place: 1 is the best; null: no place. Mappers that cannot be told apart share one.
         ratio: cost / LB, the mean over families.
-        losses: at most `KEPT_LOSSES` worlds where it loses most against the first of the table.
+        losses: where it loses most against the first of the table.
         rejected_free, rejected_moving: hypotheses, over all worlds.
-        ms_per_move: milliseconds of processor time a move; varies from run to run.
+        ms_per_move: milliseconds of processor time; varies from run to run.
     """
 
     mapper: str
@@ -145,7 +144,7 @@ KEPT_LOSSES = 3
 
 @dataclass(frozen=True)
 class League:
-    """What is to be played, and the runs so far, by mapper and world.
+    """The mappers and suites, and the runs so far, by mapper and world.
 
     Attributes:
         peaks: the most kibibytes of a mapper; None: unknown.
@@ -290,7 +289,6 @@ class League:
 
 
 def _split(suite: Suite, values: Sequence[T]) -> Iterator[tuple[SuiteFamily, Sequence[T]]]:
-    """A suite's values by family."""
     start = 0
     for family in suite.families:
         yield family, values[start : start + family.size]
@@ -323,10 +321,10 @@ LEVEL = 0.95
 
 
 class MeanInterval(msgspec.Struct, frozen=True):
-    """A mean and its confidence interval; `low` and `high` are null if there is no interval.
+    """A mean and its confidence interval.
 
     Attributes:
-        mean, low, high: the mean, and the ends of its interval.
+        mean, low, high: the mean, and the ends of its interval, or null.
     """
 
     mean: float

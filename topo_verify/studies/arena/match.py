@@ -1,7 +1,6 @@
 """The runs of a league: one campaign for each mapper, which ends at its first failing world.
 
-**Memory** is the peak resident set of a fresh process in which the mapper plays one world,
-without processes that a program starts.
+**Memory** is the peak resident set of a fresh process in which the mapper plays one world.
 
 **Hidden worlds.** A mapper can read the store while others play. So in the rows of drawn worlds
 a hash of the arena's seed and the world's name replaces the name, and the map is left out. A
@@ -48,10 +47,8 @@ MEMORY = "memory of "
 def matches(league: League, store: Store | None, tell: Tell = _silent) -> list[MapperCampaign]:
     """The campaign of each mapper.
 
-    Args:
-        tell: gets a sentence about each mapper that has changed; its runs are made again.
-    Raises:
-        InputError: the store's runs were made with other options, or another topo-verify.
+    `tell` gets a sentence about each mapper that has changed; its runs are made again.
+    InputError: the store's runs were made with other options, or another topo-verify.
     """
     every = {name for mapper in league.mappers for name in league.worlds_of(mapper)}
     worlds = {name: resolve_world(name) for name in every}

@@ -2,7 +2,7 @@
 
 The **families** of a suite weigh the same. A family is drawn (a call with seeds 0, 1, …) or
 **exact**: every world of a finite class, without sampling error. An arena seed other than 0
-draws new worlds, by seeds hashed from it, which no mapper can have met before.
+draws new worlds, which no mapper can have met before.
 """
 
 from __future__ import annotations

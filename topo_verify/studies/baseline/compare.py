@@ -8,13 +8,11 @@ Each world is of the first kind that fits:
 | `wrong` | a claim fails, whatever the baseline says |
 | `newly_right` | no claim fails, but in the baseline one did, or the world was undecided |
 | `dearer`, `cheaper` | right in both, at another cost |
-| `other_decisions` | right in both, at the same cost, by other moves or other decisions |
-| `equal` | right in both, at the same cost, by the same moves and decisions |
+| `other_decisions` | right in both, at the same cost, by other moves or decisions |
+| `equal` | nothing has changed |
 
 If either run declares nothing, only moves are compared. The tolerance of P percent is exceeded
-in each world where 100·after > (100 + P)·before, in exact arithmetic.
-
-Source: docs/baselines.md.
+where 100·after > (100 + P)·before, in exact arithmetic. Source: docs/baselines.md.
 """
 
 from __future__ import annotations
@@ -57,7 +55,7 @@ class Change(msgspec.Struct, frozen=True):
     Attributes:
         kind: what has changed.
         before, after: costs, in edge traversals; null where the run was not right.
-        percent: the increase (a decrease if below 0), to a tenth; null without both costs.
+        percent: the increase, to a tenth; null without both costs.
         beyond: it exceeds the tolerance.
         message: what is wrong or has changed; "" where the costs say it.
     """

@@ -1,8 +1,8 @@
 """The file of a baseline: gzip without a time stamp, holding JSON Lines.
 
 A header comes first, then a line for each world, with the world itself. Each line ends with
-`sum`, a hash of this and all earlier lines, so a reader can name the first line that was
-changed, lost or moved. Sums guard against accidents, not against forgery.
+`sum`, a hash of this and all earlier lines: a reader can name the first changed line. Sums guard
+against accidents, not against forgery.
 
 Source: docs/semantics.md, section 14; docs/baselines.md.
 """
@@ -47,7 +47,6 @@ class Header(msgspec.Struct, frozen=True, kw_only=True):
         tool: the version of topo-verify that recorded it.
         worlds, seed: the arguments that gave the corpus.
         corpus, digest, total: its description, hash and number of worlds.
-        limits: of each run.
     """
 
     format: Literal["topo-verify/baseline"] = FORMAT
@@ -69,11 +68,9 @@ class BaselineEntry(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=Tru
     Attributes:
         world: its id; beyond 200 edges, its JSON.
         name: its name in the corpus, if that differs.
-        moves: a hash of the doors, in their order.
-        decisions: a hash of the declared decisions, if any.
-        map: the id of the valid delivered map (beyond 200 edges `sha256:` and the hash of its
-            code).
-        undecided: no claim was judged: out of time while it still moved, or declined.
+        moves, decisions: hashes of doors and of declared decisions.
+        map: the id of the valid delivered map; beyond 200 edges a hash of its code.
+        undecided: out of time while it still moved, or declined.
     """
 
     world: str
@@ -177,7 +174,7 @@ def world_of(entry: BaselineEntry, *, name: str, line: int) -> World:
 
 
 def _unpacked(data: bytes, name: str) -> Iterator[bytes]:
-    """Lazily, so that a huge file is refused before it fills memory."""
+    """Lazy, so that a huge file is refused before it fills memory."""
     number, size = 1, 0
     try:
         with gzip.GzipFile(fileobj=BytesIO(data)) as file:

@@ -1,8 +1,6 @@
 """Records a baseline: the rows of a mapper in every world of a corpus, as lines of a file.
 
-**The hash of the decisions** covers each `pose`, `reject`, `confirm` and `augment` with the
-number of moves before it. Evidence and purposes explain a decision and are left out. What this
-does not show: a difference between runs whose 64-bit hashes collide.
+What this does not show: a difference between runs whose 64-bit hashes collide.
 """
 
 from __future__ import annotations
@@ -92,12 +90,13 @@ class RecordEntry(msgspec.Struct, frozen=True, kw_only=True):
     """One recording: an entry of `results`.
 
     Attributes:
-        worlds: the number of worlds in the corpus.
-        equal, wrong, undecided: in how many no claim fails, a claim fails, and neither is known.
+        equal: number of worlds where no claim fails.
+        wrong: number of worlds where a claim fails.
+        undecided: number of worlds where neither is known.
         dearer, cheaper, other_decisions: always 0; `compare` has the same fields.
         cost: total edge traversals in the worlds in which no claim fails.
         corpus, digest: the corpus in words, and its hash.
-        file: the baseline; null if the mapper was stopped early, since then none is written.
+        file: the baseline; null if the mapper was stopped early.
         findings: of the first failing worlds.
     """
 

@@ -4,9 +4,8 @@
     out    {"id": "m5/17", "doors": [0, 2, …], "declare": […], "map": {…}, "cost": 12}
 
 The simulated robot walks the run's doors and makes its declarations. Runs may come in any order.
-
-If a process fails, its unanswered worlds are bisected, down to the one that fails alone. If it
-is silent for the time limit of one world, the finding goes to the first unanswered world.
+If a process fails, its unanswered worlds are bisected. If it is silent for the time limit of one
+world, the finding goes to the first unanswered world.
 
 What this does not show: that doors were chosen from percepts alone.
 """
@@ -218,7 +217,6 @@ class BatchProgram:
 
 
 def _require_end(child: Child) -> None:
-    """Refuse a line after the last run."""
     try:
         line = child.line(seconds=GRACE)
     except (Silent, Ended):

@@ -7,7 +7,7 @@
 
 A run without a map has one finding, on level `result`. A world is undecided if the
 implementation skips it, gives it up, or exceeds its time while it still moves, or if something
-else may have ended its process. `look` works in the process that makes the run.
+else may have ended its process.
 """
 
 from __future__ import annotations
@@ -76,11 +76,7 @@ class WorldFinding(msgspec.Struct, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True)
 class WorldOutcome:
-    """The outcome of a row on each level; `decisions` only beside a reference.
-
-    Attributes:
-        why: why the world is undecided.
-    """
+    """The outcome of a row on each level; `why` if the world is undecided."""
 
     states: dict[Level, LevelState]
     findings: dict[Level, tuple[WorldFinding, ...]]
@@ -129,7 +125,6 @@ def outcome_of(row: Row, like: str) -> WorldOutcome:
 
 
 def _open_ended(row: Row) -> LevelState | None:
-    """The state of a world in which nothing can be judged."""
     if row.ended in ("skip", "error"):
         return "skipped" if row.ended == "skip" else "errored"
     # A run stopped by another limit stands still or walks for ever.
@@ -228,7 +223,6 @@ def look(*texts: str) -> Look:
 
 
 def _keep(folder: str, attempt: Attempt, outcome: WorldOutcome) -> None:
-    """Write the transcript of one world."""
     world, run = attempt.report.world, attempt.run
     if attempt.lines is None:
         text = write_trace(run.kept_trace)
@@ -264,7 +258,7 @@ class CostRatio(msgspec.Struct, frozen=True):
     """Edge traversals summed up over the worlds that the implementation maps correctly.
 
     Attributes:
-        ratio: the implementation's cost relative to that of the reference; null if that is 0.
+        ratio: relative to the reference; null if its cost is 0.
     """
 
     mapper: int
@@ -289,21 +283,20 @@ class LevelResult(msgspec.Struct, frozen=True, kw_only=True):
     """The result of an implementation on one level, over all worlds of a corpus.
 
     Attributes:
-        target: the implementation.
         like: the algorithm that its decisions and its cost are compared with.
         level: result, claims, decisions or cost.
-        worlds: their number; each is counted in one of the next seven numbers.
+        worlds: their number; each counts in one of the next seven.
         passed, failed: judged on this level.
         skipped, errored: the program declined the world, or gave it up.
         undecided: out of time though it moved on, or nothing to judge on this level.
         not_declared: the same moves, but no decisions to compare.
         not_tried: time-outs or an interrupt ended the work before.
-        kinds: in how many worlds each kind of finding is met.
+        kinds: the number of worlds with each kind of finding.
         claims: for each claim of this level, the number of runs with each status.
-        judgements: of each claim of this level: how much was judged in all runs, of how much.
+        judgements: of each claim of this level, over all runs.
         findings: of the first failing worlds of each kind.
         cost: over all worlds; priced: on level `cost`, world by world.
-        why: why the first undecided worlds are undecided.
+        why: the reasons of the first undecided worlds.
     """
 
     target: str
@@ -328,13 +321,10 @@ class LevelResult(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Conform:
-    """An implementation in every world of a corpus.
+    """An implementation in every world of a corpus: `work`, then `level_results` in any case.
 
-    Call `work`, then `level_results`, also if the work was cut off. `again` is the command line
-    that repeats this, without the world.
-
-    Raises:
-        InputError: there is no such algorithm or policy to compare it with.
+    `again` is the command line that repeats this, without the world. InputError: there is no
+    such algorithm or policy to compare with.
     """
 
     def __init__(
@@ -367,11 +357,9 @@ class Conform:
         return self.campaign.mappers[0]
 
     def work(self, backend: c.Backend, tell: Progress | None = None) -> None:
-        """Try the implementation in every world, or as far as the campaign says.
+        """Try the implementation in every world, or as far as the campaign goes.
 
-        Raises:
-            KeyboardInterrupt: Ctrl-C; `level_results` has the worlds before it.
-            InputError: there is no such mapper or program.
+        After Ctrl-C, `level_results` has the worlds before it.
         """
         for _, result in c.results(self.campaign, backend, CorpusWorlds(self.corpus), tell=tell):
             for row in result.rows:

@@ -1,4 +1,4 @@
-"""Folds as values: histories with equal folds have equal codes.
+"""Folds as values: histories with equal folds have equal codes. Independent of `checkers.Fold`.
 
 A **fold code** is the fold of a history (docs/semantics.md, section 11) in the numbering of the
 canonical code (section 12): the degrees of its vertices, and the other end of each dart, or
@@ -7,8 +7,6 @@ canonical code (section 12): the degrees of its vertices, and the other end of e
 **What proves the map.** In a world below the fold, the visited part is a quotient of the fold,
 and beyond the open darts there may be anything that the class allows. So the quotients decide
 whether one world is left.
-
-Independent of `checkers.Fold`.
 """
 
 from __future__ import annotations

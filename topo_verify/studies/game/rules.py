@@ -4,18 +4,17 @@
 
     state       the fold of the history, where the robot stands in it, the open worlds
     choice      an open dart: go there along crossed edges, the shortest way, and cross it
-    answer      the percept behind it
     the end     `GameEnding`: one world fits
 
 `ClassRules`, among a finite class of worlds:
 
     state       the worlds of the class in which the history happens, the robot's dart in each
     choice      a door
-    answer      the percept behind it
     the end     one world of the class is left
 
-**Bound.** By partition refinement: darts that look alike for k moves, door by door, need k moves
-to be told apart. A world must be told from the one most like it.
+The answer is the percept behind the door. **Bound.** By partition refinement: darts that look
+alike for k moves, door by door, need k moves to be told apart. A world must be told from the one
+most like it.
 """
 
 from __future__ import annotations

@@ -9,10 +9,9 @@ ends the game. The value of a state is
 where `worlds` is the number of worlds that the state leaves open.
 
 **Search.** The limit is a state's lower bound. Only choices with a lower bound within the limit
-are tried; if none attains it, the least value still possible is the next limit, until a bound is
-the value. The number of states is limited, not the time, so that two calls end alike.
-
-**Parts.** The values of parts of the worlds, or their sum, are a lower bound.
+are tried; if none attains it, the least value still possible is the next limit. The number of
+states is limited, not the time, so that two calls end alike. Values of parts of the worlds, or
+their sum, are a lower bound.
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ class Least(NamedTuple):
 
 
 class _OutOfStates(Exception):
-    """The search met `most_states` states."""
+    pass
 
 
 class GameChoice(NamedTuple, Generic[S]):
@@ -69,12 +68,7 @@ class Rules(Protocol[S]):
 
 
 class Solver(Generic[S]):
-    """The values of the states of a game.
-
-    Args:
-        mean: minimise the sum, not the worst case.
-        most_states: the number of states at which the search is cut short.
-    """
+    """The values of the states of a game; `mean`: of the sum, not the worst case."""
 
     def __init__(self, rules: Rules[S], *, mean: bool, most_states: float = math.inf) -> None:
         self._rules, self._mean, self._most_states = rules, mean, most_states
@@ -95,7 +89,7 @@ class Solver(Generic[S]):
             return Least(int(self.bound(state)), is_value=False)
 
     def value(self, state: S, limit: float = math.inf) -> float:
-        """The value of a state; or, if it is above the limit, a lower bound above the limit."""
+        """The value of a state; or a lower bound above the limit."""
         bound = self.bound(state)
         if bound <= limit and state not in self._parted:
             bound = self._by_parts(state, bound, limit)

@@ -82,8 +82,8 @@ class GameValue(msgspec.Struct, frozen=True, kw_only=True, tag_field="of", tag="
 
     Attributes:
         game: the edges of each world.
-        knows: what the robot is told: nothing, n, planar, m, m and n, m and planar.
-        drawn: which of these worlds count: any, planar.
+        knows: what the robot is told.
+        drawn: which of these worlds count.
         worlds: the number of worlds that count.
         value: what the best robots pay, one for the worst case and one for the mean.
         least: the same with the map in hand: the least cost of a proof.
@@ -103,10 +103,10 @@ class MapperCosts(msgspec.Struct, frozen=True, kw_only=True, tag_field="of", tag
     """A mapper in a game: an entry of `results`.
 
     Attributes:
-        game, knows, drawn, worlds: as of a value; `knows` is what the mapper assumes.
-        mapper: a name of the catalogue.
+        game, drawn, worlds: as of a value.
+        knows: what the mapper assumes.
         worst, mean: its costs; null if a claim fails.
-        value: what the best robots pay that know as much; null where it was not searched.
+        value: of the best robots that know as much; null where it was not searched.
         failing: the first world in which a claim fails, or null.
     """
 
@@ -187,8 +187,8 @@ def _by_vertices(drawn: Sequence[DrawnWorld]) -> dict[int, list[DrawnWorld]]:
 def _least(games: Sequence[Rules[Any]], *, mean: bool, most_states: float) -> tuple[Least, int]:
     """The value over all games and their first percepts, and the states met.
 
-    A forced first move is made here, so each answer is searched apart: if one search is cut
-    short, the others still give their values.
+    A forced first move is made here: if the search of one answer is cut short, the others still
+    give their values.
     """
     total = states = 0
     is_value = True

@@ -122,11 +122,7 @@ FIGURES = {
 
 
 def chosen_figures(text: str) -> list[Figure]:
-    """The figures that `--figure` names: `all`, `3`, `6` for 6a to 6f, `6d`; several with commas.
-
-    Raises:
-        InputError: there is no such figure.
-    """
+    """The figures that `--figure` names with commas: `all`, `3`, `6` for 6a to 6f, `6d`."""
     chosen: dict[str, Figure] = {}
     for word in (part.strip().lower() for part in text.split(",")):
         fitting = {

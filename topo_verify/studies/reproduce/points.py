@@ -1,10 +1,8 @@
 """Points of the figures: the runs that they need, means and standard errors, growth, CSV.
 
-**Runs.** There is one campaign for each line. In worlds of more than `LARGE` edges the compiled
-engine keeps no trace, so only the claims on map and cost are judged. A run that is out of time,
-or whose worker was killed, is not kept.
-
-The standard error of a mean is the sample's standard deviation over √graphs.
+There is one campaign for each line. In worlds of more than `LARGE` edges the compiled engine
+keeps no trace, so only the claims on map and cost are judged. A run that is out of time, or
+whose worker was killed, is not kept.
 
 **Growth.** `mean ≈ c·m^exponent` is fitted by least squares of log(mean) on log(mean m), one
 observation a size. What this does not show: that the cost is a power of m.
@@ -66,15 +64,13 @@ class FigurePoint(msgspec.Struct, frozen=True):
         algorithm: a name of the catalogue, or `edges` (m), or `least-cost` (of a proof).
         size: the side of a lattice, or the nodes of a dense graph, before holes.
         graphs: number of graphs that the mean is over.
-        mean, stderr: the cost in edge traversals, and its standard error; null for one graph.
-        paper: the cost that the paper's text states for this point.
-        stated: the words of that text.
+        mean, stderr: the cost in edge traversals, and its standard error (deviation over √graphs).
+        paper, stated: the cost that the paper's text states, and its words.
         pick, order: the policies; null for a yardstick.
         edges: the mean of m.
         held: claims that held in each run; of: claims that were asked of each. 0 for a yardstick.
-        findings: what convicts the algorithm.
         undecided: runs that were out of time.
-        growth: of the line that the point is on; null for a line of one point.
+        growth: of the line that the point is on.
     """
 
     figure: str

@@ -1,7 +1,7 @@
 """Exhaustive search: a mapper in every world up to N edges, or in a class of them.
 
-search.py      the campaign of a search, its result and the verdict
+search.py      the campaign, its result and the verdict
 choices.py     the choices that the paper leaves open
-again.py       runs some worlds again, each in a fresh process
+again.py       runs some worlds again in fresh processes
 states/        every choice of a policy, searched over states
 """

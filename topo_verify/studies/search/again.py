@@ -1,18 +1,16 @@
 """Runs worlds again, alone and in another order: does the mapper remember earlier worlds?
 
 The counterexample, up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed, are
-run again, each in a fresh process. If none fails, one process runs `ROW` worlds, or all, in a
-shuffled order.
+run again, each in a fresh process. If none fails, one process runs `ROW` worlds in a shuffled
+order.
 
     a failing world passes alone    `not-deterministic`: it fails only after other worlds
     another world fails alone       `not-deterministic`, too; likewise in the row
-    other doors, another cost       no finding, since mappers may choose at random; but the
-    verdict is open
+    other doors, another cost       no finding, since mappers may draw lots; the verdict is open
 
 What this does not show: a memory that none of the drawn worlds reveals. If a share p of the
 worlds would differ alone, it is noticed with probability 1 - (1 - p)^SAMPLE: a tenth in 99.5 of
-100 searches, a hundredth in 39. A mapper that fails in its k-th world is noticed if k is at most
-the length of the row.
+100 searches, a hundredth in 39.
 """
 
 from __future__ import annotations
@@ -67,7 +65,7 @@ class RunAgain(msgspec.Struct, frozen=True):
     Attributes:
         worlds: number of worlds run alone, each in a fresh process.
         row: number of worlds run one after the other in one process.
-        failures: those with another verdict, in their order.
+        failures: those with another verdict.
         others: those where only doors or costs differed.
     """
 
@@ -126,10 +124,7 @@ def run_again(campaign: c.Campaign, rows: Sequence[Row], tell: Progress | None =
 
 
 def _drawn(rows: Sequence[Row], campaign: c.Campaign) -> list[Row]:
-    """The counterexample, then the sample, without worlds known to vary.
-
-    Of a native mapper the first and the last world, too.
-    """
+    """The counterexample, then the sample, without worlds known to vary."""
     rows = [row for row in rows if not row.by_chance]
     first = [row for row in rows if row.failed][:1]
     drawn = sorted(
@@ -267,7 +262,6 @@ def _reproduced(campaign: c.Campaign, world: str, before: Sequence[str]) -> str 
 
 
 def _before(campaign: c.Campaign, row: Row) -> list[str]:
-    """The last worlds of the class before one."""
     assert isinstance(campaign.worlds, c.Ranks)
     worlds: list[str] = []
     for edges in range(row.edges, 0, -1):

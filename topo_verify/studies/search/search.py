@@ -1,7 +1,6 @@
 """The search: a mapper in every world of a class, up to the smallest counterexample or EXHAUSTED.
 
-EXHAUSTED compares two independent numbers: of worlds in which mappers ran, and of all worlds
-(`WorldClass.count`). A difference is a bug of ours.
+EXHAUSTED compares two independent numbers: of worlds in which mappers ran, and of all worlds.
 """
 
 from __future__ import annotations
@@ -78,8 +77,8 @@ class CostComparison(Pairs, frozen=True, kw_only=True):
     """The costs of two mappers in the same worlds.
 
     Attributes:
-        dearer, cheaper: in how many worlds the first costs more, and less.
-        most: the largest difference where it costs more.
+        dearer, cheaper: number of worlds where the first costs more, and less.
+        most: the largest excess of the first.
         first: the first worlds in which it costs more.
     """
 
@@ -90,11 +89,6 @@ class EveryCost(PolicyCosts, frozen=True, kw_only=True):
     """With --policies every: what any policy of pick and order can cost.
 
     Attributes:
-        worlds: where no claim fails, whatever is chosen; the rest is about them.
-        states, choices: the number of states with more than one way, and of their ways.
-        cheapest, reference, dearest: summed costs in edge traversals: the least and the most in
-            each world, and of the reference policies.
-        most_saved: where the cheapest run saves the greatest share of the reference cost.
         decided_by: who made the judged choices: the `mapper`, or a `model` of it.
         judged_by: what judged them.
     """
@@ -109,7 +103,7 @@ class ByEdges(msgspec.Struct, frozen=True):
     Attributes:
         checked, total, failing, undecided: numbers of worlds.
         runs: the number of runs in which no claim fails; the costs are theirs.
-        max_cost, total_cost: their highest cost and the sum, in edge traversals.
+        max_cost, total_cost: in edge traversals.
         attained: the number of worlds with the highest cost.
         worst: the first of these worlds.
         compare: with --compare, where A costs more than B, and where less.
@@ -134,12 +128,12 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
     """One search: an entry of `results`.
 
     Attributes:
-        edges: worlds of 1 to this many are asked for.
+        edges: the most edges of the worlds.
         checked: number of worlds in which every run was judged.
         counterexample: the smallest, by (edges, rank).
         claims: for each failing claim, the number of worlds, and the smallest.
         not_declared: the claims that no run declared anything about.
-        from_ledger: number of worlds in which mappers ran before, as the store says.
+        from_ledger: number of worlds that the store has.
         lost: worlds in which a worker was lost, perhaps not by the mapper's fault.
         run_again: the worlds that were run again, alone and in a row.
         engine: what ran and judged; judged_by: the same in words.
@@ -183,8 +177,7 @@ def search_campaign(  # noqa: PLR0913  an argument an option
 ) -> c.Campaign:
     """The campaign of a search; default engine: compiled for a native mapper, else reference.
 
-    Raises:
-        InputError: a mapper has no such policies, or the engine cannot run it.
+    InputError: a mapper has no such policies, or the engine cannot run it.
     """
     limits = limits or Limits()
     if engine is None:
@@ -308,11 +301,10 @@ class Search:
         self.seconds = c.EngineSeconds()
 
     def work(self, tell: Progress | None = None) -> None:
-        """Examine the shards until the end, or as far as the campaign says.
+        """Examine the shards until the end, or as far as the campaign goes.
 
-        Raises:
-            KeyboardInterrupt: Ctrl-C; `entry` has the results before it.
-            InternalError: mappers ran in another number of worlds than there are.
+        After Ctrl-C, `entry` has the results before it. InternalError: mappers ran in another
+        number of worlds than there are.
         """
         known = set[str]() if self._store is None else {s.key for s in self._store.known()}
         for shard, result in c.results(self.campaign, self._backend, store=self._store, tell=tell):

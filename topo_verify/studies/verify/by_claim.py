@@ -2,9 +2,8 @@
 
 | verdict | meaning |
 | --- | --- |
-| `holds` | the claim holds in every world |
-| `fails` | it fails in at least one world |
-| `undecided` | it fails in none, but a world was not tried, or a run or a claim was not decided |
+| `holds`, `fails` | the claim holds in every world; it fails in at least one |
+| `undecided` | it fails in none, but a world, a run or a claim was not decided |
 | `not-declared` | in some world the mapper did not declare all decisions that the claim is about |
 """
 
@@ -117,11 +116,7 @@ def summary(facts: Mapping[str, Any]) -> Iterator[str]:
 
 
 def by_claim(target: Target, edges: int, limits: Limits) -> ClaimResults:
-    """Run the mapper in every world of 1 to `edges` edges; a few time-outs end this early.
-
-    Raises:
-        InputError: `edges` is larger than the corpus allows.
-    """
+    """Run the mapper in every world of 1 to `edges` edges; a few time-outs end this early."""
     corpus = corpus_from([f"edges<={edges}"])
     first: dict[str, Finding] = {}
     raised: dict[str, str] = {}

@@ -1,8 +1,8 @@
 """The parts of `verify`: their results, and the two that run no mapper.
 
 **counts.** Exhaustive results rest on the enumeration. So this part counts the different worlds
-and compares the number with three others: the sum of completions F, a recurrence in the number
-of edges, and Tutte's number of planar worlds.
+and compares the number with the sum of completions F, a recurrence in the number of edges, and
+Tutte's number of planar worlds.
 
 **proofs.** The inductive theorems, the negatives and the mutants, about the rules of the catalogue.
 """
@@ -29,11 +29,11 @@ class MapperCost(msgspec.Struct, frozen=True):
     """The cost of one mapper in one world.
 
     Attributes:
-        ratio: the cost relative to that of `basic`; null if a claim fails in this world.
-        of_least: the cost relative to the least cost at which a walk can prove the map.
+        ratio: relative to the cost of `basic`; null if a claim fails in this world.
+        of_least: relative to the least cost of a proof.
         rejected_free, rejected_moving: hypotheses rejected without and by motion.
         confirmed: hypotheses confirmed.
-        reference: a catalogue algorithm, shown for comparison with a user's mapper.
+        reference: a catalogue algorithm beside a user's mapper.
     """
 
     algorithm: str
@@ -55,11 +55,10 @@ class Part(msgspec.Struct, frozen=True):
         ok: there is no finding, and every world was judged.
         checked, total: the worlds that were decided, and all worlds of the part.
         summary: one sentence.
-        failing: in how many of the checked worlds a claim fails.
         claims: for each claim, the number of runs with each status.
         judgements: for each claim, how much was judged in all runs together, and the findings.
-        findings: those of the first failing runs, which are in the smallest worlds.
-        costs: the cost of each mapper, for a part of one world.
+        findings: of the first failing runs, in the smallest worlds.
+        costs: of each mapper, for a part of one world.
     """
 
     part: str

@@ -47,7 +47,6 @@ class Trials:
         about: which worlds these are, in words that follow "792 worlds".
         total: the number of worlds, counted apart from them.
         worlds: each with its name, smallest first.
-        max_failing: stop after this many failing worlds.
         together: runs the mappers, in the worlds of other parts as well; None: they run here.
     """
 
@@ -235,11 +234,7 @@ class EngineCounts(msgspec.Struct, frozen=True):
 
 
 def engine_counts(edges: int, targets: Sequence[Target]) -> EngineCounts:
-    """The engine's counts in every world of 1 to `edges` edges.
-
-    Raises:
-        InternalError: the engine and the checkers disagree in a world that both judge.
-    """
+    """The engine's counts in every world of 1 to `edges` edges."""
     campaign = _campaign(c.Ranks(edges, shard=c.ENGINE_SHARD), targets, Limits())
     campaign = msgspec.structs.replace(campaign, engine="compiled", keep="notable")
     tallies: dict[int, Tally] = {}
@@ -253,9 +248,8 @@ def engine_counts(edges: int, targets: Sequence[Target]) -> EngineCounts:
 class SmallWorlds(Trials):
     """Runs every mapper in every world of 1 to `edges` edges. A `PartJob`.
 
-    Args:
-        further: counts one size more by the compiled engine.
-        workers: number of worker processes; 0: this one, so that Ctrl-C reaches a user's mapper.
+    `further` counts one size more by the compiled engine. With 0 workers mappers run in this
+    process, so that Ctrl-C reaches a user's mapper.
     """
 
     def __init__(

@@ -3,10 +3,10 @@
 | part | content | quick |
 | --- | --- | --- |
 | `counts` | the numbers of worlds of 1 to 6 edges equal those of formulas | 1 to 5 |
-| `small-worlds` | every world of 1 to 5 edges, with numba to 6; every mapper and claim | 1 to 3 |
+| `small-worlds` | every world of 1 to 5 edges, with numba to 6 | 1 to 3 |
 | `proofs` | theorems on worlds of any size; negatives and mutants | the first |
 | `sampled-worlds` | 200 worlds of 6 to 30 edges, drawn uniformly among those of a size | 40 |
-| `generated-worlds` | 160 worlds as property tests draw them, 20 of each strategy | 40 |
+| `generated-worlds` | 160 worlds, 20 of each strategy | 40 |
 | `street-network` | a real street network, and the cost of each mapper there | the same |
 
 Uniformly drawn worlds have few vertices and many handles; the strategies draw lattices, trees
@@ -63,11 +63,7 @@ def verify(
     limits: Limits | None = None,
     tell: Progress | None = None,
 ) -> Iterator[Part]:
-    """Yield each part once these mappers were checked in it.
-
-    On KeyboardInterrupt the current part is yielded with its results so far; then the exception
-    is raised again.
-    """
+    """Yield each part once these mappers were checked in it, and after Ctrl-C the current one."""
     with ExitStack() as stack:
         beside = None
         if not quick and all(CATALOGUE.get(target.text) == target.mapper for target in targets):

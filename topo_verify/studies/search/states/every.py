@@ -1,14 +1,12 @@
 """Searches every choice in one world: the runs, and the range of their costs.
 
-    worlds of up to 4 edges   decided by the mapper: each choice lies on a run of it that is judged
-                              by every claim; `graph.py`
-    5 and 6 edges             decided by a model (`kernel.py`), which judges claims 3 and 4 in each
-                              state; the cheapest and the most expensive run are the mapper's
+Up to 4 edges the mapper decides: each choice lies on a run of it that is judged by every claim
+(`graph.py`). In worlds of 5 and 6 edges a model decides (`kernel.py`), which judges claims 3 and
+4 in each state; only the cheapest and the most expensive run are the mapper's, so such a search
+is SAMPLED. It is a bug of ours if these two cost something else, or if no run of the mapper
+confirms a fault that the model finds.
 
 Named policies run, too: the script replaces their code.
-
-A search that the model decides is SAMPLED. If the mapper's two runs cost something else, or no
-run of the mapper confirms a fault that the model finds, that is a bug of ours.
 """
 
 from __future__ import annotations
@@ -89,10 +87,9 @@ def every_choice(
 ) -> Iterator[Attempt]:
     """Runs in a world; if a claim fails, first the one with the fewest choices before the failure.
 
-    If none fails, the last run says what any choices can cost.
+    If none fails, the last run says what any choices can cost. `named` is the algorithm with
+    named policies, the reference first.
 
-    Args:
-        named: the algorithm with named policies, the reference policies first.
     Raises:
         InternalError: the model and the mapper differ, or a state is no state.
     """
@@ -202,11 +199,7 @@ def with_choices(report: Report, text: str, choices: tuple[int, ...], limits: Li
 
 
 class ListedChoices:
-    """The choices of one run, as `0,2,1`: run `target`, then `checked`, then `named`.
-
-    Raises:
-        InputError: the mapper leaves no choices open, or the text is no list.
-    """
+    """The choices of one run, as `0,2,1`: run `target`, then `checked`, then `named`."""
 
     def __init__(self, target: Target, text: str) -> None:
         if not isinstance(target.mapper, Algorithm):
@@ -227,5 +220,5 @@ class ListedChoices:
         return replace(run, mapper=None)
 
     def named(self, report: Report, limits: Limits) -> Report:
-        """The report, whose findings name the command that makes the same choices."""
+        """See `with_choices`."""
         return with_choices(report, self.target.text, self._choices, limits)

@@ -65,10 +65,7 @@ class JudgedPath:
 class StateGraph:
     """The states of a mapper in one world: `search`, then everything else.
 
-    Args:
-        judged: runs a mapper in the world and judges it.
-    Attributes:
-        start: the first state, `END` or `LOST`; None before the first run.
+    `judged` runs a mapper in the world and judges it. `start` is the first state, `END` or `LOST`.
     """
 
     algorithm: Algorithm
@@ -144,7 +141,6 @@ class StateGraph:
         return number
 
     def _lead(self, passed: Sequence[_Passed], to: int) -> None:
-        """Note where the last way leads."""
         ways = self.nodes[passed[-1].node].ways if passed else [self.start]
         place = passed[-1].taken if passed else 0
         if ways[place] is None:

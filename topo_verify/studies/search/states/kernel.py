@@ -7,11 +7,12 @@ The mapper does not run here: each way home is walked on the table of the world'
     behind e   masks: `remaining` of places in H; `kills` of each hypothesis: which others the rule
                rejects once it has been walked
 
-`world` has five rows: alpha, vertex, percept of each dart; first dart, degree of each vertex, whose
-darts are consecutive, clockwise.
+`world` has five rows: alpha, vertex, percept of each dart; first dart, degree of each vertex,
+whose darts are consecutive, clockwise.
 
-Judged in every state: the true hypothesis is neither killed nor found to differ on its way (claim
-3), and no other way home shows what it should (4). Rejections rest on a percept that differs (8).
+Judged in every state: the true hypothesis is neither killed nor found to differ on its way
+(claim 3), no other way home shows what it should (4), and rejections rest on a percept that
+differs (8).
 """
 
 from __future__ import annotations

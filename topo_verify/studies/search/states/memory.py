@@ -14,8 +14,7 @@ A deterministic mapper then goes on alike, and its events are judged alike:
     9, 10       by the fold of the whole history, and S on it
 
 What this does not see: module variables, the iterator of a `for` loop that a choice interrupts
-(the mapper has none), what a C object hides from `pickle`; the prior of `folding+planar`, which
-is that of the run made.
+(the mapper has none), what a C object hides from `pickle`, the prior of `folding+planar`.
 """
 
 from __future__ import annotations

@@ -1,10 +1,9 @@
 """One run of an algorithm that is told its choices one by one.
 
 Two things are open: between two edges, which e comes next; behind e, which hypothesis is tried
-next among those that the motion allows (`overlap`: those with the longest common prefix). So a
-run is a list of numbers, `--choices 0,2,1`: at each moment with more than one way, the number of
-the way taken, from 0 in the order of the darts of S. After the end of the list the first way is
-taken.
+next among those that the motion allows (`overlap`: those with the longest common prefix). A run
+is a list of numbers, `--choices 0,2,1`: at each moment with more than one way, the number of the
+way taken, in the order of the darts of S. After the end of the list the first way is taken.
 
 What this does not show: other ways to walk (docs/semantics.md, section 5).
 """

@@ -65,10 +65,7 @@ def found_in(
 ) -> KernelFound:
     """The kernel's result for a world whose darts are numbered as in its code.
 
-    Args:
-        shown: the percept with each dart as the reference dart; default: the true ones.
-    Raises:
-        InternalError: the world has too many states.
+    `shown` are the percepts with each dart as the reference dart; default: the true ones.
     """
     size, tables = len(world.alpha), _tables()
     assert world.root == 0, "a world whose darts are numbered as in its code"
