@@ -91,8 +91,8 @@ def __getattr__(name: str) -> Any:
     if "hypothesis" in sys.modules:
         # Imported now: Hypothesis's first example has a deadline.
         import_module("topo_verify.campaign.judge")
-    found = globals()[name] = getattr(import_module(_HOME[name]), name)
-    return found
+    value = globals()[name] = getattr(import_module(_HOME[name]), name)
+    return value
 
 
 def __dir__() -> list[str]:

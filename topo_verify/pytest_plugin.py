@@ -81,13 +81,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         default=EDGES,
         help=f"Run the mapper in every world of 1 to N edges.  [default: {EDGES}]",
     )
-    for name, what, seconds in (("move", "between two moves", 5), ("world", "in a world", 60)):
+    for name, extent, seconds in (("move", "between two moves", 5), ("world", "in a world", 60)):
         group.addoption(
             f"--topo-{name}-timeout",
             metavar="SECONDS",
             type=_seconds,
             default=float(seconds),
-            help=f"The most time of a mapper {what}.  [default: {seconds}]",
+            help=f"The most time of a mapper {extent}.  [default: {seconds}]",
         )
 
 
@@ -163,7 +163,7 @@ def _cases(config: pytest.Config, mark: pytest.Mark) -> list[ClaimTest]:
     edges = wanted.pop("edges", config.option.topo_edges)
     usage = '@pytest.mark.topo(target="package.module:attribute", edges=4)'
     if mark.args or wanted:
-        strange = [repr(one) for one in mark.args] + [f"{name}=…" for name in wanted]
+        strange = [*map(repr, mark.args)] + [f"{name}=…" for name in wanted]
         raise pytest.Collector.CollectError(
             f"the mark topo does not take {', '.join(strange)}: write {usage}"
         )

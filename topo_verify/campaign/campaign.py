@@ -529,7 +529,7 @@ Progress = Callable[[str, int, int], None]
 """A progress callback: (name of the work, amount done, total)."""
 
 
-def no_progress(_what: str, _done: int, _total: int) -> None:
+def no_progress(_work: str, _done: int, _total: int) -> None:
     """Do nothing: a progress callback."""
 
 
@@ -544,8 +544,8 @@ class ProgressRate:
         done: worlds finished now, without those of a store.
     """
 
-    def __init__(self, what: str, total: int, report: Progress | None) -> None:
-        self._what, self._total, self._report = what, total, report
+    def __init__(self, work: str, total: int, report: Progress | None) -> None:
+        self._work, self._total, self._report = work, total, report
         self._begin = monotonic()
         self._reported = -inf
         self._known = 0  # worlds that a ledger knew: they took no time, so the rate leaves them out
@@ -569,7 +569,7 @@ class ProgressRate:
         self._reported = now
         fresh = self.done + worlds
         done = min(self._known + fresh, self._total)
-        text = self._what
+        text = self._work
         if fresh and now > self._begin:
             rate = fresh / (now - self._begin)
             text += f", {rate:,.0f} worlds/s, {duration((self._total - done) / rate)} left"

@@ -13,20 +13,17 @@ All but `timing.json` and the page are equal, byte for byte, for equal runs.
 
 from __future__ import annotations
 
-import csv
 import json
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from io import StringIO
 from pathlib import Path
 
 import msgspec
 
-from topo_verify.campaign.judge import in_words
 from topo_verify.campaign.run import explore
 from topo_verify.checkers import check
 from topo_verify.cli import version
-from topo_verify.cli.runs import target_title
+from topo_verify.cli.runs import claims_in_words, target_title
 from topo_verify.errors import plural
 from topo_verify.player.page import player_page
 from topo_verify.player.recording import PlayedRun
@@ -37,6 +34,7 @@ from topo_verify.report.markdown import markdown
 from topo_verify.studies.arena import league as lg
 from topo_verify.studies.arena.suites import Suite
 from topo_verify.studies.conform.conform import file_name
+from topo_verify.studies.reproduce.points import csv_text
 from topo_verify.world.formats import files
 from topo_verify.world.resolve import resolve_world
 
@@ -80,7 +78,7 @@ def standings(
             _figure(entry.behind, sign="+"),
             _free(entry),
             *(() if memory is None else _varying(entry, memory(entry))),
-            claims_in_words(entry),
+            claims_in_words(entry.claims),
         )
         for entry in ranked
     ]
@@ -130,13 +128,6 @@ def _families(suite: Suite, ranked: Sequence[lg.LeagueEntry]) -> TextTable:
     ]
     columns = ("family", ">edges", *(f">{entry.mapper}" for entry in ranked))
     return TextTable(columns, rows, f"{suite.name}: cost/LB by family")
-
-
-def claims_in_words(entry: lg.LeagueEntry) -> str:
-    """How many claims hold, and how many were judged in part or not at all."""
-    if {*entry.claims.values()} == {"ok"}:
-        return f"{len(entry.claims)} hold"
-    return in_words(entry.claims, "hold")
 
 
 def _figure(figure: lg.MeanInterval | lg.LeagueBehind | None, sign: str = "") -> str:
@@ -230,8 +221,8 @@ def write_folder(
     counterexamples: Sequence[Exhibit],
 ) -> None:
     """Write all files of the league into the folder."""
-    files.write(folder / "table.csv", table_csv(table))
-    files.write(folder / "runs.csv", runs_csv(league, table))
+    files.write(folder / "table.csv", tablecsv_text(table))
+    files.write(folder / "runs.csv", runscsv_text(league, table))
     files.write(folder / "results.json", _results(league, table))
     files.write(folder / "timing.json", _timing(league, table))
     for suite in league.suites:
@@ -320,9 +311,9 @@ TABLE = (
 )
 
 
-def table_csv(entries: Sequence[lg.LeagueEntry]) -> str:
+def tablecsv_text(entries: Sequence[lg.LeagueEntry]) -> str:
     """A row for each mapper and suite, then a row for each of several families."""
-    return _csv(TABLE, [row for entry in entries for row in _rows(entry)])
+    return csv_text(TABLE, [row for entry in entries for row in _rows(entry)])
 
 
 def _rows(entry: lg.LeagueEntry) -> Iterator[Sequence[object]]:
@@ -334,7 +325,7 @@ def _rows(entry: lg.LeagueEntry) -> Iterator[Sequence[object]]:
         *((alone.edges, alone.least, alone.cost) if alone else (None, None, None)),
         *((ratio.mean, ratio.low, ratio.high) if ratio else (None, None, None)),
         *((behind.mean, behind.low, behind.high) if behind else (None, None, None)),
-        *(entry.rejected_free, entry.rejected_moving, claims_in_words(entry)),
+        *(entry.rejected_free, entry.rejected_moving, claims_in_words(entry.claims)),
         f"{broken.claim} in {broken.world}" if broken else None,
     )
     for family in entry.families if alone is None else ():
@@ -352,9 +343,9 @@ RUNS = (
 )
 
 
-def runs_csv(league: lg.League, table: Sequence[lg.LeagueEntry]) -> str:
+def runscsv_text(league: lg.League, table: Sequence[lg.LeagueEntry]) -> str:
     """A row for each run of a ranked mapper, by suite and mapper."""
-    return _csv(
+    return csv_text(
         RUNS,
         [
             (
@@ -366,11 +357,3 @@ def runs_csv(league: lg.League, table: Sequence[lg.LeagueEntry]) -> str:
             for run in league.runs(entry.mapper, suite)
         ],
     )
-
-
-def _csv(columns: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
-    out = StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows(rows)
-    return out.getvalue()

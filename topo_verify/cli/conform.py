@@ -113,10 +113,10 @@ def conform(
         output.timing["seed"] = f"{seed}:{order_seed}"
         output.note(f"seed {seed}:{order_seed}: give it to --seed for the same order of the worlds")
         flags = dict(batch=batch, validate=validate, strict=strict, in_process=mappers.in_process)  # noqa: C408
-        for one in _texts(mappers.texts[0]):
+        for text in _texts(mappers.texts[0]):
             campaign = Campaign(
                 worlds=ListedWorlds(corpus.total),
-                mappers=(one,),
+                mappers=(text,),
                 limits=limits,
                 strict=strict,
                 validate=validate,
@@ -124,7 +124,7 @@ def conform(
                 seed=order_seed,
                 drawn=not batch,  # it gets the worlds in their order
             )
-            again = _replay_command(one, like, (pick, order), flags, limits)
+            again = _replay_command(text, like, (pick, order), flags, limits)
             study = Conform(campaign, corpus, asked, again)
             yield from _tried(output, study, backend, shared)
 
@@ -204,10 +204,10 @@ _COLUMNS = ("level", "verdict", ">passed", ">failed", ">not decided", ">of world
 def _shown(levels: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Iterator[Block]:
     rows = [
         (
-            *(one.level, one.verdict, str(one.passed), str(one.failed)),
-            *(str(one.worlds - one.passed - one.failed), str(one.worlds)),
+            *(level.level, level.verdict, str(level.passed), str(level.failed)),
+            *(str(level.worlds - level.passed - level.failed), str(level.worlds)),
         )
-        for one in levels
+        for level in levels
     ]
     yield TextTable(_COLUMNS, rows, title=f"{levels[0].target}, like {levels[0].like}")
     first = levels[0]
@@ -219,13 +219,13 @@ def _shown(levels: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Ite
     }
     if any(gone.values()):
         yield Text("")
-        words = ", ".join(f"{number} {what}" for what, number in gone.items() if number)
+        words = ", ".join(f"{number} {state}" for state, number in gone.items() if number)
         yield Text(f"Not decided: {words}.")
         yield Bullets(first.why[:SHOWN])
     for level in levels:
         yield from _findings(level, shared)
     yield from _costs(levels[-1])
-    judgements = [one for level in levels for one in level.judgements]
+    judgements = [judgement for level in levels for judgement in level.judgements]
     for sentence in runs.unjudged(first.target, "these worlds", judgements) if first.passed else ():
         yield Text("")
         yield sentence
@@ -235,8 +235,8 @@ def _findings(level: LevelResult, shared: Mapping[str, Playback]) -> Iterator[Bl
     for kind, number in level.kinds.items():
         finding = next(other for other in level.findings if other.kind == kind)
         yield Text("")
-        what = f"{level.level}: {kind}" if kind != level.level else kind
-        yield Text(f"{what} in {plural(number, 'world')}, first {finding.world}:")
+        title = f"{level.level}: {kind}" if kind != level.level else kind
+        yield Text(f"{title} in {plural(number, 'world')}, first {finding.world}:")
         yield from _difference(finding, level, shared)
         yield Command(finding.replay, "again: ")
 

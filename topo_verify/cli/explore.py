@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import count
+from itertools import chain, count
 from statistics import mean
 from typing import Literal
 
@@ -33,7 +33,7 @@ from topo_verify.studies.gap import Gap
 from topo_verify.studies.gap import gap as measure
 from topo_verify.studies.search.states.every import ListedChoices
 from topo_verify.world.formats import files
-from topo_verify.world.rooted_map import Code, World
+from topo_verify.world.rooted_map import Code
 
 
 class ChosenPolicies(msgspec.Struct, frozen=True):
@@ -278,16 +278,12 @@ def _explored(
     output.found.keep(report)
     played.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
     if asked.svg is not None and not asked.everywhere:
-        _animate(asked.svg, at.world, played[0])
+        from topo_verify.player.animation import animated_svg
+        from topo_verify.player.scenes import Playback
+
+        playback = Playback(at.world, run.trace, report.judgements, run.stopped)
+        files.write(asked.svg, animated_svg(playback, name=run.algorithm))
     return _result(run, at, report, incomplete=incomplete, gap=asked.gap)
-
-
-def _animate(file: str, world: World, run: PlayedRun) -> None:
-    from topo_verify.player.animation import animated_svg
-    from topo_verify.player.scenes import Playback
-
-    playback = Playback(world, run.trace, run.judgements, run.stopped)
-    files.write(file, animated_svg(playback, name=run.name))
 
 
 def _placed(at: runs.NamedWorld) -> Iterator[runs.NamedWorld]:
@@ -495,8 +491,9 @@ def _show_markers(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
         " numbers them (of equal places the first). Saved: what the best place saves of the mean"
         " over all darts."
     )
-    for entry in (one for group in groups.values() for one in group if one.same_as is None):
-        yield from _wrong(entry, _run_name(entry))
+    for entry in chain.from_iterable(groups.values()):
+        if entry.same_as is None:
+            yield from _wrong(entry, _run_name(entry))
 
 
 _MARKER_COLUMNS = ("algorithm", ">mean", ">best", ">at", ">worst", ">at", ">saved", "claims")

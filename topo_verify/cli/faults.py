@@ -199,14 +199,14 @@ def _ok(entry: study.Caught) -> str:
 
 def _worlds(entry: study.Caught) -> str:
     """`3: 4 of 74`: of 74 worlds with 3 edges 4 fail. `6: rank 8990`: the search stopped there."""
-    found = entry.search
-    if found is None:
+    smallest = entry.search
+    if smallest is None:
         return "-"
-    if found.world is None:
-        return f"{found.edges}: none"
-    if found.checked < found.total and not found.undecided:
-        return f"{found.edges}: rank {found.world.split('/')[1]}"
-    return f"{found.edges}: {found.failing} of {found.total}"
+    if smallest.world is None:
+        return f"{smallest.edges}: none"
+    if smallest.checked < smallest.total and not smallest.undecided:
+        return f"{smallest.edges}: rank {smallest.world.split('/')[1]}"
+    return f"{smallest.edges}: {smallest.failing} of {smallest.total}"
 
 
 def _examples(entry: study.Caught) -> str:

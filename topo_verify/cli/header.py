@@ -36,7 +36,7 @@ def header(output: Output, *, file: str | None) -> int:
     A native mapper is a function in a shared library, in C or any language callable from C.
     """
 
-    def made() -> Iterator[Result[HeaderEntry]]:
+    def headers() -> Iterator[Result[HeaderEntry]]:
         text = header_text()
         if file is None or file == "-":
             yield Result(HeaderEntry(VERSION, None, text.rstrip("\n")))
@@ -44,7 +44,7 @@ def header(output: Output, *, file: str | None) -> int:
             files.write(file, text)
             yield Result(HeaderEntry(VERSION, file, None))
 
-    return output.run("header", made, _show)
+    return output.run("header", headers, _show)
 
 
 def _show(entries: Sequence[HeaderEntry]) -> Iterator[Block]:

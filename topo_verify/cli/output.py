@@ -344,11 +344,11 @@ class ProgressBar:
         self._timer: Timer | None = None
         self._bar: Bar | None = None
 
-    def __call__(self, what: str, done: int, total: int) -> None:
+    def __call__(self, task: str, done: int, total: int) -> None:
         """Show the current task, the steps done and their total."""
         if not self._wanted:
             return
-        self._state = (what, done, total)
+        self._state = (task, done, total)
         if self._timer is None:
             # A timer, because one long run may not call again for a while.
             self._timer = Timer(DELAY, self._appear)
@@ -376,8 +376,8 @@ class ProgressBar:
 
     def _show(self) -> None:
         if self._bar is not None:
-            what, done, total = self._state
-            self._bar.update(self._bar.task_ids[0], description=what, completed=done, total=total)
+            task, done, total = self._state
+            self._bar.update(self._bar.task_ids[0], description=task, completed=done, total=total)
 
 
 def _bar() -> Bar:

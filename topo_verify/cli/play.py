@@ -73,7 +73,7 @@ def play(
             report, _ = runs.judged(run, at, limits, strict=strict)
             recorded.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
         runs.write_page(file, at.world, at.name, recorded)
-        findings = sum(len(one.findings) for run in recorded for one in run.judgements)
+        findings = sum(len(j.findings) for run in recorded for j in run.judgements)
         yield Result(PlayEntry(at.name, file, tuple(run.name for run in recorded), findings))
 
     return output.run("play", played, _show, in_process=mappers.in_process)

@@ -190,10 +190,8 @@ def prove(
             seconds[theorem.name] = perf_counter() - begin
             yield result
 
-    def one(entry: ProveEntry) -> Iterator[Block]:
-        return _live(entry, seconds[entry.name])
-
-    live = Live((Text(_head(theorems, budget)),), one, _end)
+    head = (Text(_head(theorems, budget)),)
+    live = Live(head, lambda entry: _live(entry, seconds[entry.name]), _end)
 
     return output.run(
         "prove",
@@ -358,9 +356,9 @@ def _evidence(entry: ProveEntry) -> str:
     if entry.replayed is not None:
         words.append("replays" if entry.replayed.replayed == entry.replayed.total else "NO REPLAY")
     if entry.certificate is not None:
-        made = entry.certificate
-        checked = "checked" if made.checked else f"NOT CHECKED ({made.why})"
-        words.append(f"{made.format} {checked} by {made.checker}")
+        proof = entry.certificate
+        checked = "checked" if proof.checked else f"NOT CHECKED ({proof.why})"
+        words.append(f"{proof.format} {checked} by {proof.checker}")
     if entry.opinion is not None:
         second = entry.opinion
         words.append(f"{second.solver} agrees on {second.agrees} of {second.total}")

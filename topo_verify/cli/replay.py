@@ -60,7 +60,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     "replay trace.jsonl",
     "replay trace.jsonl --kernel",
 )
-@click.argument("what", metavar="FILE|WORLD")
+@click.argument("subject", metavar="FILE|WORLD")
 @options.mappers("basic", meaning="The mapper to run in WORLD.", with_policies=True)
 @options.marker
 @click.option(
@@ -80,7 +80,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
 def replay(
     output: Output,
     *,
-    what: str,
+    subject: str,
     mappers: options.Mappers,
     marker: int | None,
     world_text: str | None,
@@ -103,24 +103,24 @@ def replay(
 
     def replayed() -> Iterator[Result[ReplayEntry]]:
         runs.require_one_world(player, 1)
-        data = _bytes(what)
+        data = _bytes(subject)
         if data is not None and _is_trace(data):
             # These options would be ignored silently.
             words = [name for name in options.given() if name in OF_A_MAPPER]
             if words := [*words, *limits.options]:
                 raise InputError(
-                    f"{words[0]} with the trace {what}: a trace is judged as it stands; leave the"
-                    " option out, or name a WORLD to run a mapper in"
+                    f"{words[0]} with the trace {subject}: a trace is judged as it stands; leave"
+                    " the option out, or name a WORLD to run a mapper in"
                 )
-            report, stopped = _judged(output, what, data, world_text, marker, strict=strict)
-            trace, incomplete = what, report.ok and report.undecided
+            report, stopped = _judged(output, subject, data, world_text, marker, strict=strict)
+            trace, incomplete = subject, report.ok and report.undecided
         else:
             if world_text is not None:
                 raise InputError(
-                    f"--world {world_text}: expected a trace, got {what}; leave --world out"
+                    f"--world {world_text}: expected a trace, got {subject}; leave --world out"
                 )
             mapper = mappers.load_one()
-            trace, at = None, runs.named_world(what, marker, data)
+            trace, at = None, runs.named_world(subject, marker, data)
             report, stopped, incomplete = _ran(output, at, mapper, limits, strict=strict)
         events = len(report.run.trace) if report.run else 1
         if first is not None and first >= events:
@@ -145,14 +145,14 @@ def replay(
     )
 
 
-def _bytes(what: str) -> bytes | None:
-    if what == "-":
+def _bytes(subject: str) -> bytes | None:
+    if subject == "-":
         return files.read_stream(files.standard_input(), name="standard input")
     try:
-        there = Path(what).is_file()
+        there = Path(subject).is_file()
     except (OSError, ValueError):  # no possible file name
         there = False
-    return files.read(what) if there else None
+    return files.read(subject) if there else None
 
 
 def _is_trace(data: bytes) -> bool:
@@ -166,14 +166,14 @@ def _is_trace(data: bytes) -> bool:
 
 def _judged(
     output: Output,
-    what: str,
+    subject: str,
     data: bytes,
     world_text: str | None,
     marker: int | None,
     *,
     strict: bool,
 ) -> tuple[Report, str | None]:
-    name = "standard input" if what == "-" else what
+    name = "standard input" if subject == "-" else subject
     trace = read_trace(data, name=name)
     start = trace[0]
     assert isinstance(start, Start), "read_trace refuses any other first event"
@@ -184,7 +184,7 @@ def _judged(
     )
     output.progress(f"judging {name}", 0, 1)
     words = ("--world", at.argument, *at.options, *strict_option(at.world, strict=strict))
-    replay_command = shlex.join(["topo-verify", "replay", what, *words])
+    replay_command = shlex.join(["topo-verify", "replay", subject, *words])
     stopped = (start.stopped or None) if not isinstance(trace[-1], Finish) else None
     report = judge_trace(
         at.world,

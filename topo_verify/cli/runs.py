@@ -153,6 +153,11 @@ def claims_cell(claims: Mapping[str, Status], *, incomplete: bool = False) -> st
         return "not decided"
     if failed:
         return plural(failed, "fails", "fail")
+    return claims_in_words(claims)
+
+
+def claims_in_words(claims: Mapping[str, Status]) -> str:
+    """How many claims hold, and how many have each other status."""
     return f"{len(claims)} hold" if {*claims.values()} == {"ok"} else in_words(claims, "hold")
 
 

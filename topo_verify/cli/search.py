@@ -254,9 +254,10 @@ def _cases(entry: study.SearchEntry) -> Iterator[acc.JudgedCase]:
     yield from map(_failing, wrong.values())
 
 
-def _failing(one: study.FailingClaim) -> acc.JudgedCase:
-    where = f"in {plural(one.failing, 'world')}; {one.smallest.message}"
-    return acc.JudgedCase(one.claim, "failed", "failed", message=where, again=one.smallest.replay)
+def _failing(claim: study.FailingClaim) -> acc.JudgedCase:
+    first = claim.smallest
+    where = f"in {plural(claim.failing, 'world')}; {first.message}"
+    return acc.JudgedCase(claim.claim, "failed", "failed", message=where, again=first.replay)
 
 
 # ---------------------------------------------------------------- for people
@@ -288,7 +289,7 @@ def _shown(entry: study.SearchEntry, *, worst: bool) -> Iterator[Block]:
             "A worker was lost, which another program may have killed, or lacked memory; tried"
             " again, nothing failed:"
         )
-        yield Bullets(tuple(f"{one.world}: {one.how}" for one in entry.lost[:SHOWN]))
+        yield Bullets(tuple(f"{lost.world}: {lost.how}" for lost in entry.lost[:SHOWN]))
     if entry.run_again is not None and entry.run_again.others:
         others = entry.run_again.others
         yield Text(

@@ -112,7 +112,7 @@ def tour(
         elif file is not None:
             files.write(file, write_trace(trace))
         if player is not None:
-            marked = [one for one in check(at.world, trace) if one.claim == "percepts-true"]
+            marked = [j for j in check(at.world, trace) if j.claim == "percepts-true"]
             runs.write_page(player, at.world, at.name, [PlayedRun("tour", trace, marked)])
         moves = [event for event in onward if isinstance(event, Move)]
         entry = TourEntry(
@@ -157,10 +157,10 @@ def _show(entries: Sequence[TourEntry]) -> Iterator[Block]:
                     (
                         str(n),
                         str(door),
-                        str(seen.degree),
-                        "-" if seen.marker is None else str(seen.marker),
+                        str(percept.degree),
+                        "-" if percept.marker is None else str(percept.marker),
                     )
-                    for n, (door, seen) in walk
+                    for n, (door, percept) in walk
                 ],
             )
 
@@ -176,5 +176,5 @@ def _sentence(entry: TourEntry) -> str:
         case "PROVED":
             return f"{head} no other world shows this log of {plural(against.moves, 'move')}."
         case _:
-            left = plural(len(against.unproved), "edge")
-            return f"{head} {left} not proved yet; from where the log ends {moves} prove the map."
+            edges = plural(len(against.unproved), "edge")
+            return f"{head} {edges} not proved yet; from where the log ends {moves} prove the map."

@@ -180,8 +180,8 @@ def _conclusion(entries: Sequence[Part]) -> str:
     if any(entry.verdict == "REFUTED" for entry in entries):
         return "A claim fails: the commands after 'again' show the walks."
     proved = any(entry.part == "proofs" for entry in entries)
-    what = "worlds and theorems" if proved else "worlds"
-    words = f"No claim failed in the {what} counted above; nothing else was checked."
+    things = "worlds and theorems" if proved else "worlds"
+    words = f"No claim failed in the {things} counted above; nothing else was checked."
     if not all(entry.ok for entry in entries):
         words = "No claim failed, but not everything was checked."
     return words
@@ -189,19 +189,19 @@ def _conclusion(entries: Sequence[Part]) -> str:
 
 def _costs(entry: Part) -> TextTable:
     rows: list[tuple[str, ...]] = []
-    for one in entry.costs:
-        rejected = one.rejected_free + one.rejected_moving
+    for cost in entry.costs:
+        rejected = cost.rejected_free + cost.rejected_moving
         rows.append(
             (
-                f"({one.algorithm})" if one.reference else one.algorithm,
-                str(one.cost),
-                "fails" if one.ratio is None else f"{one.ratio:.2f}",
-                "-" if one.ratio is None else f"{one.of_least:.2f}",
-                f"{100 * one.rejected_free / rejected:.0f} %" if rejected else "-",
+                f"({cost.algorithm})" if cost.reference else cost.algorithm,
+                str(cost.cost),
+                "fails" if cost.ratio is None else f"{cost.ratio:.2f}",
+                "-" if cost.ratio is None else f"{cost.of_least:.2f}",
+                f"{100 * cost.rejected_free / rejected:.0f} %" if rejected else "-",
             )
         )
     columns = ("mapper", ">cost", ">of basic", ">of least", ">rejected without motion")
     title = f"{entry.part}: costs in edge traversals"
-    if any(one.reference for one in entry.costs):
+    if any(cost.reference for cost in entry.costs):
         title += ", (others) for comparison"
     return TextTable(columns, rows, title=title)

@@ -325,10 +325,6 @@ class _Failed(Exception):
     pass
 
 
-class _TooManyEdges(Exception):
-    pass
-
-
 def examples(fault: Fault, *, seeds: Sequence[int] = SEEDS, most: int = EXAMPLES) -> Examples:
     """The examples that property tests take to find the fault, by strategy and seed."""
     numbers: dict[str, tuple[int | None, ...]] = {}
@@ -417,7 +413,7 @@ class _Counting(ForwardingRobot):
     def declare(self, event: Decision) -> None:
         self.edges_left -= isinstance(event, Augment)
         if self.edges_left < 0:
-            raise _TooManyEdges
+            raise _Failed
         super().declare(event)
 
 

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from topo_verify.checkers.entailment import FoldedTrace
-from topo_verify.checkers.folding import Fold, Place
+from topo_verify.checkers.folding import Place
 from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.errors import InternalError
 from topo_verify.robot.events import Event, Move, Start, Trace
@@ -78,7 +78,10 @@ def check_map(world: World, log: Sequence[Event]) -> MapCheck:
         return MapCheck("PROVED")
     at = replayed.positions[-1]
     onward = tuple(moves(world, at, _way_on(world, history, at)))
-    _require_proof(fold, onward)
+    for event in onward:
+        fold.move(event.door, event.percept)
+    if open_darts := fold.open_darts():
+        raise InternalError(f"a way on leaves {open_darts} darts of the fold open")
     unproved = tuple(_unproved(_Planner(world, history)))
     return MapCheck("UNKNOWN", unproved=unproved, onward=onward)
 
@@ -112,13 +115,6 @@ def _refutation(replayed: ReplayedTrace) -> MapCheck:
             f"the map has doors 0 to {degree - 1} there, and the log takes door {refused.door}"
         )
     return MapCheck("REFUTED", event, message)
-
-
-def _require_proof(fold: Fold, onward: Sequence[Move]) -> None:
-    for event in onward:
-        fold.move(event.door, event.percept)
-    if open_darts := fold.open_darts():
-        raise InternalError(f"a way on leaves {open_darts} darts of the fold open")
 
 
 class _Planner:

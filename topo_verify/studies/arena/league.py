@@ -19,6 +19,7 @@ import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import sqrt
+from operator import attrgetter
 from statistics import fmean, variance
 from typing import NamedTuple, TypeVar
 
@@ -215,7 +216,8 @@ class League:
         placed: list[LeagueEntry] = []
         place = 1
         for number, entry in enumerate(ranked, 1):
-            if not self._tied(entry, ranked[place - 1], suite):
+            low = self._difference(entry, ranked[place - 1], suite).low
+            if low is not None and low > 0:
                 place = number
             placed.append(self._placed(entry, place, ranked[0], suite))
         others = [entry for entry in entries if entry.ratio is None]
@@ -251,10 +253,6 @@ class League:
             counterexample=None if failure is None else self._counterexample(failure),
         )
 
-    def _tied(self, entry: LeagueEntry, top: LeagueEntry, suite: Suite) -> bool:
-        difference = self._difference(entry, top, suite)
-        return difference.low is None or difference.low <= 0
-
     def _difference(self, entry: LeagueEntry, other: LeagueEntry, suite: Suite) -> MeanInterval:
         pairs = zip(self.runs(entry.mapper, suite), self.runs(other.mapper, suite), strict=True)
         return _interval(suite, [ours.ratio - theirs.ratio for ours, theirs in pairs])
@@ -272,7 +270,7 @@ class League:
     def _losses(self, mapper: str, best: str, suite: Suite) -> Iterator[LostWorld]:
         pairs = zip(self.runs(mapper, suite), self.runs(best, suite), strict=True)
         lost = [(ours.ratio - theirs.ratio, ours, theirs) for ours, theirs in pairs]
-        lost.sort(key=lambda one: -one[0])  # stable
+        lost.sort(key=lambda pair: -pair[0])  # stable
         for excess, ours, theirs in lost[:KEPT_LOSSES]:
             if excess > 0:
                 words = ["topo-verify", "play", ours.world, "--target", best, "--target", mapper]
@@ -311,7 +309,7 @@ def _costs(family: SuiteFamily, runs: Sequence[Row]) -> FamilyCosts:
 
 
 def _most_expensive(runs: Sequence[Row]) -> MostExpensiveWorld:
-    run = max(runs, key=lambda one: one.ratio)  # the first of equals
+    run = max(runs, key=attrgetter("ratio"))  # the first of equals
     return MostExpensiveWorld(run.world, run.edges, run.least, run.cost, round(run.ratio, 6))
 
 

@@ -141,7 +141,8 @@ class ClassRules:
         number, dart = state[0]
         degree, _ = self._worlds[number].sight(dart)
         for door in range(degree):
-            behind = [(number, self._behind(number, dart, door)) for number, dart in state]
+            places = [(n, self._worlds[n].turned(dart, door)) for n, dart in state]
+            behind = [(n, self._worlds[n].alpha[dart]) for n, dart in places]
             yield GameChoice(1, tuple(self._open(behind)))
 
     def worlds(self, state: ClassState) -> int:
@@ -165,10 +166,6 @@ class ClassRules:
                 break
             needed.update(dict.fromkeys(twins, moves))
         yield from needed.values()
-
-    def _behind(self, number: int, dart: int, door: int) -> int:
-        world = self._worlds[number]
-        return world.alpha[world.turned(dart, door)]
 
     def _open(self, places: Sequence[tuple[int, int]]) -> list[ClassState]:
         """The places by percept, without single ones and those that do not count."""

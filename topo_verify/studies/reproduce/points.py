@@ -221,7 +221,7 @@ def points_csv(points: Iterable[FigurePoint]) -> str:
         )
         for point in points
     ]
-    return _csv(COLUMNS, rows)
+    return csv_text(COLUMNS, rows)
 
 
 def growth_csv(points: Iterable[FigurePoint], setting_of: Mapping[str, str]) -> str:
@@ -237,14 +237,15 @@ def growth_csv(points: Iterable[FigurePoint], setting_of: Mapping[str, str]) -> 
         for point in points
         if point.growth is not None
     ]
-    return _csv(GROWTH_COLUMNS, dict.fromkeys(rows))
+    return csv_text(GROWTH_COLUMNS, dict.fromkeys(rows))
 
 
 def _cell(value: float | None) -> str:
     return "" if value is None else f"{value:.2f}"
 
 
-def _csv(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+def csv_text(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """The rows as CSV, below a row of titles."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(head)

@@ -95,11 +95,11 @@ def run_again(campaign: c.Campaign, rows: Sequence[Row], tell: Progress | None =
     before = _drawn(rows, campaign)
     tell = tell or no_progress
 
-    def told(_what: str, done: int, _total: int) -> None:
+    def report(_work: str, done: int, _total: int) -> None:
         tell(f"{campaign.mappers[0]}, again", done, 2 * MOST + 1 + ROW)
 
     worlds = [row.world for row in before]
-    alone = _rows(campaign, worlds, _alone, told)
+    alone = _rows(campaign, worlds, _alone, report)
     failures: list[Unlike] = []
     others: list[str] = []
     for row, now in zip(before, alone, strict=True):
@@ -114,7 +114,7 @@ def run_again(campaign: c.Campaign, rows: Sequence[Row], tell: Progress | None =
     known = {row.world: row for row in rows}
     lost = {row.world for row in rows if row.lost}
     names = [name for name in row_of(campaign) if name not in lost]
-    in_row = _rows(campaign, names, _one_process, told, stop=c.Stop(failing=1))
+    in_row = _rows(campaign, names, _one_process, report, stop=c.Stop(failing=1))
     for number, now in enumerate(in_row, 1):
         if now.failed:
             failures.append(_failure_in_row(campaign, names[:number], now))

@@ -78,16 +78,13 @@ def reports_of(campaign: Campaign, target: Target, world: World) -> Iterator[Rep
     return (run.report for run in ways(target, world, once))
 
 
+@cache
 def named(target: Target) -> tuple[Target, ...]:
     """The mapper with each pair of named policies, reference first."""
-    assert isinstance(target.mapper, Algorithm)
-    return _named(target.text, target.mapper)
-
-
-@cache
-def _named(text: str, mapper: Algorithm) -> tuple[Target, ...]:
+    mapper = target.mapper
+    assert isinstance(mapper, Algorithm)
     random = [f"random({seed})" for seed in range(SEEDS)]
     pairs = product([*PICKS, *random], [*ORDERS, *random])
     return tuple(
-        Target(text, mapper.with_policies(pick=pick, order=order)) for pick, order in pairs
+        Target(target.text, mapper.with_policies(pick=pick, order=order)) for pick, order in pairs
     )

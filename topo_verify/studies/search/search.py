@@ -375,7 +375,7 @@ class Search:
             run_again=self.again,
             engine=campaign.engine,
             decided_by=self._decided_by,
-            judged_by=JUDGED_BY if compiled else self._judged_by(self.worlds.edges),
+            judged_by=JUDGED_BY if compiled else self._judged_by,
             by_checkers=tally.by_checkers if compiled else tally.worlds,
         )
 
@@ -401,8 +401,9 @@ class Search:
             for claim, number in numbers.items()
         )
 
-    def _judged_by(self, edges: int) -> str:
-        return "the checkers" if self.choices != "every" else judged_by(edges)
+    @property
+    def _judged_by(self) -> str:
+        return judged_by(self.worlds.edges) if self.choices == "every" else "the checkers"
 
     @property
     def _decided_by(self) -> Decider | None:

@@ -130,7 +130,13 @@ def _by_kernel(
 ) -> tuple[CostRange | None, list[Attempt]]:
     model = table.found_in(world, algorithm)
     if model.wrong:
-        return _require_failing(world, *_by_running(text, algorithm, world, run))
+        costs, failing = _by_running(text, algorithm, world, run)
+        if costs is not None:
+            raise InternalError(
+                f"the model finds a claim false in {world_argument(world)}, and no run of the"
+                " mapper shows it"
+            )
+        return None, failing
     runs: list[Attempt] = []
     for order, cost in ((model.cheap, model.cheapest), (model.dear, model.dearest)):
         chooser = RecordedChoices(table.Ordered(world, order))
@@ -144,17 +150,6 @@ def _by_kernel(
             )
         runs.append(tried)
     return CostRange(*model[1:5]), runs
-
-
-def _require_failing(
-    world: World, costs: CostRange | None, runs: list[Attempt]
-) -> tuple[CostRange | None, list[Attempt]]:
-    if costs is not None:
-        raise InternalError(
-            f"the model finds a claim false in {world_argument(world)}, and no run of the mapper"
-            " shows it"
-        )
-    return costs, runs
 
 
 # ---------------------------------------------------------------- runs that can be had again
