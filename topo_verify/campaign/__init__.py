@@ -2,11 +2,11 @@
 
 row.py             Row: what one mapper did in one world
 attempt.py         makes one run, judges it, and makes its row
-tally.py           Tally: the sums of rows; which rows are kept as examples
-campaign.py        Campaign: worlds, mappers, limits; its results in order; progress
+tally.py           Tally: the sums of rows; which rows are kept
+campaign.py        Campaign: worlds, mappers, limits; results in order; progress
 store.py           Store: the SQLite file from which a campaign resumes
 backend.py         where shards are examined; what a lost worker means
-compiled.py        a shard by the compiled engine, partly judged again by the checkers
+compiled.py        a shard by the compiled engine, judged again in part
 compiled_shard.py  the counts of the compiled engine
 run.py             runs a mapper in a world; the engines
 judge.py           judges a run by every claim
@@ -14,5 +14,5 @@ targets.py         what a TARGET means, and the text of a callable
 identity.py        what a mapper rests on
 work.py            tasks, and the pieces into which they are cut
 pool.py            worker processes that may die or hang; worker.py is one
-cluster.py         the workers of a Dask cluster; cluster_worker.py runs there
+cluster.py         a Dask cluster; cluster_worker.py runs there
 """

@@ -1,8 +1,8 @@
 """An attempt: runs a mapper in a world, judges every claim, and makes the row.
 
-**The second try.** A process may be killed through the mapper's fault or by the out-of-memory
-killer (SIGKILL), so the world is tried again. If the mapper fails again, the first run counts.
-If it passes, a crash is still a finding, and SIGKILL leaves the world undecided.
+A process may be killed through the mapper's fault or by the out-of-memory killer (SIGKILL), so
+the world is tried again. If the mapper fails again, the first run counts. If it passes, a crash
+is still a finding, and SIGKILL leaves the world undecided.
 """
 
 from __future__ import annotations

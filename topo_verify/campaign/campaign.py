@@ -8,13 +8,12 @@ A backend examines shards of worlds in any order and process; `results` restores
 drops what lies behind the world at which a campaign stops. So results depend on the campaign
 alone.
 
-`examine` is the only loop over worlds and mappers. A study extends it by the names of functions,
+`examine` is the only loop over worlds and mappers. A study extends it by functions named
 `module:function`: `look` notes more about a run, `ways` makes several runs of a mapper in a
 world.
 
-**The order of a list.** A mapper that knew it could be right by counting worlds, so a seed
-shuffles each `BLOCK` of listed worlds. What this does not show: that a mapper does not know its
-block.
+A mapper that knew the order of a list could be right by counting worlds, so a seed shuffles each
+`BLOCK` of them. What this does not show: that a mapper does not know its block.
 """
 
 from __future__ import annotations
@@ -168,7 +167,6 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
     """What is to be run, as data that can be hashed, stored and sent.
 
     Attributes:
-        pick, order: policies of catalogue algorithms.
         engine: what runs catalogue algorithms.
         in_process: a user's mapper shares the process of the harness.
         strict: ask claim 10 in worlds of more than 2,000 edges, too.

@@ -3,10 +3,10 @@
 A pool on the worker's machine (cluster_worker.py) settles what a task does to its process. So a
 loss here means that a whole Dask worker went:
 
-- The scheduler gives the tasks of a lost worker to others, as often as its setting
-  `allowed-failures` says (3). Most losses end here, and change no result.
-- A task lost more often is done again while no other task runs. If it is lost again, it is cut;
-  `Remote.lost` gives the result of a task that cannot be cut, and convicts no mapper.
+- The scheduler gives its tasks to others, as often as the setting `allowed-failures` says (3).
+  Most losses end here, and change no result.
+- A task lost more often is done again while no other task runs, and then cut. `Remote.lost`
+  gives the result of a task that cannot be cut, and convicts no mapper.
 - If the scheduler is lost, or no worker is left for `PATIENCE` seconds, an InputError says so.
 
 Workers with another topo-verify or another mapper refuse every task. The client refuses results

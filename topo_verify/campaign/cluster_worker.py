@@ -1,11 +1,7 @@
 """Does a client's tasks in a Dask worker, each in a process that may die or hang.
 
-Each thread of the worker has a `Pool` of one process, so a lost Dask worker is no mapper's
-fault. The process is kept for the next task of the same job, for at most `IDLE` seconds.
-
-A worker whose topo_verify or mapper files differ from the client's refuses every task. Each
-result names its worker and, in a search, what the mappers loaded there, which the client
-compares.
+Each thread of the worker has a `Pool` of one process, kept for the next task of the same job. So
+a lost Dask worker is no mapper's fault.
 
 What this does not show: that the results are the workers'. The scheduler believes whatever
 reaches it, and a Dask worker is hidden from other programs only from its first task on.

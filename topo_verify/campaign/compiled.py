@@ -1,6 +1,6 @@
 """Examines one shard by the compiled engine, and has the checkers judge a part of it again.
 
-The engine is not trusted. The checkers judge again, from runs of the reference algorithms:
+The engine is not trusted. From runs of the reference algorithms the checkers judge again:
 
 - every world that the counts name: the first failing ones, of each claim too, so that each
   finding comes from the checkers; the most expensive ones; those in which the first of two
@@ -9,13 +9,12 @@ The engine is not trusted. The checkers judge again, from runs of the reference 
   `SAMPLE` with the next one. The counts before such a step plus the reference's of the step must
   equal the counts after it, with the digest, which covers every door.
 
-In these worlds both engines must agree on every event. If they do not, topo-verify has a bug,
-and the campaign ends.
+In these worlds both engines must agree on every event; otherwise topo-verify has a bug, and the
+campaign ends.
 
 The engine calls a **native mapper** (`--library`) in place of an algorithm; for the checkers it
-runs in its own process. If the two disagree, the mapper may behave differently each time: all
-worlds of the slice are undecided, except one where they disagree and a claim fails by the
-checkers.
+runs in its own process. If the two disagree, it may behave differently each time: the worlds of
+the slice are undecided, unless a claim fails there by the checkers.
 
 What this does not show: the engine alone judged the other worlds. If it is wrong in a share p of
 all worlds, n steps show it with a probability of at least 1 - (1 - p)^n.

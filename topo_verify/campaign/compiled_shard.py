@@ -3,11 +3,7 @@
     (counts,) = examine_range(["basic"], 7, "any", 0, 10_000)
     counts.failing, counts.claims["map-isomorphic"]
 
-The checkers judge a trace whose verdict the kernel leaves open (`judging/`); a run that did not
-fit into the workspace is first repeated in a larger one.
-
-What this does not show: that the kernels are right. Tests compare them with the reference, and a
-search has the checkers judge some steps again.
+The checkers judge a trace whose verdict the kernel leaves open (`judging/`).
 """
 
 from __future__ import annotations
@@ -73,15 +69,12 @@ class ShardCounts(msgspec.Struct, frozen=True):
         claims: for each claim, the number of failing worlds and the rank of the first; -1: none.
         newly_failing, newly_failing_claims: worlds where a claim, or this claim, fails for it
             and for no algorithm before it.
-        undecided: runs with an undecided and no failing claim.
         statuses: for each claim, number of runs by status.
         shares: for each claim, how many cases were judged, of how many.
         total, most, attained: costs without a failing claim: sum, highest, its number of runs.
         worst, failing_ranks: the first ranks of those, and of failing worlds.
         digest: a 64-bit hash of ranks, verdicts, costs and doors; digests add up.
-        dearer, cheaper, excess: worlds where the first of two algorithms costs more and less
-            than the second, and its highest excess.
-        dearer_worlds: the first worlds in which it costs more.
+        dearer, cheaper, excess, dearer_worlds: the first of two algorithms against the second.
     """
 
     algorithm: str
@@ -129,7 +122,6 @@ def examine_range(  # noqa: PLR0913  all that is asked of the engine
     Args:
         kind: the class of worlds; ranks are those of class `any`.
         claims: the number of claims judged: 8, 9 or 10.
-        stop_at_first: end at the first world in which a claim fails.
         faults: the mistake to plant, by name; these names may be any text.
         room: words of trace, at most `TRACE`; longer traces are made again, with the same counts.
     Raises:

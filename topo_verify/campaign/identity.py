@@ -1,9 +1,9 @@
 """What a mapper rests on, so that results of different mappers are never added up.
 
 A catalogue algorithm rests on topo_verify alone; a user's mapper on every file that its process
-loaded or opened for reading, and on the values it was made with (programs/loaded.py); a program
-on each file that its command or `--depends` names. No such list is complete, so some shards of a
-store are examined again.
+loaded or read, and on the values it was made with (programs/loaded.py); a program on the files
+that its command or `--depends` names. No such list is complete, so some shards of a store are
+examined again.
 """
 
 from __future__ import annotations

@@ -41,7 +41,7 @@ class Pool(Generic[TaskT, ResultT]):
         in_flight: receives, from time to time, the number of items done in unfinished tasks.
         folder: where workers are started; default: the current folder.
     Raises (by `run`):
-        InputError: a worker says that the input is bad, or another process speaks for a worker.
+        InputError: a worker refuses its input, or another process speaks for it.
         InternalError: there is a bug of ours in a worker.
     """
 

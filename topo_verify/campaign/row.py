@@ -72,11 +72,9 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """What one mapper did in one world.
 
     Attributes:
-        world: its name on the command line.
         place: the world's rank among those of its size, or its place in a list.
         turn: number of runs in the same world before this one.
         least: least cost of a proof in the world, in edge traversals.
-        mapper: the TARGET.
         free, moving: hypotheses rejected without motion, and with motion.
         claims: judgements in the order of `CLAIMS`; empty without a run.
         findings: at most `KEPT_FINDINGS` of each claim.
@@ -88,7 +86,7 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
         timed_out: a time limit struck, however the run ended.
         seconds: processor time of mapper and robot, for `timing` only.
         note: what the study's `Look` returned.
-        choices: possible costs; in the last of the runs that try all choices.
+        choices: in the last of the runs that try all choices.
     """
 
     world: str

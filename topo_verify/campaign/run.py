@@ -47,7 +47,7 @@ from topo_verify.robot.events import (
 from topo_verify.robot.limits import Limit, Limits, MapperStopped, within
 from topo_verify.robot.simulator import SimulatedRobot, first_percept
 from topo_verify.world.enumeration import rank_order
-from topo_verify.world.resolve import as_world
+from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
@@ -162,8 +162,7 @@ def explore(
     Raises:
         InputError: there is no such world, mapper or policy; the engine cannot run it.
     """
-    _require_order(world, mapper)
-    world = as_world(world)
+    world = _resolved(world, mapper)
     limits = limits or Limits()
     target = _on(engine, one_target(mapper, pick=pick, order=order), limits, trace=trace)
     if isinstance(target.mapper, CompiledAlgorithm):
@@ -202,12 +201,18 @@ def explore(
     )
 
 
-def _require_order(world: object, mapper: object) -> None:
+def _resolved(world: object, mapper: object) -> World:
+    """The world, or the one that a text names as on the command line."""
     if isinstance(mapper, World) or callable(world) or (isinstance(world, str) and world in NAMED):
         raise InputError(
             "world and mapper have changed places: write explore(world, mapper),"
             " examine(mapper, world) and assert_maps(mapper, world)"
         )
+    if isinstance(world, World):
+        return world
+    if isinstance(world, str):
+        return resolve_world(world)
+    raise InputError(f"expected a World or a text that names one, as m5/17 or nyc, got {world!r}")
 
 
 def _on(engine: Engine, target: Target, limits: Limits, *, trace: bool) -> Target:

@@ -10,10 +10,7 @@ kept rows. If a mapper has changed, its campaign may begin anew; shards before n
 then no longer count.
 
 Each shard is one transaction. An operating system lock, which ends with the process, protects
-the open file. Workers never open it.
-
-**Checksums.** Each shard has one over its content and the previous checksum, `meta` one over
-everything. They are verified on opening, a shard's also on reading. They guard against
+the open file. Checksums are chained over all shards and verified on opening. They guard against
 accidents, not against forgery.
 """
 

@@ -63,7 +63,6 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
         claims: for each failing claim, the number of worlds.
         digest: a hash of all results, whatever the order of the worlds.
         by_checkers: worlds that the checkers judged again after another engine.
-        choices: possible costs, if every choice of the mappers is tried.
     """
 
     worlds: int = 0

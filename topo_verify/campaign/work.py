@@ -1,7 +1,6 @@
 """The work of a pool: tasks, results, and what a lost worker means for its task.
 
-Jobs, tasks and results are JSON data, opaque to this file. A task that loses its workers is cut
-into pieces, whose results are joined.
+Jobs, tasks and results are JSON data, opaque to this file.
 """
 
 from __future__ import annotations
@@ -100,8 +99,7 @@ class Work(Generic[TaskT, ResultT]):
         lost: the result of a task that was lost with its last worker; it may raise.
         survived: the result of a task that lost workers, given its last result, the losses by
             piece, and the pieces that were given up.
-        silence: seconds without a heartbeat after which a worker is lost.
-        loading: seconds that a worker has to get ready.
+        silence, loading: seconds without a heartbeat, and to get ready, until a worker is lost.
         attempts: the most workers that may be lost with a task.
     """
 

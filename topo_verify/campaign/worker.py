@@ -8,11 +8,11 @@
 - **A worker ends with its parent.** It is a fork of the launcher, which sees its control end. On
   Linux the kernel kills a worker with the launcher, because a mapper in C code lets no thread
   run; elsewhere the thread that reads tasks sees the channel end.
-- **No other program speaks for a worker.** A worker is shielded from its first moment
-  (launcher.py). Each message carries a *seal*: its number and text, signed with a key that only
-  parent and worker know. A forged message ends the work.
-- **A mapper cannot disturb the channel**: standard input is empty, prints go to standard error.
-- **Ctrl-C is for the parent**, which ends the workers.
+- **No other program speaks for a worker.** It is shielded from its first moment (launcher.py).
+  Each message carries a *seal*: its number and text, signed with a key that only parent and
+  worker know. A forged message ends the work.
+- A mapper cannot disturb the channel: standard input is empty, prints go to standard error.
+- Ctrl-C is for the parent, which ends the workers.
 """
 
 from __future__ import annotations

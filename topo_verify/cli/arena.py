@@ -95,8 +95,8 @@ def arena(
     """Rank mappers by what they pay for a map, as a multiple of the least cost of a proof (LB).
 
     Every run is judged by every claim. A mapper that breaks one has no place, only its
-    counterexample. Intervals are at 95 %; `behind` compares with the first of the table in the same
-    worlds. The same call gives the same figures, interrupted or not, except for time and memory.
+    counterexample. Intervals are at 95 %; `behind` compares with the first of the table in the
+    same worlds. The same call gives the same figures, except for time and memory.
     """
     if game is not None:
         return game_of_catalogue(output, game, [*texts, *named])

@@ -221,8 +221,8 @@ def write_folder(
     counterexamples: Sequence[Exhibit],
 ) -> None:
     """Write all files of the league into the folder."""
-    files.write(folder / "table.csv", tablecsv_text(table))
-    files.write(folder / "runs.csv", runscsv_text(league, table))
+    files.write(folder / "table.csv", table_csv(table))
+    files.write(folder / "runs.csv", runs_csv(league, table))
     files.write(folder / "results.json", _results(league, table))
     files.write(folder / "timing.json", _timing(league, table))
     for suite in league.suites:
@@ -311,7 +311,7 @@ TABLE = (
 )
 
 
-def tablecsv_text(entries: Sequence[lg.LeagueEntry]) -> str:
+def table_csv(entries: Sequence[lg.LeagueEntry]) -> str:
     """A row for each mapper and suite, then a row for each of several families."""
     return csv_text(TABLE, [row for entry in entries for row in _rows(entry)])
 
@@ -343,7 +343,7 @@ RUNS = (
 )
 
 
-def runscsv_text(league: lg.League, table: Sequence[lg.LeagueEntry]) -> str:
+def runs_csv(league: lg.League, table: Sequence[lg.LeagueEntry]) -> str:
     """A row for each run of a ranked mapper, by suite and mapper."""
     return csv_text(
         RUNS,

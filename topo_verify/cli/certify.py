@@ -47,7 +47,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
         vertices, edges: of the proved map, else of the smaller witness.
         open_doors: at most 100, nearest to the end of the log first.
         advice: how to go on to prove the map; null: nothing is left to walk.
-        witnesses: two worlds that show this log and differ: the files if written, else the ids.
+        witnesses: two different worlds that show this log: files if written, else ids.
         kernel: the certificate for Coq; null without --kernel.
         trace: the file of the log.
         open_darts: the number of unexplored darts of the map.
@@ -108,9 +108,9 @@ def certify(
     several worlds show it; the open doors are named, and where to go next. REFUTED (1): no world
     shows it, or a map or decision in it does not follow.
 
-    --kernel states and proves the same in Coq, in a file certificate_LOG.cert; 3 if a part is
-    not checked. --check has Coq check a certificate that you received: accepted (0), refused
-    (1), not readable (2), not checked, or silent about a part of the log (3).
+    --kernel proves the same in Coq, in a file certificate_LOG.cert; 3 if a part is not checked.
+    --check has Coq check a received certificate: accepted (0), refused (1), not readable (2),
+    not checked, or silent about a part of the log (3).
     """
     _require_one_task(traces, received, about, others=bool(map_file or folder or proving))
     doing = partial(output.progress, done=0, total=1)

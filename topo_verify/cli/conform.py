@@ -327,7 +327,7 @@ def _cases(levels: Sequence[LevelResult]) -> Iterator[acc.JudgedCase]:
 def _exhibits(
     study: Conform, levels: Sequence[LevelResult], *, batch: bool
 ) -> Iterator[acc.Exhibit]:
-    """The first world of each kind of finding, each once; a batch program is not run again."""
+    """The first world of each kind of finding; a batch program is not run again."""
     first: dict[str, list[WorldFinding]] = {}
     for level in levels:
         for kind in level.kinds:

@@ -54,10 +54,10 @@ def faults(
 ) -> int:
     """Try the checks on mappers with one mistake each, and on some that differ harmlessly.
 
-    Every check must catch every fault: the search goes up to the first size with a failing
-    world, the property tests have Hypothesis's default number of examples. No check may catch a
-    harmless difference. A theorem with the same mistake must be refuted. NAME is a fault; by
-    default all are tried.
+    Every check must catch every fault and no harmless difference: the search goes up to the
+    first size with a failing world, the property tests have Hypothesis's default number of
+    examples, and a theorem with the same mistake must be refuted. NAME is a fault; by default
+    all are tried.
     """
 
     def tried() -> Iterator[Result[study.Caught]]:

@@ -97,11 +97,7 @@ class Live(Generic[E]):
 
 
 def entry_of(kind: type[E], *sources: object, **more: object) -> E:
-    """An entry with each field from `more`, else from the first source with that attribute.
-
-    Raises:
-        msgspec.ValidationError: a field is missing or of another type.
-    """
+    """An entry with each field from `more`, else from the first source with that attribute."""
     fields = dict(more)
     for name in kind.__struct_fields__:
         for source in () if name in more else sources:
@@ -153,11 +149,7 @@ class Output:
         self._files: list[tuple[str, str]] = []
 
     def ask(self, **files: str | None) -> None:
-        """Have files written at the end, each keyed by its option of `FORMS`.
-
-        Raises:
-            InputError: one of them cannot be written.
-        """
+        """Have files written at the end, each keyed by its option of `FORMS`."""
         named = [(f"--{option}", name) for option, name in files.items() if name is not None]
         _require_files(named)
         self._files += named

@@ -58,8 +58,8 @@ def play(
 ) -> int:
     """Write one page that shows runs in a browser: the world, the robot, its map, each decision.
 
-    The page needs no network and no other file. It opens at the first finding, else at the first
-    question. A wrong run does not change the exit code (see explore and replay).
+    The page needs no network. It opens at the first finding, else at the first question. A wrong
+    run does not change the exit code (see explore and replay).
     """
 
     def played() -> Iterator[Result[PlayEntry]]:

@@ -96,8 +96,8 @@ def replay(
     A trace from explore --trace is judged in the world that it names, or in that of --world. In
     a WORLD the mapper of --target is run. The last moves before the first finding are shown:
     where the robot really was, what the mapper decided and why, and its map beside the world.
-    With --kernel the judge that is proved in Coq judges the run as well; the exit code is 3
-    where Coq or OCaml is missing.
+    With --kernel the judge that is proved in Coq judges the run as well; exit code 3: Coq or
+    OCaml is missing.
     """
     reports: list[Report] = []
 

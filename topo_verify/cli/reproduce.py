@@ -82,8 +82,8 @@ def reproduce(
     """Draw the paper's Figures 3 and 6 a-f again: mean costs with standard errors.
 
     Each picture also shows the numbers in the paper's text, the least cost of a proof, and the
-    complete rule, folding. Every run is judged by every claim. The same options give the same CSV
-    bytes, with any number of processes. With --engine compiled lattices grow to 100x100.
+    complete rule, folding. Every run is judged by every claim. The same options give the same
+    CSV bytes. With --engine compiled lattices grow to 100x100.
     """
     usual = fig.QUICK_GRAPHS if quick else fig.GRAPHS
     pairs, large = fig.PAIRS if policies else (fig.REFERENCE,), engine == "compiled" and not quick

@@ -35,11 +35,11 @@ def verify(
     seed: int,
     limits: Limits,
 ) -> int:
-    """Check the algorithms of the catalogue, or a mapper of your own, part by part.
+    """Check the catalogue's algorithms, or a mapper of your own, part by part.
 
-    TARGET is `all` (the default), names of the catalogue with commas, package.module:attribute or
-    path/file.py:attribute. A mapper takes a robot and returns a map. For your own mapper the parts
-    counts and proofs are left out: they do not depend on it.
+    TARGET is `all` (the default), names of the catalogue with commas, package.module:attribute
+    or path/file.py:attribute. A mapper takes a robot and returns a map. The parts counts and
+    proofs do not depend on your mapper and are left out.
     """
     loaded = mappers.load()
 

@@ -145,15 +145,6 @@ def resolve_world(text: str, *, stdin: IO[bytes] | None = None) -> World:
     return World.load(text)
 
 
-def as_world(world: object) -> World:
-    """The world itself, or the one that a text names as on the command line."""
-    if isinstance(world, World):
-        return world
-    if isinstance(world, str):
-        return resolve_world(world)
-    raise InputError(f"expected a World or a text that names one, as m5/17 or nyc, got {world!r}")
-
-
 def _exists(path: str) -> bool:
     try:
         return bool(path) and Path(path).exists()

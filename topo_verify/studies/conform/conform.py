@@ -292,8 +292,7 @@ class LevelResult(msgspec.Struct, frozen=True, kw_only=True):
         not_declared: the same moves, but no decisions to compare.
         not_tried: time-outs or an interrupt ended the work before.
         kinds: the number of worlds with each kind of finding.
-        claims: for each claim of this level, the number of runs with each status.
-        judgements: of each claim of this level, over all runs.
+        claims, judgements: of this level, over all runs.
         findings: of the first failing worlds of each kind.
         cost: over all worlds; priced: on level `cost`, world by world.
         why: the reasons of the first undecided worlds.

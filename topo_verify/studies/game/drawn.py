@@ -30,8 +30,8 @@ class Rest(NamedTuple):
     Attributes:
         uncrossed: the end vertices of edges never crossed, two for each edge.
         trips: the lengths of the shortest missing closed trips, ascending.
-        ended, back: moves on pendant edges never crossed, for a walk that ends anywhere; that
-            begins at v0.
+        ended, back: moves on uncrossed pendant edges, for a walk that ends anywhere; that begins
+            at v0.
         far: for each dart of the fold, its distance from v0 there.
     """
 

@@ -1,7 +1,7 @@
 """Tries the choices that the paper leaves open: which e comes next, in which order H is tried.
 
 reference    the reference policies alone (and a mapper without policies)
-all          every named pick policy with every named order policy, `random` with a few seeds
+all          every named pick policy with every named order policy
 every        every choice that any policy could make, by searching states (`states/`): a vertex
 with four loops has over a hundred million runs
 """

@@ -232,7 +232,6 @@ def search(  # noqa: PLR0913  an argument an option
         dask: the address of a Dask scheduler, or `local`.
     Raises:
         InputError: no such mapper; no formula counts the class; and the like.
-        InternalError: mappers ran in another number of worlds than there are.
     """
     mappers = targets(target) if isinstance(target, str) else (one_target(target),)
     if workers and dask is not None:

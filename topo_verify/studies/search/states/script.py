@@ -90,7 +90,7 @@ class ScriptedPolicies:
     def motion(self, hypotheses: Sequence[Hypothesis], last: Executed | None) -> Choice:
         """The hypothesis to try next, among those that the motion allows."""
         by_dart = sorted(hypotheses, key=lambda h: h.dart)
-        # The motion takes the first of those that tie: one that it takes when it stands first ties.
+        # The motion takes the first of tied hypotheses, so one that it takes in first place ties.
         firsts = (
             self.algorithm.motion([h, *(o for o in by_dart if o is not h)], last) for h in by_dart
         )
