@@ -13,8 +13,8 @@ In these worlds both engines must agree on every event; otherwise topo-verify ha
 campaign ends.
 
 The engine calls a **native mapper** (`--library`) in place of an algorithm; for the checkers it
-runs in its own process. If the two disagree, it may behave differently each time: the worlds of
-the slice are undecided, unless a claim fails there by the checkers.
+runs in its own process. If the two disagree, it may behave differently each time: all worlds of the
+slice are undecided, except the one where they disagree if a claim fails there by the checkers.
 
 What this does not show: the engine alone judged the other worlds. If it is wrong in a share p of
 all worlds, n steps show it with a probability of at least 1 - (1 - p)^n.
