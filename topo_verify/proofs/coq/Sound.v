@@ -52,13 +52,10 @@ Proof.
   destruct K as [i k K|i k K|x y []|x y []]; exists i, k; auto.
 Qed.
 
-(** Claim 7, the lower bound for every mapper that is right in every world: it makes at least m
-    moves, where the world has 2 m darts.
-    Paper, I, II-B: "O(m) is a trivial lower bound." *)
-Theorem sound_cost f : sound f -> forall W L M, world W -> replays W L -> ends f L M ->
-  darts W <= 2 * length (moves L).
+(** A closed log has at least m moves, where the world has 2 m darts. *)
+Lemma closed_cost W L : world W -> replays W L -> closed L -> darts W <= 2 * length (moves L).
 Proof.
-  intros S W L M HW R E. assert (C := sound_closed f S W L M HW R E).
+  intros HW R C.
   apply replays_visits in R as [v V]; [|apply HW]. set (n := length (moves L)).
   set (met_at := map (fun i => v (Datatypes.S i)) (seq 0 n) ++
     map (fun i => turn W (nth i (map fst (moves L)) 0) (v i)) (seq 0 n)).
@@ -73,3 +70,10 @@ Proof.
   - rewrite (nth_error_nth _ _ _ D). split; auto. apply in_seq. lia.
   - split; auto. apply in_seq. lia.
 Qed.
+
+(** Claim 7, the lower bound for every mapper that is right in every world: it makes at least m
+    moves, where the world has 2 m darts.
+    Paper, I, II-B: "O(m) is a trivial lower bound." *)
+Theorem sound_cost f : sound f -> forall W L M, world W -> replays W L -> ends f L M ->
+  darts W <= 2 * length (moves L).
+Proof. intros S W L M HW R E. apply closed_cost; auto. eapply sound_closed; eauto. Qed.
