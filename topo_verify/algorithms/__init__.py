@@ -10,8 +10,6 @@
     steering.py         the loop of the two     next_edge.py        their next edge
 
 No file here can see a world: a test limits the imports.
-
-Source: docs/semantics.md, section 7.
 """
 
 from __future__ import annotations
@@ -72,7 +70,7 @@ class Algorithm:
     assumes: Literal["planar"] | None = None
 
     def __call__(self, robot: Robot) -> Survey:
-        """Explore the robot's world, deterministically."""
+        """Explore the robot's world."""
         return explore(
             robot,
             rule=self.rule(),
@@ -111,7 +109,7 @@ class Steered:
     assumes: Literal["planar"] | None = None
 
     def __call__(self, robot: Robot) -> Survey:
-        """Explore the robot's world, deterministically."""
+        """Explore the robot's world."""
         return self.run(robot)
 
     def __repr__(self) -> str:

@@ -34,10 +34,7 @@ class Survey(NamedTuple):
 
 
 class Tree(NamedTuple):
-    """Each vertex's distance from the root of a breadth-first tree, and its dart towards it.
-
-    Vertices that were not seen (the search may stop early) have distance -1.
-    """
+    """Each vertex's distance from the root (-1: not reached) and its dart towards the root."""
 
     depth: list[int]
     parent: list[MapDart | None]

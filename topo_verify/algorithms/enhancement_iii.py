@@ -2,7 +2,7 @@
 
 Once vu is known, the sequences executed for e start at a known dart of S. Where one crosses an
 unexplored dart d, the percepts behind d enter T[d]: the first alone (one-level), or all of them in
-a trie by relative doors (all-level). A later hypothesis traced across d is compared with them.
+a trie by relative doors (all-level).
 
 Source: section III-C of the paper; listing 3, lines 3, 10-16, 29; docs/semantics.md, section 7.
 """

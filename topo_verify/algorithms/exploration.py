@@ -176,11 +176,7 @@ def sift(
 
 
 def execute(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
-    """Walk the hypothesis' way home. Returns the first step whose percept differs, or None.
-
-    Args:
-        shared: the doors that the way shares with the last sequence are not walked again.
-    """
+    """Walk the way home, but for the shared doors. Returns the first step that differs."""
     if shared < len(h.doors):
         pilot.back(shared)  # A1.15 A2.23 A3.24
     for step, expected in enumerate(h.expected):  # A1.9 A1.10 A2.8 A2.9 A3.18 A3.19
@@ -195,7 +191,7 @@ def execute(pilot: Pilot, h: Hypothesis, shared: int) -> int | None:
 def localise(pilot: Pilot, chart: Chart, entry: MapDart) -> MapDart:
     """The robot's reference dart on S, once vu's entry dart is known.
 
-    At v0 the marker tells it. Elsewhere the robot first walks back to vu.
+    At v0 the marker tells it. Elsewhere the robot walks back to vu.
     """
     marker = pilot.robot.percept.marker
     if marker is not None:

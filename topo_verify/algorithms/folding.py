@@ -4,12 +4,10 @@ The rule keeps every percept: the vertices of S, and **ghosts**, visited places 
 vertices of S. To test a hypothesis it joins e with h and folds; the hypothesis is false if folding
 meets a contradiction. Otherwise hang a leaf on every open dart of the folded map: in that world the
 hypothesis is true and every percept is the same. So no rule that is right in all worlds can reject
-more. Once vu folds into a vertex of S, it is not new, and a single hypothesis that remains is
-concluded without motion.
+more. Once vu folds into a vertex of S, a single remaining hypothesis is concluded without motion.
 
-A test folds in a layer, which a contradiction drops. Otherwise the layer is kept, and the next test
-of the same hypothesis folds in only the new places: folding anew is quadratic in them. Written
-apart from `checkers/folding.py`; tests compare them.
+A test folds in a layer, which the next test of the same hypothesis continues: folding anew is
+quadratic in the places. Written apart from `checkers/folding.py`; tests compare them.
 
 Source: docs/semantics.md, sections 8 and 11.
 """
@@ -43,7 +41,6 @@ class SeenPlaces:
         behind: of each leading dart, its other end or 0.
         weight: of each node, the number of others that it stands for.
         known: the nodes that are vertices of S.
-        joined: every edge, in the order of `join`.
         merges: the number of darts identified with others.
     """
 
@@ -224,8 +221,7 @@ class PartialFold:
     def follow(self) -> str | None:
         """Fold in what was joined below since this layer was made or last followed.
 
-        Returns: "" or the contradiction; None if places were identified below: the layer is out of
-            date.
+        Returns: "" or the contradiction; None if places were identified below.
         """
         new = self.seen.joined[self._followed :]
         self._followed += len(new)

@@ -10,8 +10,7 @@ it is the world. A policy that steers by a History affects only the cost.
 
 **An edge is settled** wherever the robot stands: as a loop once folding makes vu a vertex of S, as
 a new vertex once folding refutes every h. One settled edge may settle others, because two vertices
-of S are never one. For each h that is not refuted, the places as they would be if e ended in h are
-kept and follow the history.
+of S are never one. For each other h, the places if e ended in h are kept and follow the history.
 
 Source: docs/homing.md; docs/semantics.md, section 11.
 """
@@ -36,7 +35,7 @@ class Crossed:
     """A crossed dart of U.
 
     Attributes:
-        refuted: the hypotheses that no world allows, with the reason.
+        refuted: the hypotheses that no world allows.
         supposed: of the others, the places if they are true.
         vertices: the number of vertices of S when they were supposed.
         possible: the first hypothesis allowed at the last check.
@@ -60,7 +59,6 @@ class History:
         places: the fold, with S in it.
         crossed: the crossed darts of U.
         at: the robot's reference dart.
-        cost: its moves so far.
         settled: the number of settled edges.
     """
 
@@ -138,7 +136,6 @@ class History:
         """Breadth-first search over the places visited: place, distance, dart that leads back.
 
         Args:
-            start: a dart of the first place.
             ghosts_only: skip the vertices of S, except the first place.
         """
         first = self.places.place(start)

@@ -6,11 +6,11 @@ open dart with the least
 
     steps to it + 1 + expected way home behind it - BIT · bits that it tells about h
 
-The expectation is over the hypotheses, as if one were true: to learn that vu is new, all must be
-refuted anyway. Each is weighed by its coincidences: if h is false, the places that it identifies
-have equal degrees by chance, each with the share of that degree in S.
+The expectation is over the hypotheses, as if one were true. Each is weighed by its coincidences: if
+h is false, the places that it identifies have equal degrees by chance, each with the share of that
+degree in S.
 
-Source: docs/homing.md, with the listing whose lines are cited as `# H.12`.
+Source: docs/homing.md, whose lines are cited as `# H.12`.
 """
 
 from __future__ import annotations

@@ -56,12 +56,7 @@ def edge_along_face(history: History) -> MapDart:
 def least(
     history: History, start: NodeDart, rank: Callable[[MapDart, int], Rank], *, slack: float = 0
 ) -> MapDart:
-    """The dart of U with the least rank.
-
-    Args:
-        start: where the moves are counted from.
-        slack: how far a rank may be below the moves.
-    """
+    """The dart of U with the least rank; `slack`: how far a rank may be below the moves."""
     best: Rank | None = None
     for place, distance, _ in history.outward(start):
         if best is not None and distance - slack > best[0]:

@@ -2,8 +2,8 @@
 
 In streets and lattices an edge that closes a loop mostly ends near by, often a few steps along the
 face. A hypothesis h for e has a **kind**: the distance on S between the vertices of h and e, and
-the steps after which a walk along the face beside e passes h. The rate at which hypotheses of a
-kind came true, drawn towards the rate of all while they are few, is the prior of `homing`'s doors.
+the steps after which a walk along the face beside e passes h. The rate at which a kind's hypotheses
+came true, drawn towards the rate of all while they are few, is the prior of `homing`'s doors.
 
 Source: docs/homing.md.
 """

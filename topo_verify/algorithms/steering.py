@@ -16,10 +16,9 @@ falls lexicographically with every move, except on the shortest ways to the next
 **It keeps the bound.** Let j edges be settled, c the cost, a the distance from the robot to S, and
 W = |U|·2(n-1). To go back to S, over S to any edge, and across takes at most a + n moves; to walk
 each hypothesis home and back takes W. So settling one more edge by ways home takes at most a + n +
-W moves, including the walk from the end of one way to the first new step of the next, which is no
-longer than that over vu; and c + a grows by no more. With one vertex W is 0 and every crossing
-settles its edge. With more, at least two darts of S are explored, so W <= (2m-2)·2(n-1), and n + 1
-+ W < A.
+W moves, including the walks between two ways, which are no longer than those over vu; and c + a
+grows by no more. With one vertex W is 0 and every crossing settles its edge. With more, at least
+two darts of S are explored, so W <= (2m-2)·2(n-1), and n + 1 + W < A.
 
 - If an edge was just settled, c + a <= j·A (below), so c + a + n + 1 + W <= (j+1)·A: the grant pays
   for one more, with a move to spare (behind a new edge the robot is one from S).

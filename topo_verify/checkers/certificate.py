@@ -2,11 +2,9 @@
 
 Trusted. No open dart in the fold: exactly one world shows the log (PROVED). An open dart: two
 different worlds show it, and no mapper could tell them apart (UNKNOWN). If no world shows the log,
-or what it delivers or decides does not follow, it is REFUTED. Claim 7 is not asked: a log is not a
-mapper.
+or what it delivers or decides does not follow, it is REFUTED. Claim 7 is not asked of logs.
 
-What this does not show: that the log is what happened. A log of another walk is a proof about
-another world.
+What this does not show: that the log is what happened.
 
 Source: docs/semantics.md, section 11; docs/certify.md.
 """
@@ -33,8 +31,8 @@ class JudgedLog(NamedTuple):
     """What a log proves: REFUTED if there are findings, else PROVED if it has a map, else UNKNOWN.
 
     Attributes:
-        fold: of the log, up to the first event with which no world shows it.
-        broken: that event, and why; or None.
+        fold: of the log, up to `broken`.
+        broken: the first event with which no world shows the log, and why; or None.
         map: the one world that shows the log, or None.
         conclusions: whether each declared decision follows from the log before it, up to the first
             that draws a wrong S.
@@ -49,12 +47,11 @@ class JudgedLog(NamedTuple):
 
 
 def judge_log(trace: Sequence[Event]) -> JudgedLog:
-    """Judge a log without its world.
+    """Judge a log without its world, in nearly linear time.
 
     Raises:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`; or
             its places have more than 2^20 doors together, and more than 16 an event.
-    Complexity: nearly linear; claim 10 looks at every open dart once a decision.
     """
     require_order(trace)
     folded = ent.FoldedTrace(trace)

@@ -1,10 +1,8 @@
 """The claims of docs/semantics.md, section 9, one named function each, over a world and a trace.
 
-Trusted. A claim takes a `ReplayedTrace` and yields what is wrong. `CLAIMS` lists them in order;
-`check` asks them all.
-
-What these do not show: claims 1-8 ask whether the mapper was right in THIS world, so a lucky guess
-passes them. Claims 9 and 10 ask about every world with the same history.
+Trusted. A claim takes a `ReplayedTrace` and yields what is wrong. What these do not show: claims
+1-8 ask whether the mapper was right in THIS world, so a lucky guess passes them. Claims 9 and 10
+ask about every world with the same history.
 """
 
 from __future__ import annotations
@@ -181,9 +179,8 @@ def rejection_justified(run: ReplayedTrace) -> Iterator[Finding]:
     """8. The evidence that a rejection cites really disagrees, recomputed.
 
     The observation is taken from the moves, the expectation from S; behind an unexplored dart, from
-    the sequences executed for earlier edges, traced from where they are known to have begun. Rules
-    `folding` and `planar` cite a contradiction, which must follow from the history; percepts at the
-    two ends may stand beside it.
+    the sequences executed for earlier edges. Rules `folding` and `planar` cite a contradiction,
+    which must follow from the history.
     """
     for decision in run.rounds:
         event = decision.event
@@ -273,7 +270,6 @@ def _percepts_agree(
 
 
 def _executed(decision: Round, event: ev.Reject) -> Word | None:
-    """The word that a rejection cites, up to its step; None if it was not executed."""
     number, step, words = event.evidence.sequence, event.evidence.step, decision.sequences
     if number is None:
         number, words = 0, (decision.word,) if event.rule == "motion" else ()

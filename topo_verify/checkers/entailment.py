@@ -42,7 +42,7 @@ class Conclusion(NamedTuple):
     """Why what was concluded at event `when` does not follow ("" if it does), and a witness.
 
     Attributes:
-        met: of a rejection by rule `folding` or `planar`: the contradiction that it cites follows.
+        met: the contradiction that a rejection cites follows.
     """
 
     when: int
@@ -104,10 +104,7 @@ def delivered_code(delivered: MapData) -> Code | str:
 
 
 def map_conclusion(folded: FoldedTrace) -> Conclusion:
-    """Whether the history alone proves the delivered map (claim 9).
-
-    If a dart of the fold is open, two worlds show the history; the map is at most one of them.
-    """
+    """Whether the history alone proves the delivered map (claim 9)."""
     fold, finish, last = folded.fold, folded.trace[-1], len(folded.trace) - 1
     if not isinstance(finish, Finish):
         return Conclusion(0, "no map was delivered")

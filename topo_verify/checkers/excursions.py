@@ -1,10 +1,9 @@
 """What a robot does behind an edge, as words of doors; and what these words show later.
 
 Trusted. **Excursions.** The moves behind an edge are reduced to the word of doors from vu to where
-the robot stands. A *sequence* is the word at a mismatch in motion.
-
-**Records.** Once it is known where the edge leads, each sequence is traced on S up to the first
-unexplored dart; what remains of it is kept there, for it shows what lies behind.
+the robot stands. A *sequence* is the word at a mismatch in motion. **Records.** Once it is known
+where the edge leads, each sequence is traced on S up to the first unexplored dart; what remains of
+it shows what lies behind that dart.
 
 Source: docs/semantics.md, section 9, "Moves become words"; section 7, "Records".
 """

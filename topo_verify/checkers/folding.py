@@ -5,8 +5,7 @@ move by door k joins the earlier node's dart k with the later node's dart 0. Eve
 the marker is v0, turned by the marker's direction. If a dart would get two partners, these are one
 dart, so their vertices are one vertex, turned by an offset; and so on until nothing changes
 (union-find with offsets, nearly linear). Each step identifies only what is one dart in every world
-that shows this history. A move through a known door adds no node: a long patrol takes little
-memory.
+that shows this history.
 
 - No open dart: the fold is a covering in which v0 has one copy, hence it IS the world.
 - An open dart: a leaf hung on every open dart, or a path of two, makes two **witness worlds** with
@@ -48,8 +47,7 @@ NARROW = 64
 class Ends:
     """The other end of each dart of each node; None where the dart is open.
 
-    A narrow node takes eight bytes a door; a wide one takes memory only for crossed doors, however
-    many a percept claims.
+    A narrow node takes eight bytes a door; a wide one takes memory only for crossed doors.
     """
 
     def __init__(self) -> None:
@@ -189,9 +187,9 @@ class Fold:
         return drawn[place]
 
     def contradictions(self, one: Place, other: Place, apart: Sequence[Place]) -> Iterator[Met]:
-        """Those that follow if the two are ends of one edge, and no two of `apart` one vertex.
+        """What follows if the two are ends of one edge and `apart` are different vertices.
 
-        They do not depend on the order of steps. The fold does not change.
+        The order of steps does not matter. The fold does not change.
         """
         same: dict[Place, Place] = {}
         ends: dict[Place, Looks] = {}
@@ -249,8 +247,8 @@ class Fold:
     def table(self, pendant_length: int = 1) -> Code:
         """The degrees, vertex by vertex from v0 on, and the other end of each dart.
 
-        A path of this many vertices hangs on every open dart. Without one, this is the canonical
-        code of the only world that shows the history.
+        A path of this many vertices hangs on every open dart. Without one, this is the code of the
+        only world that shows the history.
         """
         if not self.degree(0):
             return (0,), ()

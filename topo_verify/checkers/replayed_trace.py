@@ -64,15 +64,14 @@ class ReplayedTrace:
         trace: begins with its only `start`, and may end with `finish`.
         stopped: why the mapper ended without a map, if it did.
     Attributes:
-        cost: the number of moves.
-        fold: its fold, as far as it was read; claim 9 reads on where claim 10 ends.
-        kinds: the number of its events of each type.
+        fold: as far as it was read; claim 9 reads on where claim 10 ends.
+        kinds: the number of events of each type.
         map: S, drawn on the world.
         positions: the reference dart in the world after each event, up to an illegal move.
         followed: the events up to an illegal move.
         illegal: the first move through a door that is not there.
         spoiled: the first augmentation that is false in this world.
-        crossings: the edges of the world that the robot crossed, and at which event first.
+        crossings: the crossed edges of the world, and at which event first.
         false_percepts: an event, its percept, and the percept that the world shows.
     Raises:
         InputError: the events are in no such order.

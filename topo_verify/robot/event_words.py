@@ -1,4 +1,4 @@
-"""An event in one exact sentence, as the mapper states it; no world and no replay is needed.
+"""An event in one exact sentence, as the mapper states it; no world is needed.
 
 Percepts are short: `5` is degree 5 with no marker, `5, marker 2` has the marker at door 2.
 """

@@ -54,10 +54,9 @@ class Evidence(msgspec.Struct, frozen=True, omit_defaults=True):
         step: how many doors behind the entered vertex (0: at that vertex itself).
         expected: what would be sensed there if the hypothesis were true.
         observed: what was sensed. Rules `folding` and `planar` may leave out both percepts.
-        sequence: without motion: which sequence of this edge showed it, counted from 0 by the
-            mismatches met in motion.
-        at: without motion: the dart of S where tracing stood: the dart of arrival, or, if a record
-            gave the expectation, the unexplored dart that was crossed.
+        sequence: without motion: which sequence of this edge showed it, from 0.
+        at: without motion: the dart of S where tracing stood: the dart of arrival, or, with a
+            record, the unexplored dart that was crossed.
         record: the record that gave the expectation, if one did.
         contradiction: of rules `folding` and `planar`: what is wrong, in the words of
             docs/semantics.md, section 13.

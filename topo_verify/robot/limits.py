@@ -4,10 +4,9 @@ A mapper that exceeds one is stopped by a BaseException, which its own `except E
 swallow. What this does not do: stop a mapper that catches BaseException in a loop, or sits in C
 code that never returns, from inside its own process.
 
-Seconds are those of robot/stopwatch.py, so a correct mapper is never convicted because the machine
-is busy or was frozen. A clock ticks while the mapper runs and asks the robot for its cost. In the
-main thread the tick is SIGALRM, which also interrupts a sleep. In other threads, and on systems
-without SIGALRM, a second thread raises the exception asynchronously.
+Seconds are those of robot/stopwatch.py. A clock ticks while the mapper runs and asks the robot for
+its cost. In the main thread the tick is SIGALRM, which also interrupts a sleep. In other threads,
+and on systems without SIGALRM, a second thread raises the exception asynchronously.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """What a robot senses at a vertex, and by which doors it can leave.
 
-The robot stands at a vertex with a **reference dart** `a`, by which it came in (at the start: the
-dart that the marker points at). It senses the degree of the vertex and, where the marker lies, its
-direction. It leaves by a **door**: door k is the k-th exit clockwise after the reference dart, so
-door 0 goes back. Nothing else of the world is ever visible.
+The robot stands at a vertex with a **reference dart**, by which it came in (at the start: the
+marked dart). It senses the degree of the vertex and, where the marker lies, its direction. It
+leaves by a **door**: door k is the k-th exit clockwise after the reference dart, so door 0 goes
+back. Nothing else of the world is ever visible.
 
 Source: docs/semantics.md, section 2.
 """

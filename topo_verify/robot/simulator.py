@@ -1,9 +1,8 @@
 """The robot in a simulated world: hides the world, meters the cost, records what happens.
 
-Trusted. A mapper holds a `RobotHandle`, which offers `percept`, `move` and `declare`. Python hides
-nothing from a determined mapper in the same process: it can reach the simulator through a method of
-its handle. So moves are counted apart from the trace, and a mapper in another process finds
-nothing.
+Trusted. A mapper holds a `RobotHandle`. Python hides nothing from a determined mapper in the same
+process: it can reach the simulator through a method of its handle. So moves are counted apart from
+the trace, and a mapper in another process finds nothing.
 
 Source: docs/semantics.md, section 2.
 """
@@ -111,9 +110,6 @@ class RobotHandle:
 class SimulatedRobot:
     """A robot at the marker of a world. Lives for one run; `events` grows with every call.
 
-    Args:
-        world: where the robot is; never shown to the mapper.
-        budget: the number of moves (edge traversals) allowed.
     Raises (from `move` and `declare`, into the mapper):
         BudgetExceeded: one more move than the budget.
         Misuse: no such door, or no decision. Once stopped the robot never moves again.

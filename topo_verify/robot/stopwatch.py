@@ -5,10 +5,9 @@ processor (second field of /proc/…/schedstat; the first is its running time). 
 would let a mapper sleep for ever; the wall clock alone convicts a correct one on a busy machine.
 
 A thread that waits for an answer wakes up now and then to look for it, and queues each time. Only
-the last of these waits delays the answer; the earlier ones count as used.
-
-If a look at the stopwatch, due once a tick, is missing, the machine was frozen (suspended, or
-stopped by SIGSTOP): one tick and the processor time count.
+the last of these waits delays the answer; the earlier ones count as used. If a look at the
+stopwatch, due once a tick, is missing, the machine was frozen: one tick and the processor time
+count.
 
 What this does not show: time that a hypervisor takes, and waits for a disk or for memory, count as
 used. Without /proc the stopwatch is the wall clock.
@@ -38,8 +37,8 @@ class Stopwatch:
     """Measures the seconds used since it was made, by the thread that made it.
 
     Args:
-        helper: lists the tasks that work for that thread while it waits for them.
-        heard: counts their answers; without it each wait of the thread is excused.
+        helper: lists the tasks that work for that thread while it waits.
+        heard: counts their answers; without it each wait is excused.
         tick: the most seconds between two looks.
     """
 
@@ -75,7 +74,7 @@ class Stopwatch:
 
     @contextmanager
     def helped_by(self, tasks: Tasks, heard: Heard | None = None) -> Generator[None]:
-        """Within the block, count the waits of these tasks as the thread's own; see `Stopwatch`."""
+        """Within the block, count the waits of these tasks as the thread's own."""
         self._helper = _Helper(tasks, heard)
         try:
             yield

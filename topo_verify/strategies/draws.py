@@ -2,14 +2,14 @@
 
 Drawing costs more than growing, by the number of choices, so all edges are one string of bytes.
 Hypothesis draws short strings unless it must draw long ones, so the first choice raises the least
-length. No two choices share a strategy: Hypothesis would copy values between them.
+length. No two choices share a strategy: Hypothesis would copy values.
 """
 
 from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import wraps
 from typing import ParamSpec, TypeVar
 
@@ -32,7 +32,7 @@ def shown_as_called(make: Callable[P, SearchStrategy[T]]) -> Callable[P, SearchS
     shown = inspect.Signature([draw, *signature.parameters.values()])
 
     @wraps(make)
-    def made(*args: P.args, **kwargs: P.kwargs) -> SearchStrategy[T]:
+    def called(*args: P.args, **kwargs: P.kwargs) -> SearchStrategy[T]:
         strategy = make(*args, **kwargs)
 
         def call(draw: st.DrawFn, /, *_: P.args, **__: P.kwargs) -> T:
@@ -43,7 +43,7 @@ def shown_as_called(make: Callable[P, SearchStrategy[T]]) -> Callable[P, SearchS
         vars(call)["__signature__"] = shown
         return st.composite(call)(*args, **kwargs)
 
-    return made
+    return called
 
 
 _AT_LEAST = (0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 16)
@@ -105,11 +105,28 @@ def at_most(most: int, bound: int) -> int:
     return min(most, bound) if bound else most
 
 
-def one_of(row: list[int]) -> SearchStrategy[int]:
-    """One of these numbers.
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """Pairs of numbers: the first is drawn as often as it has partners."""
 
-    It is a choice even if there is only one: Hypothesis takes fewer choices for simpler.
-    """
+    firsts: SearchStrategy[int]
+    seconds: dict[int, SearchStrategy[int]]
+
+    @classmethod
+    def of(cls, partners: dict[int, list[int]]) -> Sizes | None:
+        """The pairs of each number with its partners; None without a pair."""
+        firsts = [first for first, row in partners.items() for _ in row]
+        seconds = {first: _one_of(partners[first]) for first in firsts}
+        return cls(_one_of(firsts), seconds) if firsts else None
+
+    def draw(self, draw: st.DrawFn) -> tuple[int, int]:
+        """A pair."""
+        first = draw(self.firsts)
+        return first, draw(self.seconds[first])
+
+
+def _one_of(row: list[int]) -> SearchStrategy[int]:
+    # a choice even of one number: Hypothesis takes fewer choices for simpler
     return st.sampled_from(row if len(row) > 1 else 2 * row)
 
 

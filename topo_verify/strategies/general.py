@@ -1,11 +1,9 @@
 """Worlds of every kind: all rooted maps, or those of given genus, degree, simplicity, density.
 
 Every world within the bounds can be drawn (growth.py). Dense worlds pose many hypotheses for each
-edge; in a tree no hypothesis is ever true.
-
-**Uniform worlds.** Hypothesis prefers small integers, but draws bytes evenly. So a rank is drawn as
-bytes, 8 more than its own length, and scaled down. The likelihoods of two worlds differ by at most
-one part in 2^64.
+edge. **Uniform worlds**: Hypothesis prefers small integers, but draws bytes evenly. So a rank is
+drawn as bytes, 8 more than its own length, and scaled down. The likelihoods of two worlds differ by
+at most one part in 2^64.
 """
 
 from __future__ import annotations

@@ -1,13 +1,12 @@
 """Lattices: rectangles of a grid without some nodes, like the paper's street networks.
 
 A node is removed unless the rest would fall apart; then single edges if too many remain. Lattices
-are planar and simple, with degrees of 4 at most, and carry their positions.
+are planar, simple, and carry their positions.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal, get_args
 
@@ -16,10 +15,10 @@ from hypothesis.strategies import SearchStrategy
 
 from topo_verify.strategies.draws import (
     AT_MOST,
+    Sizes,
     at_most,
     draw_dart,
     marked_darts,
-    one_of,
     scaled,
     shown_as_called,
 )
@@ -55,9 +54,7 @@ def lattices(
 @st.composite
 def _lattices(draw: st.DrawFn, least: int, most: int, marker: LatticeMarker) -> World:
     bound = max(least, at_most(most, draw(st.sampled_from(AT_MOST))))
-    sizes = _sizes(least, bound)
-    columns = draw(sizes.columns)
-    rows = draw(sizes.rows[columns])
+    columns, rows = _sizes(least, bound).draw(draw)
     # shrinks to no holes
     turn, *holes = draw(st.binary(min_size=1, max_size=1 + most // _HOLES))
     grid = _rectangle(rows, columns)
@@ -68,32 +65,19 @@ def _lattices(draw: st.DrawFn, least: int, most: int, marker: LatticeMarker) -> 
     return _world(grid, lambda vertex: draw_dart(draw, marked_darts(vertex, marker), 2 * most))
 
 
-@dataclass(frozen=True, slots=True)
-class _RectangleSizes:
-    """Attributes of a rectangle.
-
-    Attributes:
-        columns: the longer side, once for each shorter side.
-        rows: for each longer side, a shorter one.
-    """
-
-    columns: SearchStrategy[int]
-    rows: dict[int, SearchStrategy[int]]
-
-
 @lru_cache(maxsize=256)
-def _sizes(least: int, bound: int) -> _RectangleSizes:
+def _sizes(least: int, bound: int) -> Sizes:
     """The rectangles with at least `least` edges and about `bound` at most.
 
-    A quarter and one column more leave room for holes, so every number of edges occurs in several
-    widths.
+    A quarter and one column more leave room for holes.
     """
     rows = {
         c: [r for r in range(1, c + 1) if least <= 2 * r * c - r - c <= bound * 5 // 4 + 2 * r]
         for c in range(1, bound * 5 // 4 + 4)
     }
-    columns = [c for c, fitting in rows.items() for _ in fitting]
-    return _RectangleSizes(one_of(columns), {c: one_of(rows[c]) for c in columns})
+    sizes = Sizes.of(rows)
+    assert sizes is not None, "one row of `least` edges fits"
+    return sizes
 
 
 def _rectangle(rows: int, columns: int) -> Grid:

@@ -1,7 +1,6 @@
 """Draws algorithms of the catalogue with all policies that the paper leaves open, and door words.
 
-The simplest policies are the reference's; the simplest mapper is basic with these; the simplest
-door word is (). Every claim holds for every mapper drawn.
+Every claim holds for every mapper drawn.
 """
 
 from __future__ import annotations

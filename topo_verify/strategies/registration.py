@@ -1,7 +1,6 @@
 """Registers three types and three profiles with Hypothesis.
 
-    st.from_type(World)   draws from `worlds()`; Algorithm from `mappers()`, Policies from
-                          `policies()`
+    st.from_type          World, Algorithm and Policies draw from the strategies of their names
     topo                  Hypothesis's own profile without a deadline, the pytest plugin's default
     topo-ci               the same examples everywhere, no deadline
     topo-nightly          new examples every time, fifty times as many

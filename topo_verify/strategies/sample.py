@@ -1,7 +1,7 @@
 """Draws worlds from a strategy outside of any test: the same ones for the same seed, everywhere.
 
-Hypothesis draws no two equal examples in one run. If a run yields too few, another follows under
-the next seed, and worlds repeat. What this does not show: only `uniform_worlds` are evenly spread.
+Hypothesis draws no two equal examples in one run; if it yields too few, another follows under the
+next seed. What this does not show: only `uniform_worlds` are evenly spread.
 """
 
 from __future__ import annotations
@@ -58,8 +58,7 @@ def sample(strategy: SearchStrategy[World], number: int, *, start: int = 0) -> l
 def drawing_no_literals() -> Generator[None]:
     """Within the block Hypothesis draws no literals of the loaded modules.
 
-    Otherwise draws would depend on loaded modules and on a folder `.hypothesis`. Hypothesis has no
-    setting for this.
+    Otherwise draws would depend on what is loaded and on a folder `.hypothesis`.
     """
     module: dict[str, Any] = providers.__dict__
     # other versions of Hypothesis lack these names
@@ -76,7 +75,6 @@ def drawing_no_literals() -> Generator[None]:
 
 
 def _one_run(strategy: SearchStrategy[World], number: int, start: int) -> list[World]:
-    """1 to `number` worlds of different choices."""
     drawn: list[World] = []
 
     @seed(start)

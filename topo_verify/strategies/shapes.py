@@ -50,7 +50,7 @@ class Shape:
         max_parallel, max_loops: edges between two vertices, and at one vertex.
         min_cycles, max_cycles: edges outside a spanning tree.
         dense: at least half as many edges as pairs of vertices.
-        leaf: the first vertex, which dart 0 leaves, has degree 1.
+        leaf: dart 0 leaves a vertex of degree 1.
     """
 
     min_genus: int = 0
@@ -191,16 +191,11 @@ def grown_shape(
     return Shape(
         min_genus=least,
         max_genus=most,
-        max_degree=degree_bound(strategy, max_degree),
+        max_degree=MANY if max_degree is None else integer(strategy, "max_degree", max_degree),
         max_parallel=1 if simple else MANY,
         max_loops=0 if simple or loopless else MANY,
         leaf=marker == "leaf",
     )
-
-
-def degree_bound(strategy: str, max_degree: object) -> int:
-    """The bound as a plain integer; `MANY` for None."""
-    return MANY if max_degree is None else integer(strategy, "max_degree", max_degree)
 
 
 def integer(strategy: str, name: str, value: object) -> int:

@@ -30,10 +30,10 @@ from hypothesis.strategies import SearchStrategy
 from topo_verify.errors import InputError
 from topo_verify.strategies.draws import (
     AT_MOST,
+    Sizes,
     at_most,
     draw_dart,
     marked_darts,
-    one_of,
     shown_as_called,
 )
 from topo_verify.strategies.growth import BALANCED, Grown, grow
@@ -53,19 +53,6 @@ _FIRST = st.sampled_from(
 
 _NUMBERS = 8
 """The least number of bytes that place the edges; they are read in a circle."""
-
-
-@dataclass(frozen=True, slots=True)
-class _CoverSizes:
-    """How large rosettes or necklaces may be.
-
-    Attributes:
-        smalls: darts of a rosette, or edges of a bead, once for each number of sheets.
-        sheets: the numbers of sheets for each of `smalls`.
-    """
-
-    smalls: SearchStrategy[int]
-    sheets: dict[int, SearchStrategy[int]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,8 +99,7 @@ def _symmetric(draw: st.DrawFn, shape: Shape, least: int, most: int, marker: Mar
         kinds = _kinds(shape, least, most)
     sizes = kinds[is_necklace] or kinds[not is_necklace]
     assert sizes is not None
-    size = draw(sizes.smalls)
-    sheets = draw(sizes.sheets[size])
+    size, sheets = sizes.draw(draw)
     numbers = cycle(draw(st.binary(min_size=_NUMBERS, max_size=_NUMBERS + 2 * most)))
     if sizes is kinds[0]:
         small = rosette(shape, sheets, size, numbers)
@@ -141,7 +127,7 @@ def cover(small: Small, sheets: int, root: Dart) -> World:
 
 
 @lru_cache(maxsize=256)
-def _kinds(shape: Shape, least: int, most: int) -> tuple[_CoverSizes | None, _CoverSizes | None]:
+def _kinds(shape: Shape, least: int, most: int) -> tuple[Sizes | None, Sizes | None]:
     # n·darts/2 edges of a rosette, n·edges of a bead; -(-a // b) rounds up
     rosettes = {0: [1] * (least == 0 and not shape.leaf)}
     for darts in range(1, min(2 * most, shape.max_degree) + 1):
@@ -151,14 +137,7 @@ def _kinds(shape: Shape, least: int, most: int) -> tuple[_CoverSizes | None, _Co
     for edges in range(1, most // 2 + 1):
         sheets = range(max(2, -(-least // edges)), most // edges + 1)
         necklaces[edges] = [n for n in sheets if _bead(shape, n).is_possible(edges)]
-    return _drawn(rosettes), _drawn(necklaces)
-
-
-def _drawn(sheets: dict[int, list[int]]) -> _CoverSizes | None:
-    smalls = [small for small, numbers in sheets.items() for _ in numbers]
-    if not smalls:
-        return None
-    return _CoverSizes(one_of(smalls), {small: one_of(sheets[small]) for small in smalls})
+    return Sizes.of(rosettes), Sizes.of(necklaces)
 
 
 def _is_rosette(shape: Shape, sheets: int, darts: int) -> bool:
@@ -174,7 +153,7 @@ def _is_rosette(shape: Shape, sheets: int, darts: int) -> bool:
 def _bead(shape: Shape, sheets: int) -> Shape:
     """The bounds on a bead whose cover keeps the bounds of the shape.
 
-    Parallel edges and loops of the bead come apart in the cover if their shifts differ.
+    Its parallel edges and loops come apart if their shifts differ.
     """
     if shape.max_parallel == 1:
         return replace(shape, min_cycles=1, max_parallel=sheets, max_loops=(sheets - 1) // 2)

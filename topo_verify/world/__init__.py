@@ -9,16 +9,9 @@ from topo_verify.world.rooted_map import World
 
 # rooted_map.py    World: rotations and a marker; genus, canonical code, ids
 # validation.py    refuses what does not make a world
-# least_cost.py    the least cost of a proof, and a walk of that cost
-# unrooted.py      counts worlds without their marker
-# twins.py         worlds that look the same without the marker's direction
-# enumeration/     every world of a size or class
-# families/        lattices, tori, solids, shapes, random graphs and maps
-# formats/         world JSON, planar_code, NetworkX, GraphML, SUMO
-# drawing/         pictures with the true cyclic order; loads numpy
-# io.py            reads and writes files
-# resolve.py       WORLD on a command line
-# data/            the street network of the package
+# least_cost.py    the least cost of a proof; unrooted.py, twins.py: worlds without their marker
+# enumeration/, families/, formats/, drawing/ (imported late: loads numpy)
+# io.py            reads and writes files; resolve.py: WORLD on a command line
 
 World.formats = io
 setattr(World, "_repr_html_", io.notebook)  # noqa: B010  the class knows no picture

@@ -109,8 +109,8 @@ def covering_walk(
 ) -> list[int]:
     """The darts of a walk that makes these trips and walks the tree edges above these vertices.
 
-    The first trip may begin anywhere; all others begin and end at v0. Tree edges off the trips are
-    walked there and back, the last branch only there.
+    All trips but the first begin at v0, and all end there. Tree edges off the trips are walked
+    there and back, the last branch only there.
     """
     core = {0, *(tree.vertex[dart] for trip in trips for dart in trip)}
     reached = {*core}

@@ -39,7 +39,14 @@ class _Formats(Protocol):
     def decode(self, cls: type[W], text: str | bytes) -> W: ...
     def encode(self, world: World) -> str: ...
     def save(self, world: World, path: str | PathLike[str]) -> None: ...
-    def draw(self, world: World, path: str | PathLike[str] | None, **marks: bool) -> str: ...
+    def draw(
+        self,
+        world: World,
+        path: str | PathLike[str] | None,
+        *,
+        doors: bool = ...,
+        darts: bool = ...,
+    ) -> str: ...
     def twin(self, world: World, model: Literal["undirected", "none"]) -> World | None: ...
 
 
@@ -149,10 +156,10 @@ class World:
 
     @classmethod
     def load(cls, path: str | PathLike[str], *, graph: int | None = None) -> Self:
-        """The world in a file of any format of `io.py`.
+        """The world in a file of any format.
 
         Args:
-            graph: index of the graph in a file of planar_code.
+            graph: index of the graph in a file of planar_code; default: the only one.
         Raises:
             InputError: the file cannot be read, or holds no world.
         """

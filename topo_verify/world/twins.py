@@ -4,13 +4,13 @@ Such a robot senses the degree, and whether the marker is here (`undirected`), o
 (`none`). Two darts are **alike** if no walk from them senses a difference.
 
 **Making a twin.** Exchanging the far ends of two edges with alike darts changes nothing that a
-robot senses. If the result is connected and not isomorphic to the original, it is a twin. Without a
-marker, two copies of the world, joined crosswise at an edge on a cycle, are one.
+robot senses. A connected result that is not isomorphic to the original is a twin. Without a marker,
+two copies of the world, joined crosswise at an edge on a cycle, are one.
 
 **No twin.** A world that looks like W covers W's quotient by alike darts with N sheets as W does,
 because the mark lies on one vertex. Only one such world exists if N = 1, if W has at most one
-cycle, or if N = 2 and the quotient has no cycle. In all other cases up to 6 edges one exchange
-makes a twin (`benchmarks/twins.py`); beyond, this is not proved. Without a marker only trees are
+cycle, or if N = 2 and the quotient has no cycle. Otherwise, up to 6 edges, one exchange makes a
+twin (`benchmarks/twins.py`); beyond, this is not proved. Without a marker only trees are
 determined.
 """
 
@@ -69,7 +69,7 @@ def no_twin(world: World, model: MarkerModel) -> str:
 
 
 def alike_darts(world: World, model: MarkerModel) -> list[int]:
-    """The class of each dart; equal for darts that are alike."""
+    """The class of each dart."""
     classes, count = _numbered(sensed(world, model)), 0
     while count != (count := len(set(classes))):
         pairs = zip(classes, world.sigma, world.alpha, strict=True)
@@ -107,7 +107,6 @@ def _numbered(keys: Iterable[Hashable]) -> list[int]:
 
 
 def _has_cycle(world: World, classes: Sequence[int]) -> bool:
-    """Whether the quotient by alike darts has a cycle; half an edge is none."""
     representative = {own: dart for dart, own in enumerate(classes)}
     sigma = [classes[world.sigma[representative[own]]] for own in range(len(representative))]
     edges = {frozenset((classes[a], classes[b])) for a, b in world.edges}

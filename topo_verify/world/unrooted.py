@@ -2,8 +2,8 @@
 
 They are the connected pairs (alpha, sigma) on 2m darts, up to renumbering. By Burnside's lemma, all
 pairs are counted by a sum over permutations g of the darts, one of each cycle type, of the
-fixed-point-free involutions that commute with g; the sigma that commute with g cancel with the
-order of its centraliser. On j cycles of length k there are
+fixed-point-free involutions that commute with g; the commuting sigma cancel with the order of g's
+centraliser. On j cycles of length k there are
 
     c(k, j) = sum over i of  j! / (i! 2^i (j - 2i)!) * k^i * [k is even or j = 2i]
 
@@ -67,7 +67,6 @@ def _pairs(edges: int) -> list[int]:
 
 
 def _involutions(k: int, j: int) -> int:
-    """The fixed-point-free involutions that commute with j cycles of length k."""
     return sum(
         factorial(j) // (factorial(i) * 2**i * factorial(j - 2 * i)) * k**i
         for i in range(j // 2 + 1)

@@ -62,7 +62,7 @@ def test_the_sizes_are_those_at_which_a_mapper_confirms_what_is_false(
     found = next(
         len(world.edges)
         for world in worlds(range(1, 5))
-        if kind.contains(world)
+        if kind.admits(world.code)
         and "no-false-confirm" in failing(world, explore(world, mapper[case.marker]).trace)
     )
     assert found == case.edges

@@ -49,8 +49,8 @@ def torus_cell(world: World) -> Layout | None:
     if world.genus != 1 or len(set(world.degrees)) > 1 or len(set(map(len, world.faces))) > 1:
         return None
     torus = _shifted(_flat(world))
-    corners = np.array([(0, 0), (1, 0), (1, 1), (0, 1)]) @ torus.sides
-    low, high = corners.min(0), corners.max(0)
+    square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
+    low, high = (square @ torus.sides).min(0), (square @ torus.sides).max(0)
     lengths = np.hypot(*(torus.steps @ torus.sides).T)
     radius = min(0.17 * float(lengths.min()), 0.8 * _to_border(torus))
     scale = RADIUS / radius
@@ -61,7 +61,6 @@ def torus_cell(world: World) -> Layout | None:
         return np.stack([(x - low[0]) * scale + margin, (high[1] - y) * scale + margin], 1)
 
     size = (high - low) * scale + 2 * margin
-    outline = on_page(np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]))
     return Layout(
         kind="cell",
         width=round(float(size[0]), 2),
@@ -77,7 +76,7 @@ def torus_cell(world: World) -> Layout | None:
             )
             for a, _ in world.edges
         ),
-        cell=CutSurface(_points(outline), "abab"),
+        cell=CutSurface(_points(on_page(square)), "abab"),
     )
 
 
@@ -215,7 +214,7 @@ def _to_corner(torus: _Torus) -> float:
 
 
 def _parts(place: Floats, step: Floats, trim: float) -> list[Floats]:
-    """The pieces of an edge within the cell, trimmed at the circles, in fractions of the sides."""
+    """The pieces of an edge within the cell, in fractions of the sides."""
     times = {trim, 1 - trim}
     for start, length in zip(place.tolist(), step.tolist(), strict=True):
         low, high = sorted((start, start + length))

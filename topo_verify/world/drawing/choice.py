@@ -1,13 +1,13 @@
 """Chooses how a world is drawn, and tries again until the picture is true.
 
-Of a world that is too large, a ball is drawn: the part around a dart.
+Of a large world a ball is drawn: the part around a dart.
 """
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from topo_verify.errors import InternalError
 from topo_verify.world.drawing import curves, read_back
@@ -44,8 +44,7 @@ def lay_out(world: World, *, centre: Dart | None = None) -> Layout:
         layout = _true(world, sketch)
         if layout is not None:
             return layout
-    if world.root is None:
-        raise InternalError(f"no true picture of {world!r} was found")
+    assert world.root is not None, "a vertex alone is drawn true"
     return _ball(world, world.root)
 
 
@@ -193,11 +192,9 @@ def put_back(around: Ball, layout: Layout) -> Layout:
             if end not in places:
                 places[end] = places[vertex]
                 queue.append(end)
-    return Layout(
+    return replace(
+        layout,
         kind="ball",
-        width=layout.width,
-        height=layout.height,
-        radius=layout.radius,
         centres=tuple(places[vertex] for vertex in range(len(world.vertices))),
         paths=tuple(paths),
         bridges=bridges,

@@ -23,7 +23,7 @@ def number(value: float) -> str:
 
 def straight(points: Iterable[Point]) -> str:
     """Path data of the polyline."""
-    return "M" + "L".join(f"{number(x)} {number(y)}" for x, y in points)
+    return "M" + "L".join(map(_pair, points))
 
 
 def smooth(points: Sequence[Point], rounding: float = 0.5) -> str:
@@ -106,6 +106,17 @@ def piece(points: Floats, middle: float, half: float) -> str:
     return straight(dict.fromkeys((x, y) for x, y in ends.tolist()))
 
 
+def distances(points: Floats, line: Floats) -> Floats:
+    """The distance of each point from the polyline."""
+    start, step = line[:-1], np.diff(line, axis=0)
+    square = np.maximum((step**2).sum(1), 1e-24)
+    offset = points[:, None] - start[None]
+    t = np.clip((offset * step[None]).sum(2) / square, 0, 1)
+    gap = offset - t[:, :, None] * step[None]
+    apart: Floats = np.sqrt((gap**2).sum(2)).min(1)
+    return apart
+
+
 class Crossing(NamedTuple):
     """Two curves cross."""
 
@@ -140,7 +151,6 @@ def crossings(curves: Sequence[Floats]) -> list[Crossing]:
 
 
 def _legs(curves: Sequence[Floats]) -> tuple[Floats, Floats, Ints, Ints, Floats]:
-    """Start, step, curve, place and distance along it."""
     curves = [curve if len(curve) > 1 else np.zeros((1, 2)) for curve in curves]
     starts = np.concatenate([np.zeros((0, 2)), *(curve[:-1] for curve in curves)])
     steps = np.concatenate([np.zeros((0, 2)), *(np.diff(curve, axis=0) for curve in curves)])

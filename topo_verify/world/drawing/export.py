@@ -89,7 +89,7 @@ def _rendered(layout: Layout, svg: str, kind: Literal["png", "pdf"]) -> bytes:
 
 
 def _page(world: World, layout: Layout, svg: str) -> str:
-    """A page without requests or scripts; its policy allows two styles by their hashes."""
+    """No requests, no scripts; the policy allows two styles by their hashes."""
     own = (
         "body{margin:0;background:#fdfcf9;color:#22282e;font:16px system-ui,sans-serif}"
         "main{display:flex;min-height:100vh;align-items:center;justify-content:center}"

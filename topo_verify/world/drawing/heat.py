@@ -1,10 +1,9 @@
 """A world coloured by a cost for each dart: where to put the marker, and where to point it.
 
-A disc on each vertex has the colour of the mean over its darts (`data-mean`), a stroke along each
-dart that of its cost (`data-dart`, `data-cost`). The arrow stands on the best dart, a dashed ring
-around the vertex of the worst. The scale is perceptually uniform, also for colour-blind eyes (J. R.
-Nuñez, C. R. Anderton, R. S. Renslow: "Optimizing colormaps with consideration for color vision
-deficiency", PLOS ONE 13(7), 2018).
+A disc on each vertex has the colour of the mean over its darts, a stroke along each dart that of
+its cost. The arrow stands on the best dart, a dashed ring around the vertex of the worst. The scale
+is perceptually uniform, also for colour-blind eyes (J. R. Nuñez, C. R. Anderton, R. S. Renslow:
+"Optimizing colormaps with consideration for color vision deficiency", PLOS ONE 13(7), 2018).
 """
 
 from __future__ import annotations

@@ -46,13 +46,12 @@ class Layout:
     """Where everything in a picture of a world lies.
 
     Attributes:
-        kind: `positions` of the file, `planar` without crossings, planar with `bridges`, a `cell`
-            of a cut surface, or a `ball`.
+        kind: `planar` has no crossings, `bridges` has some, `cell` is a cut surface.
         centres: of the vertices; of a hidden one, where the way to it leaves the ball.
         paths: path data of each edge, from the circle at its lesser dart; several parts if it
             leaves a cell, none if hidden.
-        stubs: in a ball, the beginnings of edges whose other vertex is hidden: dart and path data.
-        hidden: in a ball, the vertices that are not shown.
+        stubs: the beginnings of edges whose other vertex is hidden: dart and path data.
+        hidden: the vertices outside of the ball.
     """
 
     kind: Kind
@@ -86,7 +85,7 @@ class Sketch:
         centres: of the vertices, an (n, 2) array.
         chains: the control points of each edge, from centre to centre, the lesser dart first.
         bridges: the number of crossings; None: any.
-        turn: whether it may be turned to lie wide.
+        turn: whether it may be turned.
     """
 
     kind: Kind
@@ -154,7 +153,6 @@ def _towards(step: Floats) -> Floats:
 
 
 def _upright(sketch: Sketch) -> tuple[Floats, list[Floats]]:
-    """Centres and chains with y downwards, turned wide if allowed."""
     turn = np.array([[1.0, 0.0], [0.0, -1.0]])
     if sketch.turn and len(sketch.centres) > 1:
         points = np.concatenate([sketch.centres, *sketch.chains])
@@ -188,20 +186,9 @@ def clear_radius(centres: Floats, chains: Sequence[Floats], rounding: float) -> 
         # enlarged: path data has two decimals
         scale = 1e4 / max(float(np.abs(chain).max()), 1e-12)
         data = curves.smooth([(x, y) for x, y in (chain * scale).tolist()], rounding)
-        apart = distances(centres, curves.flatten(data) / scale)
+        apart = curves.distances(centres, curves.flatten(data) / scale)
         own = (np.abs(centres - chain[0]).max(1) == 0) | (np.abs(centres - chain[-1]).max(1) == 0)
         if not own.all():
             limits.append(0.62 * float(apart[~own].min()))
     # coinciding vertices make the picture untrue
     return max(min(limits), 2e-4 * float(_box(centres, chains)[1].max()), 1e-9)
-
-
-def distances(points: Floats, line: Floats) -> Floats:
-    """The distance of each point from the polyline."""
-    start, step = line[:-1], np.diff(line, axis=0)
-    square = np.maximum((step**2).sum(1), 1e-24)
-    offset = points[:, None] - start[None]
-    t = np.clip((offset * step[None]).sum(2) / square, 0, 1)
-    gap = offset - t[:, :, None] * step[None]
-    apart: Floats = np.sqrt((gap**2).sum(2)).min(1)
-    return apart

@@ -152,7 +152,7 @@ class _Energy:
     """The energy of one mesh and its derivatives.
 
     Attributes:
-        inverse: of the wished shape of each triangle: its edges from the first corner as columns.
+        inverse: of each triangle's wished shape, edges from the first corner as columns.
         free: the coordinates that may move, in the order x0 y0 x1 y1 …
     """
 
@@ -186,7 +186,7 @@ class _Energy:
         """The step, the gradient, the wishes that they serve, and the worst triangle's energy.
 
         Args:
-            near: whether wishes are brought nearer, and steps are bolder.
+            near: bring wishes nearer, and take bolder steps.
         """
         u, s, v = np.linalg.svd(self.jacobians(places, self.inverse))
         worst = float((s**2 + s**-2).sum(1).max())

@@ -7,8 +7,8 @@ Gutwenger, "Advances in the Planarization Method", JGAA 16 (2012)). A half-edge 
 its left.
 
 **The mesh** has points on every edge, a centre of every face, and a collar within a face that
-touches itself, so it has no loops and no parallel edges. The outer face becomes a ring of triangles
-with a large triangle around it. An edge of the mesh should be as long as the radii of its points.
+touches itself, so it has no loops and no parallel edges. A ring of triangles replaces the outer
+face. An edge of the mesh should be as long as the radii of its points.
 """
 
 from __future__ import annotations
@@ -210,7 +210,6 @@ def _spanning_tree(world: World, random: Random) -> list[Dart]:
 
 
 def _insert_uncrossed(plane: PlaneMap, rest: list[int]) -> list[int]:
-    """Insert what fits without a crossing; returns the others."""
     while True:
         crossing: list[int] = []
         for number in rest:
@@ -255,8 +254,8 @@ class Mesh:
         weights: of the triangles' shapes.
         radii: the wished radius of each point.
         frame: the outermost triangle, counter-clockwise.
-        between: the points inside each half-edge, from its node on.
-        lines: three consecutive points each, along the edges of the world.
+        between: the points inside each half-edge.
+        lines: three consecutive points each, along edges.
     """
 
     size: int

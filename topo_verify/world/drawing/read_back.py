@@ -14,7 +14,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from topo_verify.world.drawing.arrays import Floats
-from topo_verify.world.drawing.curves import crossings, flatten
+from topo_verify.world.drawing.curves import crossings, distances, flatten
 from topo_verify.world.rooted_map import Dart, World
 
 TOLERANCE = 0.03
@@ -198,20 +198,9 @@ def _touches(picture: Picture, world: World) -> Iterator[str]:
     for edge, line in lines:
         own = {world.vertex_of[dart] for dart in edge}
         points = np.concatenate([line, (line[1:] + line[:-1]) / 2])
-        into = inside(rows, line)
+        into = distances(rows[:, :2], line) < rows[:, 2]
         for k in np.flatnonzero(into).tolist():
             if vertices[k] not in own:
                 yield f"edge {edge} runs through vertex {vertices[k]}"
             elif np.hypot(*(points - rows[k][:2]).T).min() < rows[k][2] - 2 * TOLERANCE:
                 yield f"edge {edge} comes back into its own vertex {vertices[k]}"
-
-
-def inside(circles: Floats, line: Floats) -> Floats:
-    """Which of the circles the polyline touches."""
-    start, step = line[:-1], np.diff(line, axis=0)
-    offset = circles[:, None, :2] - start[None]
-    square = np.maximum((step**2).sum(1), 1e-24)
-    t = np.clip((offset * step[None]).sum(2) / square, 0, 1)
-    gap = offset - t[:, :, None] * step[None]
-    into: Floats = (gap**2).sum(2).min(1) < circles[:, 2] ** 2
-    return into

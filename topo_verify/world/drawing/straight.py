@@ -1,6 +1,6 @@
 """Drawings with straight edges: trees, and the positions of the world's file.
 
-**Springs** spread a drawing evenly, and no edge ever crosses another: a vertex moves at most a
+**Springs** spread a drawing evenly. No edge ever crosses another, since a vertex moves at most a
 third of the way to any foreign edge, and so do that edge's ends (P. Simonetto, D. Archambault, D.
 Auber and R. Bourqui, "ImPrEd: An Improved Force-Directed Algorithm that Prevents Nodes from
 Crossing Edges", EuroVis 2011).

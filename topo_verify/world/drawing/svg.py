@@ -1,6 +1,6 @@
 """A layout as SVG: literal colours for light, a media query for dark; every text escaped.
 
-docs/commands.md, section "world draw", promises how scripts find vertices and edges.
+docs/commands.md, "world draw", promises how scripts find vertices and edges.
 """
 
 from __future__ import annotations
@@ -159,10 +159,10 @@ def arrow(world: World, layout: Layout, dart: Dart) -> Iterator[str]:
     base, end = curves.place(along, reach - tip), curves.place(along, reach)
     ahead = (end - base) / max(float(np.hypot(*(end - base))), 1e-9)
     side = np.array([-ahead[1], ahead[0]]) * 0.42 * tip
-    head = "L".join(f"{number(x)} {number(y)}" for x, y in (base + side, end, base - side))
+    head = curves.straight([(x, y) for x, y in (base + side, end, base - side)])
     width = number(0.32 * min(size, reach))
     yield f'<path class="tv-mark" stroke-width="{width}" d="{shaft}"/>'
-    yield f'<path class="tv-tip" d="M{head}Z"/>'
+    yield f'<path class="tv-tip" d="{head}Z"/>'
 
 
 def legible(layout: Layout) -> float:

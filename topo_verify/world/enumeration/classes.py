@@ -85,10 +85,6 @@ class WorldClass:
         }
         return ",".join(term for term, holds in terms.items() if holds) or "any"
 
-    def contains(self, world: World) -> bool:
-        """Whether the world is in the class."""
-        return self.admits(world.code)
-
     def admits(self, table: rank_order.Table) -> bool:
         """Whether the world with this table is in the class, without making a `World`."""
         # the genus walks every face, so it comes last
@@ -108,9 +104,6 @@ class WorldClass:
 
         Genera are counted by a formula, properties of the graph by `count_graphs`, both together by
         listing. None uses the pruned search, so a search that reaches the number was complete.
-
-        Raises:
-            InputError: more edges than can be counted.
         """
         if self._has_formula:
             return self._count_by_formula(edges)
@@ -127,11 +120,7 @@ class WorldClass:
         return sum(map(self.admits, rank_order.tables(edges)))
 
     def sample(self, edges: int, random: Random) -> World:
-        """A world of the class, exactly uniform, by rejection.
-
-        Raises:
-            InputError: the class is empty or too rare for `MAX_TRIES` draws.
-        """
+        """A world of the class, exactly uniform, by rejection; InputError if it is too rare."""
         if self._has_formula:
             inside, total = self._count_by_formula(edges), rank_order.count(edges)
             if not inside:

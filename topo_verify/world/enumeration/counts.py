@@ -46,7 +46,7 @@ def count_graphs(
     """The number of rooted maps of any genus with this many edges and these properties.
 
     Raises:
-        InputError: a negative number of edges, or more than can be counted.
+        InputError: more edges than can be counted.
     """
     if edges < 0:
         raise InputError(f"expected 0 or more edges, got {edges}")

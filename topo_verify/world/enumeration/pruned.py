@@ -29,10 +29,7 @@ from topo_verify.world.rooted_map import World
 
 
 class Pruner(Protocol):
-    """Follows one property while a map grows; a step returns None if no completion can have it.
-
-    `to_create` is the number of darts to create after the step.
-    """
+    """Follows one property while a map grows; a step returns None if no completion can have it."""
 
     def join(self, dart: int, partner: int, to_create: int) -> Pruner | None:
         """The pruner after joining two open darts to an edge."""
@@ -127,7 +124,6 @@ def _all(pruners: Iterator[Pruner | None]) -> tuple[Pruner, ...] | None:
 
 
 def _pruners(kind: WorldClass, edges: int, degree: int) -> tuple[Pruner, ...] | None:
-    """The pruners for a root of this degree, if the class has such a root."""
     pruners: list[Pruner] = []
     to_create = 2 * edges - degree
     if kind.most_degree is not None:
@@ -170,7 +166,7 @@ class GenusPruner(NamedTuple):
     exact: bool
 
     def join(self, dart: int, partner: int, to_create: int) -> GenusPruner | None:
-        """Cuts the word of both darts in two, or merges their two words, which takes a handle."""
+        """Cuts the word of both darts in two, or merges their two words."""
         with_dart = next(word for word in self.words if dart in word)
         others = [word for word in self.words if word is not with_dart]
         ahead = _turned(with_dart, dart)
@@ -256,7 +252,7 @@ class NeighbourPruner(NamedTuple):
         return grown if grown.feasible(to_create) else None
 
     def feasible(self, to_create: int) -> bool:
-        """Whether each open dart can end at another vertex, if `simple` each at a different one."""
+        """Whether each open dart can end at another vertex."""
         if not self.simple:
             # the largest vertex decides: max <= (sum - max) + to_create
             return 2 * max(self.opened) <= sum(self.opened) + to_create

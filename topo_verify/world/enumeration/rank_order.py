@@ -95,7 +95,7 @@ def rank(table: Table) -> int:
     """The number of the map in the enumeration, from 0, in O(m²) steps on long integers.
 
     Args:
-        table: a canonical code (`World.code`); any other numbering gives a meaningless number.
+        table: a canonical code; any other numbering gives a meaningless number.
     """
     degrees, alpha = table
     if not alpha:
@@ -192,10 +192,7 @@ _TAIL = 8
 
 
 def tables(edges: int, start: int = 0, stop: int | None = None) -> Iterator[Table]:
-    """The rooted maps of ranks start … stop-1 (default: all), in order.
-
-    A shard costs what it yields; earlier subtrees are skipped whole.
-    """
+    """The rooted maps of ranks start … stop-1, in order; a shard costs what it yields."""
     total = count(edges)
     stop = total if stop is None else min(stop, total)
     return islice(_tables_from(edges, start), min(max(0, stop - start), sys.maxsize))

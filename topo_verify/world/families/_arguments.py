@@ -39,15 +39,6 @@ def size(family: str, size: tuple[int, int], *, darts_each: int) -> tuple[int, i
     return rows, columns, darts_each * rows * columns
 
 
-def require_darts(family: str, darts: int) -> None:
-    """Refuse a world that might get too large."""
-    if darts > MAX_DARTS:
-        raise InputError(
-            f"{family}: so large a world might have more than {MAX_DARTS} darts (two an edge): ask"
-            " for a smaller one"
-        )
-
-
 def settled(
     family: str,
     *places: float,
@@ -58,14 +49,12 @@ def settled(
 ) -> tuple[str, Dart | None, Random]:
     """The world's name, the marker (None: to be drawn) and the source of all draws."""
     seed = integer(family, "seed", seed, 0)
-    require_darts(family, darts)
+    if darts > MAX_DARTS:
+        raise InputError(
+            f"{family}: so large a world might have more than {MAX_DARTS} darts (two an edge): ask"
+            " for a smaller one"
+        )
     marker = None if marker is None else integer(family, "marker", marker, 0)
-    return name(family, *places, holes=holes, seed=seed, marker=marker), marker, Random(seed)
-
-
-def name(family: str, *places: float, marker: Dart | None, **options: float) -> str:
-    """The call that makes the world again, without a drawn marker and options of 0."""
-    given = [f"{key}={value!r}" for key, value in options.items() if value]
-    if marker is not None:
-        given.append(f"marker={marker}")
-    return f"{family}({','.join([*map(repr, places), *given])})"
+    given = [f"{key}={value!r}" for key, value in (("holes", holes), ("seed", seed)) if value]
+    given += [] if marker is None else [f"marker={marker}"]
+    return f"{family}({','.join([*map(repr, places), *given])})", marker, Random(seed)

@@ -136,7 +136,7 @@ def planar_map(word: Sequence[int], steps: Sequence[int], *, coin: int) -> tuple
     Args:
         word: the tree, ups (1) and downs (-1), at least one.
         steps: the rise of the label along each edge, in the order of the ups.
-        coin: 0 for vertices with labels of the root's parity.
+        coin: 0 for labels of the root's parity.
     """
     # one end of each arc is a vertex of the map
     vertices, labels = _corners(word, steps)
@@ -173,7 +173,7 @@ def _corners(word: Sequence[int], steps: Sequence[int]) -> tuple[list[int], list
 
 
 def _quadrangulation(vertices: Sequence[int], labels: Sequence[int]) -> list[Dart]:
-    """The next dart clockwise of each; arc i has dart 2i at corner i, 2i+1 at its end."""
+    """The next dart clockwise of each; arc i has darts 2i and 2i+1, the latter at its end."""
     corners = len(labels)
     arriving: list[list[Dart]] = [[] for _ in range(corners)]
     at_new: list[Dart] = []

@@ -15,7 +15,7 @@ from contextlib import suppress
 from fractions import Fraction
 from functools import cmp_to_key
 from itertools import pairwise
-from math import hypot
+from math import dist
 from typing import Any, NamedTuple, TypeVar
 
 from topo_verify.errors import InputError, shown
@@ -105,19 +105,15 @@ def _course(way: DrawnEdge, places: Sequence[DrawnVertex]) -> tuple[Point, ...]:
             f"at vertex '{shown(start.name)}' begins {subject} a single point, so it leaves in"
             " no direction: give it a geometry with two different points, or leave it out"
         )
-    as_is = _apart(course[0], start.at) + _apart(course[-1], end.at)
-    turned = _apart(course[-1], start.at) + _apart(course[0], end.at)
+    as_is = dist(course[0], start.at) + dist(course[-1], end.at)
+    turned = dist(course[-1], start.at) + dist(course[0], end.at)
     return course[::-1] if turned < as_is else course
-
-
-def _apart(a: Point, b: Point) -> float:
-    return hypot(a[0] - b[0], a[1] - b[1])
 
 
 def _merged(
     ways: Sequence[DrawnEdge], courses: Sequence[tuple[Point, ...]]
 ) -> tuple[list[int], dict[int, int]]:
-    """The ways that stay, and for each other way the one that it repeats backwards."""
+    """The ways that stay, and by each other way the one that it repeats."""
     kept: list[int] = []
     same: dict[int, int] = {}
     waiting: dict[tuple[int, int, tuple[Point, ...]], list[int]] = {}

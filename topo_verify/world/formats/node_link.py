@@ -5,8 +5,8 @@
      "nodes": [{"rotation": [0], "id": 0}, {"rotation": [1], "id": 1}],
      "edges": [{"darts": [0, 1], "source": 0, "target": 1, "key": 0}]}
 
-rotated.py names the attributes. `links`, the former name of `edges`, is read as well. Other fields
-are ignored; repeated ones are refused.
+`links`, the former name of `edges`, is read as well. Other fields are ignored; repeated ones are
+refused.
 """
 
 from __future__ import annotations

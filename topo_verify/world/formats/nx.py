@@ -149,13 +149,13 @@ def from_positions(
     """The world of a drawn graph, directed or not, multigraph or not.
 
     Args:
-        graph: its edges may have an attribute `geometry`: a list of (x, y), a text such as
-            LINESTRING (0 0, 1 2), or an object with `coords`; default: straight.
+        graph: its edges may have a `geometry`: a list of (x, y), a text such as LINESTRING (0 0, 1
+            2), or an object with `coords`; default: straight.
         positions: (x, y) of each node; default: the nodes' own attributes, `x` and `y` or `pos`.
         marker: (node, neighbour) or (node, neighbour, key).
     Raises:
-        InputError: a position or geometry is missing or malformed, two edges leave a node at one
-            angle, the graph is empty or not connected, or the marker names no edge or several.
+        InputError: positions or geometry are malformed, two edges leave a node at one angle, the
+            graph is empty or not connected, or the marker names no edge or several.
     """
     given = cast("Any", graph)
     nodes: dict[Any, int] = {node: number for number, node in enumerate(given)}
@@ -209,7 +209,7 @@ def _row(value: Any, subject: str) -> list[Any]:
 def _marked(marker: MarkerEnds, labels: Sequence[tuple[Any, ...]]) -> DrawnEnd:
     """The end of an edge that the marker names; of a loop, its start.
 
-    In a directed graph an edge in this direction precedes one against it.
+    Of two directions, the marker's own comes first.
     """
     near, key = marker[:2], marker[2:]
     for side, ends in ((0, near), (1, near[::-1])):

@@ -3,13 +3,13 @@
     >>planar_code<<  3  2 3 0  1 3 0  1 2 0       (a triangle; a number is a byte)
 
 After the optional head come the graphs: the number of vertices, then for each vertex its neighbours
-in clockwise order, from 1, and a zero. A graph of more than 255 vertices begins with a zero byte,
-and its numbers have two bytes, the high byte first unless the head is `>>planar_code le<<`.
+in clockwise order, from 1, and a zero. With more than 255 vertices a graph begins with a zero byte
+and has numbers of two bytes, the high byte first unless the head is `>>planar_code le<<`.
 
 What this does not show: that the writer meant clockwise; a mirror image is a valid file.
 
-Source: docs/formats.md; G. Brinkmann and B. D. McKay, plantri-guide.txt; for the head and the byte
-    order the guide of CaGe and `planarg` of nauty 2.8.
+Source: docs/formats.md; G. Brinkmann and B. D. McKay, plantri-guide.txt; the guide of CaGe and
+    `planarg` of nauty 2.8 (head, byte order).
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Graphs that carry a rotation: a world as NetworkX, GraphML and node-link JSON can hold it.
 
-The graph is an undirected multigraph with the attributes of docs/formats.md, "Graphs with a
-rotation"; others are ignored.
+The attributes are those of docs/formats.md, "Graphs with a rotation".
 """
 
 from __future__ import annotations

@@ -3,9 +3,8 @@
     {"format": "topo-verify/world", "version": 1, "name": "triangle",
      "vertices": [[0, 5], [1, 2], [3, 4]], "edges": [[0, 1], [2, 3], [4, 5]], "marker": 0}
 
-Darts are any distinct integers, renumbered in ascending order. Reading is strict (no unknown or
-repeated field), because results about a misread world are worthless. What this does not show: that
-rotations were meant clockwise. A mirror image is a valid file.
+Reading is strict (no unknown or repeated field), because results about a misread world are
+worthless. What this does not show: that rotations were meant clockwise.
 
 Source: docs/semantics.md, section 14.
 """
@@ -79,8 +78,8 @@ class _Header(msgspec.Struct):
 
 def schema() -> dict[str, Any]:
     """The JSON Schema of a world file, as in `world.schema.json`."""
-    made = msgspec.json.schema(WorldFile)
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **made}
+    draft = "https://json-schema.org/draft/2020-12/schema"
+    return {"$schema": draft, **msgspec.json.schema(WorldFile)}
 
 
 def decode(cls: type[W], text: str | bytes, *, name: str = "world JSON", stem: str = "") -> W:
