@@ -1,7 +1,7 @@
 """Enhancement I, stage 1: percepts on the common prefix of doors (rule `prefix`).
 
-If the ways home of two hypotheses begin with the same doors, both lead from vu through the same
-places and must expect the same percepts there. (Stage 2 is `motion.overlap`.)
+If the ways home of two hypotheses begin with the same doors, both must expect the same percepts
+there. (Stage 2 is `motion.overlap`.)
 
 Source: section III-A of the paper; listing 2, lines 16-19.
 """

@@ -140,7 +140,7 @@ def retrace(hypotheses: Sequence[Hypothesis], last: Executed | None) -> Choice:
 
 
 def overlap(hypotheses: Sequence[Hypothesis], last: Executed | None) -> Choice:
-    """The hypothesis with the longest prefix of the last sequence, walked from where they part."""
+    """The hypothesis with the longest common prefix, walked from where it ends."""
     doors = () if last is None else last.doors
     shared = [common_prefix(h.doors, doors) for h in hypotheses]
     longest = max(shared)

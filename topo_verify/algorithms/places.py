@@ -1,7 +1,6 @@
 """The places of a fold: history.py reaches `PartialFold` only through this file.
 
-A **place** is a node of the fold that stands for all nodes identified with it: a vertex of S or a
-ghost. The places of a layer are those under the layer's assumption.
+A **place** is a node that stands for all nodes identified with it: a vertex of S or a ghost.
 """
 
 from __future__ import annotations

@@ -39,7 +39,7 @@ from topo_verify.algorithms.history import History
 from topo_verify.robot.events import MapDart, Robot
 
 PATIENCE = 60
-"""Moves behind edges that may settle none; on a torus they run out now and then."""
+"""Moves behind edges that may settle none."""
 
 NextEdge = Callable[[History], MapDart]
 

@@ -24,7 +24,7 @@ from topo_verify.robot.events import Event, Finish, Move, Start, require_order
 from topo_verify.world.rooted_map import World
 
 MOST_DARTS = 2**20
-"""Of all places of a log: a world of them takes about 2 GB."""
+"""The most doors of all places of a log: a world of them takes about 2 GB."""
 
 
 class JudgedLog(NamedTuple):

@@ -28,7 +28,7 @@ Wrong = partial(Finding, "")
 Claim = Callable[[ReplayedTrace], Iterator[Finding]]
 
 LARGE = 2000
-"""With more edges claim 10 is asked only if `strict`: it takes longer than the run."""
+"""With more edges claim 10 is asked only if `strict`."""
 
 
 def check(
@@ -299,4 +299,4 @@ CLAIMS: dict[str, tuple[Claim, tuple[type[ev.Event], ...]]] = {
     "map-entailed": (map_entailed, (ev.Finish,)),
     "decisions-entailed": (decisions_entailed, (ev.Reject, ev.Confirm, ev.Augment)),
 }
-"""The events that each claim speaks of; none: any."""
+"""Each claim, and the events that it speaks of; none: any."""

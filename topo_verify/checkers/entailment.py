@@ -2,7 +2,7 @@
 
 Trusted. A mapper that guesses right passes every check that looks at one world. Here its history is
 folded, and each conclusion must hold in EVERY world that shows this history. If it does not, the
-answer carries a **witness**: a world with the same history in which the conclusion is false.
+answer carries a **witness**: such a world in which the conclusion is false.
 
 For a mapper that declares the planar prior (it rejects by rule `planar`), only planar witnesses
 count. They are looked for among the fold and its further foldings; any planar world with this
@@ -32,7 +32,7 @@ from topo_verify.world.rooted_map import Code, World
 
 CONCLUDED = Reject, Confirm, Augment
 Concluded = Reject | Confirm | Augment
-"""A decision on where an edge leads, or does not; the tuple is quicker to ask."""
+"""A decision on where an edge leads, or does not."""
 
 Tries = Iterator[int] | None
 """The foldings that may still be tried; None without the planar prior."""

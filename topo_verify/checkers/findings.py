@@ -7,13 +7,14 @@ from typing import Any, Literal
 import msgspec
 
 Verdict = Literal["PROVED", "EXHAUSTED", "SAMPLED", "UNKNOWN", "REFUTED"]
-"""About worlds of any size, every world of a finite class, some worlds, none; a counterexample."""
+"""It speaks of worlds of any size (PROVED), of a finite class, of some worlds, or of none."""
 
 Status = Literal["ok", "failed", "partial", "not-declared", "not-asked", "undecided"]
-"""`ok`: all was judged, and nothing is wrong; only this says that the claim holds.
+"""Only `ok`, nothing wrong in all that there was to judge, says that a claim holds.
+
 `partial`: the mapper declared some of the decisions that the claim speaks of; `not-declared`: none.
-`not-asked`: the world is too large for this claim unless `strict`. `undecided`: a decision was
-neither proved nor refuted.
+`not-asked`: the world is too large unless `strict`. `undecided`: a decision was neither proved nor
+refuted.
 """
 
 

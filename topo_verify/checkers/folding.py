@@ -41,7 +41,7 @@ OWN_END = "a dart would be its own other end"
 TWO_OF_S = "two vertices of S would be one"
 
 NARROW = 64
-"""A node with more doors has a table, not room, for their other ends."""
+"""A node with more doors keeps their other ends in a table, not in an array."""
 
 
 class Ends:

@@ -1,9 +1,8 @@
 """A trace replayed in its world: where the robot stood, what its map S was, what it had walked.
 
 Trusted. Nothing that a mapper said is believed: positions follow from the doors, and S is drawn
-from the declared augmentations as far as they are true. From the first move through a door that is
-not there (`illegal`) the position is unknown; from the first false augmentation on (`spoiled`) S is
-not a map of this world. Later decisions are not judged.
+from the declared augmentations as far as they are true. Decisions after the first move through a
+door that is not there (`illegal`) or the first false augmentation (`spoiled`) are not judged.
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ Number = Annotated[int, msgspec.Meta(ge=-(2**62), le=2**62)]
 """An integer of at most 62 bits; longer ones would flood a message."""
 
 MapDart = Number
-"""A dart of S as a mapper declares it; the checkers find out whether S has it."""
+"""A dart of S as a mapper declares it."""
 
 RuleName = Literal["motion", "prefix", "history", "records", "folding", "planar"]
 

@@ -199,8 +199,7 @@ def _called_by(frame: FrameType | None, caller: FrameType | None) -> bool:
 def _is_a_hook(frame: FrameType) -> bool:
     """Whether the interpreter calls this in the middle of other code.
 
-    It swallows exceptions of callbacks (garbage collector, weak references); a tracer of
-    coverage.py that is torn out never gives back its lock.
+    There exceptions of callbacks are swallowed, and a tracer torn out never gives back its lock.
     """
     callbacks = [getattr(callback, "__code__", None) for callback in gc.callbacks]
     package = str(frame.f_globals.get("__name__")).partition(".")[0]

@@ -188,7 +188,7 @@ class SimulatedRobot:
     def settle(self) -> None:
         """Uncount a move that a time limit struck between its count and its record.
 
-        The mapper has not seen what was behind that door, and the trace must not look forged.
+        The trace must not look forged.
         """
         recorded = sum(isinstance(event, ev.Move) for event in self.events)
         if self._cost == recorded + 1:

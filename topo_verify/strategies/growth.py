@@ -12,7 +12,7 @@ from the next newest. If a kind is impossible, or would make the bounds so, the 
 
 Places are relative, so that a world stays similar when Hypothesis removes a byte. Zeros make a
 star, ones a path. Hypothesis tries zeros first; in a star no hypothesis is posed, so it shrinks
-further. Rejected: paths at zero, for then planted faults shrank to paths of twice the edges.
+further. Rejected: paths at zero, for planted faults shrank to paths of twice the edges.
 
 Every map within the bounds is reached: let the vertices of a spanning tree grow as leaves, each
 then closing its edges to itself and to earlier vertices, clockwise from the edge by which it grew,
@@ -271,7 +271,7 @@ def _from_place(corners: list[Dart], place: int) -> list[Dart]:
 def nth(place: int, corners: int) -> int:
     """The index below `corners` that the place means: the low bits that fit.
 
-    It stays the same while later corners disappear, as they do when Hypothesis shrinks.
+    It stays the same while later corners disappear, as in shrinking.
     """
     bits = (corners - 1).bit_length()
     number = place & ((1 << bits) - 1)

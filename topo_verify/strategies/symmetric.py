@@ -2,7 +2,7 @@
 
 A **cover** is n copies of a small map, its *sheets*, numbered round a circle. Each edge of the
 small map has a *shift* s: in sheet i it leads to sheet i + s. Turning the circle maps the cover
-onto itself, so without the marker no place differs from its n - 1 copies.
+onto itself, so without the marker no place differs from its copies.
 
 **Rosettes**: the small map has one vertex (the Cayley maps of cyclic groups). Its darts are `a A b
 B …`; a letter without its capital is half an edge a sheet, which must shift by n/2:
@@ -10,7 +10,7 @@ B …`; a letter without its capital is half an edge a sheet, which must shift b
     darts, sheets          cover                        darts, sheets          cover
     aA, n, a: 1            cycle                        abAB, n, a: 1, b: c    lattice on a torus
     abc, 2, all: 1         3 parallel edges             all of n-1 shifts      complete graph
-    aAbB, 1                2 loops (a bouquet)          abA, n, b: n/2         Möbius ladder
+    aAbB, 1                2 loops                      abA, n, b: n/2         Möbius ladder
 
 **Necklaces**: the small map, a bead, is any map with a cycle. Source (voltage graphs): J. L. Gross
 and T. W. Tucker, "Topological Graph Theory" (1987), chapter 2.

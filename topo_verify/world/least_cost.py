@@ -3,8 +3,8 @@
 A mapper has proved its map only if its closed trips from v0 generate the fundamental group; else
 the fold of its history has an open dart. The cheapest such trips are the loops that a breadth-first
 tree closes with the other edges. Each edge of a **pendant tree**, off all tree paths from v0 to
-such an edge, is walked there and back, but the last trip need not come back. cost / LB is the price
-of not knowing the map, except for mappers that may assume planarity, n or m.
+such an edge, is walked there and back, but the last trip need not come back. LB does not bind
+mappers that may assume planarity, n or m.
 
     core        the vertices that the walk passes anyway
     branch      a vertex outside the core whose tree edge must be walked, or one on the way there

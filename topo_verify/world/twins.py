@@ -28,7 +28,7 @@ MarkerModel = Literal["undirected", "none"]
 MODELS: tuple[MarkerModel, ...] = get_args(MarkerModel)
 
 MOST_TRIED = 500
-"""Of another genus."""
+"""Candidates tried for a twin of another genus."""
 
 
 def find_twin(world: World, model: MarkerModel) -> tuple[World | None, str]:

@@ -24,7 +24,7 @@ SIZES = (20, 60, 200)
 """The formula is evaluated for all sizes up to one of these."""
 
 MOST_LISTED = 5000
-"""Of other classes than `any`."""
+"""Classes other than `any` are counted by listing at most this many worlds."""
 
 
 def unrooted_count(edges: int, kind: WorldClass) -> int | None:

@@ -2,8 +2,7 @@
 
 **A regular map of the torus** is a flat periodic cell. Each dart gets a whole translation with sum
 zero around every face, and each vertex lies in the middle of its neighbours (S. Gortler, C. Gotsman
-and D. Thurston, "Discrete one-forms on meshes", CAGD 23 (2006)). An affine map then makes edges
-equally long.
+and D. Thurston, "Discrete one-forms on meshes", CAGD 23 (2006)).
 
 **A world with one face**, of genus g > 0, is a polygon with 4g sides and a spanning tree in its
 middle. The 2g other edges leave it as spokes in the order of its contour, and come back through the

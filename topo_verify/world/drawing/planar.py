@@ -37,12 +37,12 @@ from topo_verify.world.drawing.plane_map import (
 from topo_verify.world.rooted_map import World
 
 BEND = 0.4
-"""Its cost, beside the shape of a triangle."""
+"""The cost of a bend, beside that of a triangle's shape."""
 
 STEPS = 60
 
 ATTEMPTS, LARGE_ATTEMPTS = 6, 2
-"""For worlds with at most 100 edges, and with more."""
+"""Attempts for worlds with at most 100 edges, and with more."""
 
 
 def planar(world: World) -> Iterator[Sketch]:

@@ -18,7 +18,7 @@ from topo_verify.world.drawing.curves import crossings, distances, flatten
 from topo_verify.world.rooted_map import Dart, World
 
 TOLERANCE = 0.03
-"""Of a point on its circle: coordinates have two decimals."""
+"""The distance of a point from its circle: coordinates have two decimals."""
 
 SVG = "{http://www.w3.org/2000/svg}"
 

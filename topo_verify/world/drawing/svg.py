@@ -241,7 +241,7 @@ def _dart_labels(world: World, layout: Layout, doors: bool, darts: bool) -> Iter
 
 
 FIRST, STEP, MOST = 0.75, 0.3, 24
-"""In radii: the first place along an edge, the step to the next, and the number of places."""
+"""In radii: the first place along an edge and the step; the number of places."""
 
 CLEAR = 0.55
 """In radii: the distance of a one-digit number from other darts."""

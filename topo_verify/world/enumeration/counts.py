@@ -34,10 +34,10 @@ Degrees = tuple[int, ...]
 """A multiset of degrees, descending."""
 
 MAX_EDGES = 16
-"""A second or two; the number of multisets grows fast."""
+"""Limit of `count_graphs`: counting takes a second or two."""
 
 MAX_NARROW_EDGES = 100
-"""If no degree is above 2: m edges have m + 1 multisets."""
+"""The limit if no degree is above 2."""
 
 
 def count_graphs(
@@ -154,7 +154,7 @@ def count_genus(edges: int, genus: int) -> int:
 
 
 def _next(known: list[list[int]], g: int, m: int) -> int:
-    # times 6
+    # the recurrence times 6
     total = 4 * (2 * m - 1) * known[g][m - 1]
     if g and m >= 2:
         total += (2 * m - 3) * (m - 1) * (2 * m - 1) * known[g - 1][m - 2]

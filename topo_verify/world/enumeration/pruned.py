@@ -274,7 +274,7 @@ def worlds(edges: int, *, cls: str = "any") -> Iterator[World]:
         InputError: at the call: the number is out of range, or the class unknown or empty.
     """
     if type(edges) is not int or not 0 <= edges <= MAX_ID_EDGES:
-        # unprintable
+        # long integers cannot be printed
         value = "another one" if type(edges) is int else f"a {type(edges).__name__}"
         raise InputError(
             f"expected edges=N with an integer from 0 to {MAX_ID_EDGES} (larger worlds have no id),"

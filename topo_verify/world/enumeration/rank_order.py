@@ -4,8 +4,8 @@ The letters: `m` edges; `u` open darts (known, their edge not yet); `r` darts st
 
 A rooted map grows from its root vertex. Take the smallest open dart; either join it with another
 open dart, or hang a new vertex of degree `d` on it, whose darts are numbered consecutively from the
-dart by which it hangs. An open dart must remain while there are darts to create. What can still
-happen depends on `u` and `r` alone, so completions are counted by
+dart by which it hangs. An open dart must remain while there are darts to create. Completions depend
+on `u` and `r` alone and are counted by
 
     F(u, r) = (u-1)·F(u-2, r) + Σ_{1<=d<=r} F(u+d-2, r-d),   F(0, 0) = 1,   F(0, r>0) = 0.
 

@@ -53,7 +53,7 @@ def largest_component(graph: Graph) -> Graph:
             known.add(node)
             component = [node]
             for reached in component:
-                # any order
+                # the order does not matter
                 fresh = {end.to for end in graph[reached]} - known
                 known |= fresh
                 component += fresh

@@ -30,7 +30,7 @@ from topo_verify.world.families import _arguments as arguments
 from topo_verify.world.rooted_map import Dart, World
 
 MAX_EDGES = 10_000
-"""Of `random_genus`."""
+"""Limit of `random_genus`."""
 
 
 def random_tree(edges: int, *, seed: int = 0, marker: Dart | None = None) -> World:

@@ -26,7 +26,7 @@ W = TypeVar("W", bound=World)
 Point = tuple[float, float]
 
 FARTHEST = 1e12
-"""Products of coordinates must not overflow."""
+"""The largest coordinate: products must not overflow."""
 
 
 MOST_EDGES = 500_000
@@ -235,7 +235,7 @@ def number(value: Any, subject: str, most: float = FARTHEST) -> float:
         coordinate = float(value)
         if abs(coordinate) <= most:
             return coordinate + 0.0  # not -0.0
-    # unprintable
+    # long integers cannot be printed
     got = "an integer" if isinstance(value, int) else repr(value)
     raise InputError(
         f"{subject} is {shown(got, limit=60)}, expected a number of at most {most:.0e} in size"

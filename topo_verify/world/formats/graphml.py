@@ -221,7 +221,7 @@ class _Reader:
 
 
 _UNFIT = re.compile("[^\t\n\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""What XML cannot hold; also the carriage return, which readers make a new line."""
+"""What XML cannot hold; readers change the carriage return."""
 
 
 def encode(world: World) -> str:
