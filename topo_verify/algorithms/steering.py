@@ -14,17 +14,10 @@ is empty. Two rules keep them from walking for ever:
 falls lexicographically with every move, except on the shortest ways to the next edge.
 
 **It keeps the bound.** Let j edges be settled, c the cost, a the distance from the robot to S, and
-W = |U|·2(n-1). To go back to S, over S to any edge, and across takes at most a + n moves; to walk
-each hypothesis home and back takes W. So settling one more edge by ways home takes at most a + n +
-W moves, including the walks between two ways, which are no longer than those over vu; and c + a
-grows by no more. With one vertex W is 0 and every crossing settles its edge. With more, at least
-two darts of S are explored, so W <= (2m-2)·2(n-1), and n + 1 + W < A.
-
-- If an edge was just settled, c + a <= j·A (below), so c + a + n + 1 + W <= (j+1)·A: the grant pays
-  for one more, with a move to spare (behind a new edge the robot is one from S).
-- If none was settled since, the loop checked this before its last move.
-
-So however an edge is settled, c + a <= (j+1)·A afterwards. At the end the cost is at most m·A.
+W = |U|·2(n-1), the moves to walk each hypothesis home and back. Settling one more edge by ways home
+takes at most a + n + W moves, c + a grows by no more, and n + 1 + W < A. So c + a <= j·A whenever
+an edge is settled: if one was just settled, the grant pays for the next; else the loop has checked
+that before its last move. At the end the cost is at most m·A.
 
 Coq proves both for all policies: coq/SteeredEnds.v; docs/proofs.md compares it with this file.
 """
