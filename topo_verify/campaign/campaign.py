@@ -384,14 +384,8 @@ def results(
 ) -> ShardResults:
     """Yield each shard with its result, in order, until the last or until the campaign stops.
 
-    After Ctrl-C, the finished worlds are yielded before KeyboardInterrupt is raised.
-
-    Args:
-        worlds: those of a list.
-        store: where finished shards are read and kept.
-        tell: the progress callback.
-    Raises:
-        InputError: a stored shard, examined again, has another result.
+    After Ctrl-C, the finished worlds are yielded before KeyboardInterrupt is raised. InputError:
+    a shard of the store, examined again, has another result.
     """
     order = _Order(campaign, backend, worlds, store, tell)
     if store is not None and isinstance(campaign.worlds, Ranks):

@@ -103,10 +103,8 @@ class Cluster:
 
 @contextmanager
 def connected(address: str) -> Generator[Cluster]:
-    """Connect to a Dask cluster, for as long as the block lasts.
+    """Connect to the Dask scheduler at `tcp://host:8786`, or `local`, while the block lasts.
 
-    Args:
-        address: of the scheduler, as `tcp://host:8786`; or `local`.
     Raises:
         InputError: dask is not installed; no scheduler answers there; it has no worker.
     """

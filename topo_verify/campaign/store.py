@@ -80,9 +80,8 @@ _BEGUN = "begun"
 class Store:
     """An open store, which locks its file. It may hold several campaigns.
 
-    Raises:
-        InputError: the file is no store, has another version, was changed, is in use, or cannot
-            be written.
+    InputError: the file is no store, has another version, was changed, is in use, or cannot be
+    written.
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -138,8 +137,7 @@ class Store:
         Args:
             now: what the mappers have loaded until now.
             all_rows: keep every row, not only the notable ones.
-            renew: if only the mappers have changed, begin anew and pass a sentence about it to
-                this.
+            renew: if only the mappers have changed, begin anew and pass a sentence to this.
         Raises:
             InputError: the file has another campaign of this name.
         """

@@ -41,14 +41,10 @@ _LIBRARIES = (".so", ".dylib", ".dll")
 def targets(
     text: str, *, pick: str | None = None, order: str | None = None, in_process: bool = True
 ) -> tuple[Target, ...]:
-    """The mappers that a TARGET names, in its order.
+    """The mappers that a TARGET names, in its order; InputError if it names none.
 
     A program starts in its first world, a mapper in its own process now. If `in_process`,
     mappers outside the catalogue share this process.
-
-    Raises:
-        InputError: there is no such mapper or policy; it cannot be called; the command is empty;
-            or policies are given for another mapper.
     """
     mappers = (_target(name, in_process=in_process) for name in each_text(text))
     return tuple(_with_policies(mapper, pick, order) for mapper in mappers)
@@ -163,11 +159,8 @@ def _with_policies(target: Target, pick: str | None, order: str | None) -> Targe
 def target_text(target: str | None, command: str | None, default: str | None = None) -> str:
     """The text of the TARGET given as an argument, by `--cmd` or by `--library`.
 
-    Args:
-        command: the command of a program, or the whole text of a library.
-        default: the text if neither is given.
     Raises:
-        InputError: both are given; or neither, and there is no default.
+        InputError: several are given; or none, and there is no default.
     """
     if command is not None and target is None:
         if command.startswith(LIBRARY):

@@ -264,12 +264,7 @@ MOST_EXHIBITS = 12
 
 
 class FoundRuns:
-    """The counterexamples of a command: the walk of the first, and exhibits for a page.
-
-    Args:
-        people: people read the output, so a walk is shown.
-        page: a page is requested.
-    """
+    """The counterexamples of a command: the walk of the first, and exhibits for a page."""
 
     def __init__(self, *, people: bool, page: bool) -> None:
         self._people = people
@@ -311,11 +306,9 @@ class FoundRuns:
     ) -> None:
         """Run the mappers in a counterexample's world; keep a run in which the claim fails again.
 
-        If it does not fail again (a randomised mapper), the world is shown without a run.
-
-        Args:
-            world: an id, a family's call, or `nyc`; others are ignored, since a file may change.
-            reports: makes the reports of a mapper with several runs.
+        If it does not fail again (a randomised mapper), the world is shown without a run. Worlds
+        in files are ignored, since a file may change. `reports` makes the reports of a mapper
+        with several runs.
         """
         if not self._most or (self._report is not None and not self._alone):
             return

@@ -93,8 +93,7 @@ def prove_log(
 ) -> KernelCheck:
     """Write the certificate of a log (in the file `trace`) to a file and have it checked.
 
-    Raises:
-        InternalError: Coq refuses it, or it states another result than the fold.
+    InternalError: Coq refuses it, or it states another result than the fold.
     """
     # The certificate comes from a second fold. If the folds differed, Coq would accept a true
     # statement, but not the one that the user reads.
@@ -144,11 +143,7 @@ def _certified(
 
 
 def check_received(file: str, log: Trace | None, check: NumbersChecker) -> CertificateEntry:
-    """Check a received certificate, about this log if one is given.
-
-    Raises:
-        InputError: the file is not a certificate, or no certificate can be about that log.
-    """
+    """Check a received certificate, about this log if one is given."""
     numbers = certificate_format.parse(files.read(file), name=file)
     if log is not None and not certificates.is_about(numbers, log):
         checked = certificates.CertificateCheck(

@@ -134,11 +134,7 @@ class CorpusWorlds:
 
 
 def corpus_from(texts: Sequence[str] = DEFAULT, *, seed: int = 0) -> Corpus:
-    """The worlds that these texts name, in order.
-
-    Raises:
-        InputError: a text names no worlds, or a file holds none.
-    """
+    """The worlds that these texts name, in order. InputError if a text names none."""
     parts = [part for text in texts or DEFAULT for part in _parts(text, seed)]
     return Corpus(tuple(parts))
 

@@ -113,16 +113,14 @@ def try_faults(
                 yield _to_the_end(fault, entry, workers, thorough=thorough, tell=tell)
     else:
         for fault in faults:
-            entry = _begun(fault, by=by, thorough=thorough, engine=engine)
+            entry = tried(fault, by, thorough, engine)
             yield _to_the_end(fault, entry, workers, thorough=thorough, tell=tell)
 
 
-def tried(name: str, by: Sequence[Check], thorough: bool, engine: Engine) -> Caught:  # noqa: FBT001  called in a worker
-    """What the checks find of a fault, without the larger worlds."""
-    return _begun(FAULTS[name], by=by, thorough=thorough, engine=engine)
-
-
-def _begun(fault: Fault, *, by: Sequence[Check], thorough: bool, engine: Engine) -> Caught:
+def tried(fault: Fault | str, by: Sequence[Check], thorough: bool, engine: Engine) -> Caught:  # noqa: FBT001  called in a worker
+    """What the checks find of a fault, without the larger worlds; a worker gets its name."""
+    if isinstance(fault, str):
+        fault = FAULTS[fault]
     last = (LARGEST_THOROUGH if thorough else LARGEST_HARMLESS) if fault.harmless else COUNTED
     return entry_of(
         fault,
@@ -273,9 +271,8 @@ def smallest(
 ) -> Smallest:
     """Search the worlds of 1, 2, … edges up to the first size in which a claim fails.
 
-    Args:
-        first, largest: the first size at which to stop, and the last.
-        thorough: count failing worlds also beyond `COUNTED` edges.
+    `first` is the first size at which to stop. If `thorough`, failing worlds are counted also
+    beyond `COUNTED` edges.
     """
     target = Target(fault.target, (planted(fault.name) if engine == "compiled" else None) or fault)
     limits = A_SECOND if fault.harmless else None

@@ -48,11 +48,7 @@ def read_log(path: str) -> Trace:
 
 
 def table_events(lines: Iterable[bytes], name: str) -> Iterator[Event]:
-    """The events in the lines of a CSV table with titles.
-
-    Raises:
-        InputError: a column is missing, or a row is no move.
-    """
+    """The events in the lines of a CSV table with titles."""
     titles: list[str] = []
     separator = ","
     begun = False

@@ -132,11 +132,7 @@ SUITES = {
 
 
 def chosen_suites(text: str) -> list[Suite]:
-    """The suites that a text names: some names with commas, or `all`.
-
-    Raises:
-        InputError: there is no such suite, or one is named twice.
-    """
+    """The suites that a text names with commas, or `all`; InputError if one is unknown."""
     names = list(SUITES) if text == "all" else [name.strip() for name in text.split(",")]
     for name in names:
         if name not in SUITES:

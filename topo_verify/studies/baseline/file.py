@@ -107,8 +107,7 @@ class Baseline:
 def encode(baseline: Baseline) -> bytes:
     """The bytes of the file: the same for the same baseline and the same zlib.
 
-    Raises:
-        InputError: there are fewer entries than the header says.
+    InputError: there are fewer entries than the header says.
     """
     header, entries = baseline.header, baseline.entries
     if len(entries) != header.total:
@@ -146,8 +145,7 @@ def load(path: str | PathLike[str]) -> Baseline:
 def decode(data: bytes, *, name: str = "baseline") -> Baseline:
     """The baseline in these bytes, called `name` in messages.
 
-    Raises:
-        InputError: the bytes are no baseline, one of a newer version, or were changed.
+    InputError: they are no baseline, one of a newer version, or were changed.
     """
     lines = _require_sums(_unpacked(data, name), name)
     first = next(lines, None)

@@ -40,11 +40,7 @@ def baseline_runs(
     engine: Engine = "reference",
     store: Store | None = None,
 ) -> MapperCampaign:
-    """The runs of a mapper in named worlds; they end after `MAX_TIMEOUTS` time-outs.
-
-    Raises:
-        InputError: the store holds the runs of another mapper, or under other limits.
-    """
+    """The runs of a mapper in named worlds; they end after `MAX_TIMEOUTS` time-outs."""
     policies = policies_of(target)
     campaign = c.Campaign(
         worlds=c.ListedWorlds(total),

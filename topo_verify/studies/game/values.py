@@ -218,11 +218,7 @@ PLAYERS = tuple(NAMED)
 
 
 def mapper_costs(mapper: str, edges: int, values: Iterable[GameValue] = ()) -> MapperCosts:
-    """The costs of a catalogue mapper beside the values of the games.
-
-    Raises:
-        InternalError: the mapper is sound and costs less than the best robot.
-    """
+    """The costs of a catalogue mapper; InternalError if it is sound and beats a game's value."""
     known = NAMED.get(mapper)
     planar = known is not None and known.assumes == "planar"
     drawn: DrawnClass = "planar" if planar else "any"

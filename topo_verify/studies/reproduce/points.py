@@ -271,11 +271,7 @@ class PlannedRun(NamedTuple):
 def line_campaigns(
     figures: Sequence[fig.Figure], extent: fig.FigureExtent, engine: Engine, store: Store
 ) -> list[MapperCampaign]:
-    """A campaign for each algorithm, in all the graphs that the figures need it in.
-
-    Raises:
-        InputError: the store has runs of other sources, or of another engine.
-    """
+    """A campaign for each algorithm, in all the graphs that the figures need it in."""
     name, ways = "{}", None
     if extent.policies != (fig.REFERENCE,):
         name, ways = "{}, every pair of policies", every_pair.__name__

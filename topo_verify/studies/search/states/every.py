@@ -88,10 +88,7 @@ def every_choice(
     """Runs in a world; if a claim fails, first the one with the fewest choices before the failure.
 
     If none fails, the last run says what any choices can cost. `named` is the algorithm with
-    named policies, the reference first.
-
-    Raises:
-        InternalError: the model and the mapper differ, or a state is no state.
+    named policies, the reference first. InternalError: the model and the mapper differ.
     """
     algorithm = cast("Algorithm", target.mapper)
     if decided_by(len(world.edges)) == "mapper":
