@@ -63,11 +63,6 @@ class Result(Generic[E]):
     failed: bool = False
     incomplete: bool = False
 
-    @classmethod
-    def by_verdict(cls, entry: E, verdict: str) -> Result[E]:
-        """The result for a verdict: REFUTED fails, UNKNOWN is incomplete."""
-        return cls(entry, failed=verdict == "REFUTED", incomplete=verdict == "UNKNOWN")
-
 
 @dataclass
 class _Done(Generic[E]):

@@ -5,8 +5,8 @@
 | `corpus` | every world of 1 to 4 edges, 20 of each strategy, the street network |
 | `edges<=5` | every world of 1 to 5 edges, in the order of their ids |
 | `generated:200` | 200 worlds, spread evenly over the strategies |
-| `generated:200:STRATEGY` | 200 worlds of one strategy, e.g. `planar_worlds(max_edges=20)` |
-| a folder | the world files in it, by name |
+| `generated:200:STRATEGY` | 200 worlds of one, e.g. `planar_worlds(max_edges=20)` |
+| a folder | its world files, by name |
 | any WORLD | this world: a path, `family:…`, an id, `nyc` |
 
 Source: docs/semantics.md, section 16.

@@ -1,8 +1,8 @@
 """Finds the first event in which two runs in one world differ.
 
-Doors and percepts of moves and declared decisions with their evidence are compared; of a mapper
-without declarations the moves alone. The purpose of a move, the choice among several
-contradictions, and the final map are not compared.
+Compared are moves with their percepts and declared decisions with their evidence; for a mapper
+without declarations moves alone. Not compared: the purpose of a move, the choice among several
+contradictions, the final map.
 """
 
 from __future__ import annotations

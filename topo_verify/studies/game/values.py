@@ -6,8 +6,7 @@ counts.
     nothing         the history has to prove the map among all worlds: no dart of its fold is open.
                     No sound mapper pays less: the best robot assumes m edges until refuted
     n               … among all worlds with n vertices; the robot is told n
-    planar          … among all planar worlds
-    m               … among all worlds with m edges
+    planar, m       … among all planar worlds; among all worlds with m edges
     m and n         … among those with m edges and n vertices
     m and planar    … among the planar ones with m edges
 """
@@ -57,7 +56,7 @@ ENDLESS: tuple[Knowledge, ...] = ("n", "planar")
 MOST_ENDLESS = 3
 
 MOST_STATES = 300_000
-"""More than any game of four edges that ends needs."""
+"""More than any finite game of four edges needs."""
 
 MOST_FOLDS = 100_000
 """The same for folds, which take longer."""

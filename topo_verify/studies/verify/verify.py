@@ -9,8 +9,8 @@
 | `generated-worlds` | 160 worlds, 20 of each strategy | 40 |
 | `street-network` | a real street network, and the cost of each mapper there | the same |
 
-Uniformly drawn worlds have few vertices and many handles; the strategies draw lattices, trees
-and worlds with many similar places.
+Uniformly drawn worlds have few vertices and many handles; strategies draw lattices, trees and
+worlds with many similar places.
 """
 
 from __future__ import annotations

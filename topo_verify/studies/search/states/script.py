@@ -3,7 +3,7 @@
 Two things are open: between two edges, which e comes next; behind e, which hypothesis is tried
 next among those that the motion allows (`overlap`: those with the longest common prefix). A run
 is a list of numbers, `--choices 0,2,1`: at each moment with more than one way, the number of the
-way taken, in the order of the darts of S. After the end of the list the first way is taken.
+way taken, in the order of the darts of S; after the end of the list, the first way.
 
 What this does not show: other ways to walk (docs/semantics.md, section 5).
 """
