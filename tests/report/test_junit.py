@@ -94,7 +94,7 @@ def test_hostile_text_stays_text_and_control_characters_are_spelled_out() -> Non
 
 def test_an_interrupted_run_is_an_error_and_so_is_a_run_without_results() -> None:
     for made, run, name in (
-        (account(), replace(RUN, finished=False), "came to its end"),
+        (account(), replace(RUN, finished=False), "finished"),
         (replace(account(), suites=()), RUN, "judged something"),
     ):
         text = junit(made, run)

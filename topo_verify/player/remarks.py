@@ -121,8 +121,8 @@ def _about_confirm(playback: Playback, moment: Moment) -> Iterator[str]:
         yield f"the way home from {start} is by {door_words(way.home)}; the robot took {took}"
         return
     behind = f", behind {door_words(way.took[: way.step])}" if way.step else ""
-    words = f"who comes in by {start} sees {percept_in_brackets(way.expected)}{behind}"
-    yield f"{words}; the robot saw {percept_in_brackets(way.seen)}"
+    words = f"coming in by {start}, it would see {percept_in_brackets(way.expected)}{behind}"
+    yield f"{words}; it saw {percept_in_brackets(way.seen)}"
     if not way.home:
         yield f"{start} is at v0: the way home has no door, so this percept decides"
 

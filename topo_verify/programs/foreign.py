@@ -161,7 +161,7 @@ class Foreign(Program):
         try:
             message: T = decoded(child.line(seconds=LOADING), decoder.decode, validate=False)
         except Silent:
-            why = Misbehaved("silent", f"the program gave no sign of life for {LOADING:g} s")
+            why = Misbehaved("silent", f"the program sent nothing for {LOADING:g} s")
         except (Ended, TooLong):
             why = crash_report(child, due)
         except Misbehaved as error:

@@ -251,7 +251,7 @@ class NativeMapper:
 
     def _skip(self, why: bytes | None) -> int:
         reason = shown((why or b"").decode(errors="backslashreplace"))
-        words = f": {reason}" if reason else ", and says no why"
+        words = f": {reason}" if reason else " and gives no reason"
         raise Skipped(f"the mapper skips this world{words}")
 
 

@@ -54,7 +54,7 @@ class JudgedCase:
 
 
 UNFINISHED = JudgedCase(
-    "came to its end", "UNKNOWN", "undecided", message="interrupted: the rest was not judged"
+    "finished", "UNKNOWN", "undecided", message="interrupted: the rest was not judged"
 )
 
 
