@@ -200,12 +200,8 @@ class Playback:
     @cached_property
     def _firsts(self) -> list[KnownDart]:
         darts = sorted(self.map.phi)
-        return [dart for dart in darts if dart == 0 or not self._same_vertex(dart)]
-
-    def _same_vertex(self, dart: KnownDart) -> bool:
-        place = self.world.vertex_of
-        phi = self.map.phi
-        return place[phi[dart]] == place[phi[KnownDart(dart - 1)]]
+        vertices = [self.world.vertex_of[self.map.phi[dart]] for dart in darts]
+        return [d for d in darts if d == 0 or vertices[d] != vertices[d - 1]]
 
     def darts(self, vertex: int) -> Iterator[KnownDart]:
         """The darts of a vertex of S, ascending."""
@@ -225,7 +221,8 @@ class Playback:
         for number, event in enumerate(self.trace):
             left_by = through = None
             if isinstance(event, ev.Move):
-                spent = _after(spent, event)
+                purpose = event.purpose or "unsaid"
+                spent = spent._replace(**{purpose: getattr(spent, purpose) + 1})
                 left_by, through = self._left_by(number, event)
             else:
                 edge, hypotheses = _question(event, edge, hypotheses)
@@ -302,11 +299,6 @@ class Playback:
                 break
             traced.append(chart.alpha[out])
         return Mismatch(cited.sequence, doors, tuple(trail), tuple(traced), leaves, cited)
-
-
-def _after(spent: Spent, move: ev.Move) -> Spent:
-    purpose = move.purpose or "unsaid"
-    return spent._replace(**{purpose: getattr(spent, purpose) + 1})
 
 
 def _question(

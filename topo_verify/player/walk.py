@@ -309,12 +309,12 @@ def _chosen(declared: DeclaredMap, moment: Moment) -> list[int]:
         about.add(event.hypothesis)
     if isinstance(event, ev.Augment):
         about |= {event.edge, event.dart}
-    return [v for v in everything if _has(declared.vertices[v], about)]
-
-
-def _has(vertex: tuple[int, int], darts: set[int | None]) -> bool:
-    first, degree = vertex
-    return any(dart is not None and first <= dart < first + degree for dart in darts)
+    darts = [dart for dart in about if dart is not None]
+    return [
+        vertex
+        for vertex, (first, degree) in enumerate(declared.vertices)
+        if any(first <= dart < first + degree for dart in darts)
+    ]
 
 
 # ---------------------------------------------------------------- a place and its doors

@@ -39,11 +39,11 @@ def catalogue(edges: int | None = None) -> tuple[Theorem, ...]:
         *first_order.INDUCTIVE,
         *MECHANISED,
         *bounded(MOST_EDGES if edges is None else edges),
-        *bounded_mutants.negative_theorems(),
+        *bounded_mutants.NEGATIVES,
         first_order.PLANAR,
         *first_order.AXIOM_MUTANTS,
         *first_order.FAULTY_RULES,
-        *bounded_mutants.mutant_theorems(),
+        *bounded_mutants.MUTANTS,
     )
     names = [theorem.name for theorem in theorems]
     if doubled := sorted({name for name in names if names.count(name) > 1}):

@@ -188,10 +188,7 @@ def verdict_case(
 
 def joint_verdict(verdicts: Sequence[str]) -> Verdict:
     """The weakest of these verdicts; UNKNOWN if there are none."""
-    for verdict in _WEAKEST:
-        if verdict in verdicts:
-            return verdict
-    return "UNKNOWN"
+    return next((verdict for verdict in _WEAKEST if verdict in verdicts), "UNKNOWN")
 
 
 _WEAKEST: tuple[Verdict, ...] = ("REFUTED", "UNKNOWN", "SAMPLED", "EXHAUSTED", "PROVED")

@@ -31,9 +31,7 @@ from topo_verify.world.enumeration.classes import WorldClass
 BUDGET = Budget()
 
 
-@pytest.mark.parametrize(
-    "one", [*mutants.negative_theorems(), *mutants.mutant_theorems()], ids=lambda one: one.name
-)
+@pytest.mark.parametrize("one", [*mutants.NEGATIVES, *mutants.MUTANTS], ids=lambda one: one.name)
 def test_it_is_refuted_by_a_world_that_replays(one: Theorem) -> None:
     require_refuted(one, BUDGET)
 
@@ -125,13 +123,13 @@ def test_a_rule_without_its_fault_rejects_nothing() -> None:
 
 
 def test_the_counterexample_is_the_same_in_every_run() -> None:
-    (theorem,) = (one for one in mutants.negative_theorems() if one.name == "undirected-simple")
+    (theorem,) = (one for one in mutants.NEGATIVES if one.name == "undirected-simple")
     first, again = theorem.prove(BUDGET), theorem.prove(Budget(seed=7))
     assert (first.counterexample, first.history) == (again.counterexample, again.history)
 
 
 def test_where_nothing_is_found_the_negative_is_not_refuted() -> None:
-    (theorem,) = (one for one in mutants.negative_theorems() if one.name == "undirected-simple")
+    (theorem,) = (one for one in mutants.NEGATIVES if one.name == "undirected-simple")
     outcome = theorem.prove(Budget(rlimit=1000))
     assert outcome.verdict == "UNKNOWN"
     assert "--timeout" in outcome.note

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from topo_verify.errors import InputError
-from topo_verify.proofs.bounded.mutants import mutant_theorems, negative_theorems
+from topo_verify.proofs.bounded.mutants import MUTANTS, NEGATIVES
 from topo_verify.proofs.bounded.theorems import bounded
 from topo_verify.proofs.first_order.theorems import INDUCTIVE
 from topo_verify.proofs.solvers.cvc5_solver import ask, export
@@ -32,9 +32,7 @@ def test_it_agrees_on_the_bounded_theorems(one: Theorem) -> None:
         assert ask(query).agreement == "agrees", query.name
 
 
-@pytest.mark.parametrize(
-    "one", [*negative_theorems(), *mutant_theorems()], ids=lambda one: one.name
-)
+@pytest.mark.parametrize("one", [*NEGATIVES, *MUTANTS], ids=lambda one: one.name)
 def test_it_finds_the_counterexamples_too(one: Theorem) -> None:
     for query in one.queries():
         assert ask(query).answer == "sat"

@@ -150,16 +150,6 @@ class _FaultyRule:
     mistake: str
 
 
-def negative_theorems() -> tuple[Theorem, ...]:
-    """Each negative as a theorem about its smallest size."""
-    return tuple(map(_negative, SMALLEST))
-
-
-def mutant_theorems() -> tuple[Theorem, ...]:
-    """Each faulty rule as a theorem about the smallest worlds in which it fails."""
-    return tuple(map(_mutant, _MUTANTS))
-
-
 def _negative(case: Negative) -> Theorem:
     build = partial(false_confirmation, case.edges, case.world_class, case.marker)
     return Theorem(
@@ -188,7 +178,7 @@ _RULES: dict[str, Callable[..., EncodedCounterexample]] = {
 _LATER = "each percept is compared with the one behind the next door"
 _FIRST_DART = "sequences are traced again from the vertex's first dart"
 
-_MUTANTS = (
+_FAULTY_RULES = (
     _FaultyRule(
         "confirm", "undirected", 2, "the last percept is compared without the marker's direction"
     ),
@@ -265,3 +255,10 @@ def _refute(
 
 def _script(build: Callable[[], EncodedCounterexample]) -> str:
     return build().world.smt2() + "(check-sat)\n"
+
+
+NEGATIVES: tuple[Theorem, ...] = tuple(map(_negative, SMALLEST))
+"""Each negative as a theorem about its smallest size."""
+
+MUTANTS: tuple[Theorem, ...] = tuple(map(_mutant, _FAULTY_RULES))
+"""Each faulty rule as a theorem about the smallest worlds in which it fails."""

@@ -143,15 +143,9 @@ class DescribedRule:
         return None
 
     def refuted(
-        self, chart: Chart, h: Hypothesis, doors: Sequence[Door], percepts: Sequence[Percept]
-    ) -> RuleRejection | None:
-        """The rule's rejection after a sequence, if any."""
-        return self.refuted_at(structure(chart, percepts, self.trie), h, doors)
-
-    def refuted_at(
         self, place: Structure, h: Hypothesis, doors: Sequence[Door]
     ) -> RuleRejection | None:
-        """As `refuted`, in a structure."""
+        """The rule's rejection after these doors, if any."""
         if self.rule == "none":
             return None
         if self.rule == "prefix":
@@ -320,6 +314,6 @@ def _sifted(
     place = structure(reading.chart, reading.seen, described.trie)
     for dart in remaining:
         h = Hypothesis(dart, reading.chart, tree)
-        decided = described.refuted_at(place, h, reading.doors)
+        decided = described.refuted(place, h, reading.doors)
         if decided is not None:
             yield decided

@@ -76,7 +76,10 @@ class Z3Question:
             self._solver.set(auto_config=False, mbqi=False, unsat_core=True)
         else:
             self._solver = _z3.SolverFor(_LOGIC[setup], ctx=self._context)
-        self._limit(budget)
+        self._solver.set("timeout", budget.milliseconds)
+        self._solver.set("random_seed", budget.seed)
+        if budget.rlimit:
+            self._solver.set("rlimit", budget.rlimit)
         assertions = _z3.parse_smt2_string(smt2, ctx=self._context)
         if not labels:
             self._solver.add(assertions)
@@ -84,12 +87,6 @@ class Z3Question:
         for label, assertion in zip(labels, assertions if labels else (), strict=True):
             # Z3 drops the names of a script.
             self._solver.assert_and_track(assertion, label)
-
-    def _limit(self, budget: Budget) -> None:
-        self._solver.set("timeout", budget.milliseconds)
-        self._solver.set("random_seed", budget.seed)
-        if budget.rlimit:
-            self._solver.set("rlimit", budget.rlimit)
 
     def check(self, assumed: Mapping[str, bool] | None = None) -> SolverAnswer:
         """The answer if these Booleans have these values."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from topo_verify.proofs.first_order import theory as t
-from topo_verify.proofs.first_order.conformance import DescribedRule
+from topo_verify.proofs.first_order.conformance import DescribedRule, structure
 from topo_verify.proofs.first_order.mutants import *
 from topo_verify.proofs.first_order.obligations import *
 from topo_verify.proofs.first_order.scenes import SceneReplay, mfirst
@@ -298,7 +298,8 @@ def _plays_records(
     word, percepts = [replay.door("d1", vu.degree)], [vu, replay.forward("d1")]
     if late:
         percepts[1] = replay.forward("own1")
-    decided = described.refuted(replay.chart, replay.hypothesis("h"), word, percepts)
+    place = structure(replay.chart, percepts, replay.trie)
+    decided = described.refuted(place, replay.hypothesis("h"), word)
     return decided is not None and decided.rule == "records" and replay.truth("e", "h")
 
 
