@@ -45,8 +45,8 @@ SEEN, OTHER = Percept(7, None), Percept(3, None)
         ({"observed": OTHER}, "observed is (degree 7, no marker), not (degree 3, no marker)"),
         ({"observed": Percept(1, 0)}, "observed is (degree 7, no marker)"),
         ({"sequence": 0}, "step 1 of sequence 0 was not executed"),
-        ({"at": 3}, "on S the doors end at dart 0: evidence must"),
-        ({"record": ev.Record(3, ())}, "on S the doors end at dart 0: evidence must"),
+        ({"at": 3}, "on S the doors end at dart 0: cite that dart"),
+        ({"record": ev.Record(3, ())}, "on S the doors end at dart 0: cite that dart"),
     ],
 )  # fmt: skip
 def test_false_evidence_from_motion_is_caught(changes: dict[str, Any], why: str) -> None:
@@ -88,7 +88,7 @@ def test_a_record_that_is_not_cited_is_named_by_where_tracing_left_s() -> None:
     lie = with_evidence(TRACE, BY_RECORD, record=None)
     (message,) = said(lie, "rejection-justified")
     assert message.endswith(
-        "on S the doors lead to unexplored dart 3: evidence must cite its record, doors []"
+        "on S the doors lead to unexplored dart 3: cite its record, doors []"
     )
 
 

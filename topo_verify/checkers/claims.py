@@ -257,8 +257,8 @@ def _percepts_agree(
     at, rest = run.records.trace(h, word, decision.when)
     doors = tuple(step.door for step in rest[1:])
     if cited.at not in (None, at) or cited.record != (ev.Record(at, doors) if rest else None):
-        leaves = f"lead to unexplored dart {at}: evidence must cite its record, doors {list(doors)}"
-        ends = f"end at dart {at}: evidence must cite that dart and no record"
+        leaves = f"lead to unexplored dart {at}: cite its record, doors {list(doors)}"
+        ends = f"end at dart {at}: cite that dart and no record"
         return f"on S the doors {leaves if rest else ends}"
     behind = run.records.behind(at, doors, decision.when)
     expected = behind if rest else run.map.seen_at(run.map.phi[at])
