@@ -201,7 +201,7 @@ def test_the_page_of_a_wrong_confirmation_says_what_speaks_against_it(
     assert "no-false-confirm" in page.inner_text(".say .wrong")
     assert "as it should" not in page.inner_text(".say")
     assert "the marker would have to point another way" in page.inner_text(".say p")
-    assert "coming in by v0:1, it would see (3, marker 2)" in page.inner_text(".say .wrong")
+    assert "at v0:1 the robot would see (3, marker 2)" in page.inner_text(".say .wrong")
     assert page.inner_text(".compared b") == "≠"
 
 

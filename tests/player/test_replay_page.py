@@ -16,7 +16,7 @@ WRONG = Path(__file__).resolve().parents[2] / "examples" / "wrong_mappers.py"
     [
         ("a", "m3/5", "it came here by v1:4 and back by v1:2, so door 1 is door 3"),
         ("b", "m2/1", "the way home from v1:3 is by door 1; the robot took no door"),
-        ("c", "m2/5", "coming in by v0:1, it would see (3, marker 2); it saw (3, marker 1)"),
+        ("c", "m2/5", "at v0:1 the robot would see (3, marker 2); it saw (3, marker 1)"),
         ("astray", "m3/5", "asked for door 4 at a vertex with 4 doors"),
     ],
 )

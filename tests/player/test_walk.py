@@ -203,7 +203,7 @@ def test_a_confirmation_against_what_was_seen_says_what_it_should_have_been() ->
         return [*trace[:3], ev.Confirm(0, 1, "motion")]
 
     shown = text(played("m2/5", "basic", edit=confirms_dart_1))
-    assert "(coming in by v0:1, it would see (3, marker 2); it saw (3, marker 1))" in shown
+    assert "(at v0:1 the robot would see (3, marker 2); it saw (3, marker 1))" in shown
     assert "(v0:1 is at v0: the way home has no door, so this percept decides)" in shown
 
 

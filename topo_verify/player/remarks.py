@@ -120,8 +120,8 @@ def _about_confirm(playback: Playback, moment: Moment) -> Iterator[str]:
         took = door_words(way.took)
         yield f"the way home from {start} is by {door_words(way.home)}; the robot took {took}"
         return
-    behind = f", behind {door_words(way.took[: way.step])}" if way.step else ""
-    words = f"coming in by {start}, it would see {percept_in_brackets(way.expected)}{behind}"
+    at = f"behind {door_words(way.took[: way.step])} from {start}" if way.step else f"at {start}"
+    words = f"{at} the robot would see {percept_in_brackets(way.expected)}"
     yield f"{words}; it saw {percept_in_brackets(way.seen)}"
     if not way.home:
         yield f"{start} is at v0: the way home has no door, so this percept decides"
