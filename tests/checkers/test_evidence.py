@@ -87,9 +87,7 @@ def test_false_evidence_from_a_record_is_caught(changes: dict[str, Any]) -> None
 def test_a_record_that_is_not_cited_is_named_by_where_tracing_left_s() -> None:
     lie = with_evidence(TRACE, BY_RECORD, record=None)
     (message,) = said(lie, "rejection-justified")
-    assert message.endswith(
-        "on S the doors lead to unexplored dart 3: cite its record, doors []"
-    )
+    assert message.endswith("on S the doors lead to unexplored dart 3: cite its record, doors []")
 
 
 @pytest.mark.parametrize(
