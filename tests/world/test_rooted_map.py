@@ -288,3 +288,10 @@ def test_a_world_shows_itself_and_writes_its_picture(tmp_path: Path) -> None:
     assert (tmp_path / "doors.svg").read_text() == numbered != picture
     with pytest.raises(InputError, match=r"world\.gif"):
         world.draw(tmp_path / "world.gif")
+
+
+@given(ranks)
+def test_a_listed_world_is_given_the_code_and_the_id_that_it_has(pair: tuple[int, int]) -> None:
+    code, (_, rank) = rank_order.unrank(*pair), pair
+    listed, computed = World.from_code(code, rank=rank), World.from_code(code)
+    assert (listed, listed.code, listed.id) == (computed, computed.code, computed.id)

@@ -118,7 +118,8 @@ class Ranks(msgspec.Struct, frozen=True, tag="ranks"):
     def worlds(self, shard: Shard) -> Iterator[tuple[int, str, World]]:
         """Rank, id and world of each world in a shard."""
         for rank, code in ranked_tables(shard.edges, self.world_class, shard.start, shard.stop):
-            yield rank, f"m{shard.edges}/{rank}", World.from_code(code)
+            world = World.from_code(code, rank=rank)
+            yield rank, world.id, world
 
 
 @cache

@@ -14,7 +14,7 @@ import msgspec
 
 from topo_verify.checkers.coverage import coverage
 from topo_verify.checkers.darts import KnownDart, WorldDart
-from topo_verify.checkers.entailment import Conclusion, delivered_code, map_conclusion
+from topo_verify.checkers.entailment import UNDECIDED, Conclusion, delivered_code, map_conclusion
 from topo_verify.checkers.excursions import Word
 from topo_verify.checkers.findings import Finding, Judgement, Status
 from topo_verify.checkers.replayed_trace import ReplayedTrace, Round
@@ -58,7 +58,7 @@ def _judgement(run: ReplayedTrace, name: str, judged: int, of: int, *, strict: b
         named = map(partial(msgspec.structs.replace, claim=name), findings)
         return Judgement(name, "failed", judged, of, tuple(named))
     conclusions = run.conclusions.values() if claim is decisions_entailed else ()
-    if number := sum(conclusion.undecided for conclusion in conclusions):
+    if number := [conclusion.why for conclusion in conclusions].count(UNDECIDED[0]):
         return Judgement(name, "undecided", judged - number, of)
     status: Status = "ok" if judged == of else "partial" if judged else "not-declared"
     return Judgement(name, status, judged, of)

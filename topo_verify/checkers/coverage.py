@@ -10,7 +10,7 @@ Source: docs/semantics.md, section 9, "Coverage", with the table.
 from __future__ import annotations
 
 from topo_verify.checkers.replayed_trace import ReplayedTrace
-from topo_verify.robot.events import Augment, Confirm, Finish, Move, Pose, Reject, Start
+from topo_verify.robot.events import SIGHTS, Augment, Confirm, Finish, Pose, Reject
 
 Share = tuple[int, int]
 
@@ -28,7 +28,7 @@ def coverage(run: ReplayedTrace) -> dict[str, Share]:
     missing = sum([len(fate.left) for edge, fate in run.fates.items() if edge in ends])
     grown = {run.crossing(run.map.phi[dart]) for dart in run.map.alpha}
     decisions = rejections + confirmations + declared.count(Augment)
-    percepts = sum([isinstance(event, (Start, Move)) for event in run.followed])
+    percepts = sum([isinstance(event, SIGHTS) for event in run.followed])
     maps = run.kinds[Finish]
     costs = int(getattr(run.trace[-1], "cost", None) is not None)
     return {

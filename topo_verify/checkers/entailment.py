@@ -125,8 +125,8 @@ def decision_conclusions(folded: FoldedTrace) -> Iterator[Conclusion]:
     """Every declared reject, confirm and augmentation, up to the first that draws a wrong S."""
     trace = folded.trace
     on_fold = MapOnFold(folded.fold)
-    planar = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
-    tries = iter(range(FURTHER)) if planar else None
+    rules = {event.rule for event in trace if isinstance(event, Reject)}
+    tries = iter(range(FURTHER)) if "planar" in rules else None
     refuted: set[tuple[int, int]] = set()  # for good: S and the history only grow
     for when, event in enumerate(trace):
         if not isinstance(event, CONCLUDED):

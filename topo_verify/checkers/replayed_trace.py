@@ -102,7 +102,7 @@ class ReplayedTrace:
                     return
                 at = self.map.beyond(at, event.door)
                 seen = self.map.seen_at(at)
-                self.crossings.setdefault(self.crossing(at), when)
+                self.crossings.setdefault(min(at, self.world.alpha[at]), when)
             elif isinstance(event, ev.Augment) and self.spoiled is None:
                 self.spoiled = None if self.map.grow(when, event) else when
             if (told := getattr(event, "percept", seen)) != seen:
@@ -126,7 +126,7 @@ class ReplayedTrace:
             if isinstance(event, ev.Move):
                 before, at = self.positions[when - 1 : when + 1]
                 behind.move(event.door, self.map.seen_at(before).degree, self.map.seen_at(at))
-            elif isinstance(event, (ev.Pose, ev.Reject, ev.Confirm, ev.Augment)):
+            elif isinstance(event, ev.DECISIONS):
                 edge = event.edge
                 end = self.map.end(edge) if self.map.is_open(edge, when) else None
                 if isinstance(event, ev.Pose):

@@ -161,6 +161,9 @@ Decision = Pose | Reject | Confirm | Augment
 Event = Start | Move | Pose | Reject | Confirm | Augment | Finish
 Trace = tuple[Event, ...]
 KINDS = frozenset(get_args(Event))
+DECISIONS = Pose, Reject, Confirm, Augment
+SIGHTS = Start, Move
+"""The kinds of events that have a percept."""
 
 
 class Robot(Protocol):

@@ -136,14 +136,17 @@ class World:
         return cls.from_rotations(*validation.map_parts(map_like))
 
     @classmethod
-    def from_code(cls, code: Code, *, name: str = "") -> Self:
+    def from_code(cls, code: Code, *, name: str = "", rank: int | None = None) -> Self:
         """The world with this code, or with any table whose vertices own consecutive darts."""
         degrees, alpha = code
         sigma: list[Dart] = []
         for degree in degrees:
             first = len(sigma)
             sigma += [*range(first + 1, first + degree), *[first] * (degree > 0)]
-        return cls(alpha, tuple(sigma), 0 if alpha else None, name=name)
+        world = cls(alpha, tuple(sigma), 0 if alpha else None, name=name)
+        if rank is not None:  # an enumeration lists this canonical code at this rank
+            vars(world).update(code=code, id=f"m{len(alpha) // 2}/{rank}")
+        return world
 
     @classmethod
     def from_id(cls, text: str) -> Self:
@@ -307,8 +310,7 @@ class World:
     @property
     def text(self) -> str:
         """The id; the JSON of a world too large for an id."""
-        small = len(self.edges) <= rank_order.MAX_ID_EDGES
-        return self.id if small else self.to_json()
+        return self.id if len(self.edges) <= rank_order.MAX_ID_EDGES else self.to_json()
 
     def is_isomorphic(self, other: World) -> bool:
         """Whether a bijection of darts keeps alpha, sigma and root."""
