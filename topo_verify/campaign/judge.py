@@ -82,7 +82,7 @@ class Report(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def playback(self) -> Playback | None:
-        """The run event by event, with its findings; None if `run` is None."""
+        """The run event by event, with its findings, or None."""
         from topo_verify.player.scenes import Playback
 
         if self.run is None:
@@ -90,7 +90,7 @@ class Report(msgspec.Struct, frozen=True, dict=True):
         return Playback(self.run.world, self.run.trace, self.judgements, self.run.stopped)
 
     def walk(self) -> list[str]:
-        """The lines of the walk to the first finding; empty without a finding or a `run`."""
+        """The lines of the walk to the first finding; may be empty."""
         from topo_verify.player import walk
 
         if not self.findings or self.playback is None:
@@ -451,7 +451,7 @@ def _with_run_in_witness(
 
 
 def world_argument(world: World) -> str:
-    """The world's argument on a command line: its id, or a file to save if that is too large."""
+    """The world's argument on a command line: its id, or a file if that is too large."""
     return (
         world.id if len(world.edges) <= rank_order.MAX_ID_EDGES else f"{world.name or 'world'}.json"
     )
@@ -465,7 +465,7 @@ def strict_option(world: World, *, strict: bool) -> tuple[str, ...]:
 def replay_line(
     where: str, target: str, policies: Policies | None = None, options: Sequence[str] = ()
 ) -> str:
-    """The command line that shows a run again; empty if no command line finds the mapper."""
+    """The command line that shows a run again; empty if none finds the mapper."""
     words = _words_after_world(target, policies, tuple(options))
     return words and f"topo-verify replay {shlex.quote(where)} {words}"
 

@@ -25,7 +25,7 @@ class Judged(msgspec.Struct, frozen=True, array_like=True):
 
 
 class MostSaved(msgspec.Struct, frozen=True):
-    """A world, the cost of the reference policies in it, and the least cost of a run."""
+    """A world, its cost under the reference policies, and the least cost of a run."""
 
     world: str
     reference: int
@@ -134,7 +134,7 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def right(self) -> bool:
-        """Whether it was judged and no claim fails; an undecided claim is no failure."""
+        """Whether it was judged and no claim fails."""
         return not self.findings and bool(self.claims)
 
     @property

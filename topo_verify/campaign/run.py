@@ -257,7 +257,7 @@ def _compiled(
 def _run(
     mapper: Mapper, robot: SimulatedRobot, limits: Limits
 ) -> tuple[Finish | None, str | None, BaseException | None, Limit | None]:
-    """The delivered map; or why there is none, the mapper's exception and the limit that struck."""
+    """The delivered map; or why there is none, the exception and the limit that struck."""
 
     def survey() -> Finish | Undelivered:
         # A program gets only text, so it may be given the robot itself.
@@ -319,7 +319,7 @@ def policies_of(target: Target) -> Policies | None:
 
 
 def on_engine(engine: Engine, targets: Iterable[Target], limits: Limits) -> tuple[Target, ...]:
-    """The same mappers, prepared for this engine; InputError if it cannot run one of them."""
+    """The same mappers for this engine; InputError if it cannot run one."""
     mappers = tuple(targets)
     if engine == "reference":
         return mappers
@@ -333,7 +333,7 @@ def is_native(target: Target) -> bool:
 
 
 def planted(fault: str) -> CompiledAlgorithm | None:
-    """The compiled mapper with this seeded fault; None if no kernel has it."""
+    """The compiled mapper with this seeded fault, or None."""
     from topo_verify.compiled.faults import PLANTED
 
     entry = PLANTED.get(fault)

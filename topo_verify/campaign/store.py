@@ -187,7 +187,7 @@ class Store:
         return len(old)
 
     def require_file(self) -> None:
-        """Raise an InputError if the file was removed or replaced since it was opened."""
+        """Raise an InputError if the file was removed or replaced meanwhile."""
         if self._inode() != self._file:
             raise InputError(
                 f"store {self.path}: the file was removed or replaced while it was in use, and what"
@@ -215,7 +215,7 @@ class Store:
         fields: Sequence[Any] = (),
         rows: Sequence[str] = (),
     ) -> None:
-        """Write what is new of a campaign: its identity, what it loaded, a shard with its rows."""
+        """Write what is new of a campaign: identity, loaded files, a shard with its rows."""
         self.require_file()
         number, digest = len(self.sums), checksum(self.sums[-1], fields, rows)
         meta = self.meta | {(name, key): value for key, value in identity.items()}
@@ -345,7 +345,7 @@ class StoredCampaign:
 
     @property
     def since(self) -> tuple[str, str] | None:
-        """When the first and the last shard were written; None before the first."""
+        """When the first and the last shard were written, or None."""
         return self._store.written.get(self._name)
 
     def known(self) -> list[Shard]:
@@ -440,7 +440,7 @@ def changed(path: str, part: str) -> InputError:
 
 @contextmanager
 def explained(path: str) -> Generator[None]:
-    """Turn SQLite's errors into an InputError that says how to fix it."""
+    """Turn SQLite's errors into an InputError that says the mend."""
     try:
         yield
     except InputError:  # it is a ValueError, too

@@ -84,7 +84,7 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
         return Tally(*map(added, msgspec.structs.astuple(self), msgspec.structs.astuple(other)))
 
     def amended(self, row: Row) -> Tally:
-        """The tally once a run that it counts turned out to have lost its worker."""
+        """The tally once one of its runs turned out to have lost its worker."""
         if row.undecided is not None:
             return self + Tally(undecided=1, lost=1)
         return self + Tally(failing=1, claims=dict.fromkeys(row.failed, 1))
@@ -117,7 +117,7 @@ def added(a: Any, b: Any) -> Any:
 
 
 def joint_status(runs: Mapping[str, int]) -> Status:
-    """The status of a claim in many runs, given the number of runs with each status."""
+    """The status of a claim in many runs, given the runs with each status."""
     statuses = {status for status, number in runs.items() if number}
     worst: tuple[Status, ...] = ("failed", "undecided")
     alike: tuple[Status, ...] = ("ok", "not-declared", "not-asked")
@@ -299,7 +299,7 @@ class Notable:
 
 
 def sample_key(seed: int, world: str) -> str:
-    """A key, drawn by the seed, that orders worlds at random but equally in every process."""
+    """A key, drawn by the seed, that orders worlds alike in every process."""
     return sha256(f"{seed} {world}".encode()).hexdigest()[:12]
 
 

@@ -66,7 +66,7 @@ def each_text(text: str) -> tuple[str, ...]:
 
 
 def _names_jitted(text: str) -> bool:
-    """Whether `path/file.py:name` names a function compiled by numba, as its source shows."""
+    """Whether the source of `path/file.py:name` shows a function compiled by numba."""
     place, _, name = text.rpartition(":")
     if not place.endswith(".py"):
         return False
@@ -219,7 +219,7 @@ def _name_in(module: ModuleType, mapper: Mapper) -> str | None:
 
 
 def _place(module: ModuleType) -> str | None:
-    """How another program in this folder would name the module; None if it cannot."""
+    """How another program in this folder would name the module, or None."""
     name, file = module.__name__, getattr(module, "__file__", None)
     if name == "__main__":
         return file if file is not None and _is_guarded(module, Path(file)) else None

@@ -17,7 +17,7 @@ ResultT = TypeVar("ResultT")
 
 
 def processors() -> int:
-    """The number of processors that this process may use: a good number of workers."""
+    """The processors that this process may use: a good number of workers."""
     affinity = getattr(os, "sched_getaffinity", None)
     return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
 
@@ -40,7 +40,7 @@ class Loss:
 
     @property
     def maybe_external(self) -> bool:
-        """Whether the loss may not be the task's fault, e.g. the out-of-memory killer."""
+        """Whether something else may have ended it, e.g. the out-of-memory killer."""
         return self.silence is not None or self.status == f"signal {signal.SIGKILL.value}"
 
     @property

@@ -102,7 +102,7 @@ class Heartbeat:
         self.address = ctypes.addressof(self._words)
 
     def __call__(self, items: int) -> None:
-        """Report the number of finished items, and that the next one begins."""
+        """Report the finished items, before the next one begins."""
         self._words[0] = items
         self._words[1] += 1
 
@@ -116,7 +116,7 @@ class Heartbeat:
             self._words[2] = 0
 
     def read(self) -> tuple[int, int, float]:
-        """Number of finished items, number of beats, and seconds until the next one is due."""
+        """Finished items, beats, and seconds until the next beat is due."""
         items, count, due = self._words
         return items, count, due / 1000
 
@@ -179,7 +179,7 @@ class WorkerProcess:
         return self.process.channel
 
     def start(self, task: object) -> None:
-        """Hand an idle worker a task: a busy one would not read, and the pipe may fill up."""
+        """Hand an idle worker a task; a busy one would not read it."""
         self.items, self._since_beat = 0, self._stopwatch()
         self._write(task)
 
@@ -212,7 +212,7 @@ class WorkerProcess:
         return Stopwatch(lambda: tasks_of(self.process.pid), tick=LOOK)
 
     def dismiss(self, *, busy: bool) -> None:
-        """Have it end: an idle worker leaves its context, a busy one gets SIGTERM."""
+        """Let it end: an idle worker leaves its context, a busy one gets SIGTERM."""
         with suppress(OSError):
             self.out.shutdown(socket.SHUT_WR)
         if busy:

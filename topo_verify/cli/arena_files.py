@@ -188,7 +188,7 @@ def broken_blocks(entries: Sequence[lg.LeagueEntry]) -> Iterator[Block]:
 
 
 def dearest_exhibits(league: lg.League) -> Iterator[Exhibit]:
-    """Each ranked mapper in its most expensive world of all suites, run once more."""
+    """Each ranked mapper in its most expensive world, run once more."""
     most_expensive: dict[str, lg.MostExpensiveWorld] = {}
     for entry in league.entries():
         worst, previous = entry.dearest, most_expensive.get(entry.mapper)
@@ -312,7 +312,7 @@ TABLE = (
 
 
 def table_csv(entries: Sequence[lg.LeagueEntry]) -> str:
-    """A row for each mapper and suite, then a row for each of several families."""
+    """A row for each mapper and suite, then one for each of several families."""
     return csv_text(TABLE, [row for entry in entries for row in _rows(entry)])
 
 

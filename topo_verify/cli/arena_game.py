@@ -114,7 +114,7 @@ def _mean(costs: game.CostsOfRobot) -> str:
 
 
 def _more(mean: float | None, than: game.CostsOfRobot | None, *, least: bool = False) -> str:
-    """Excess of one mean over another in percent, with ≥ or ≤ if either is only a bound."""
+    """Excess of one mean over another in percent, with ≥ or ≤ if one is only a bound."""
     if mean is None or than is None:
         return "-"
     sign = "≥ " if least else "" if than.mean_is_value else "≤ "
@@ -122,7 +122,7 @@ def _more(mean: float | None, than: game.CostsOfRobot | None, *, least: bool = F
 
 
 def _saved(costs: game.CostsOfRobot, nothing: game.CostsOfRobot) -> str:
-    """How far a mean is below that of the robot that knows nothing, in percent; `-` if unknown."""
+    """How far a mean is below that of the robot that knows nothing, in percent, or `-`."""
     if costs is nothing or not costs.mean_is_value:
         return "-"
     sign = "" if nothing.mean_is_value else "≥ "

@@ -257,7 +257,7 @@ world_class = click.option(
 
 
 def make_folder(name: str, option: str) -> Path:
-    """The folder that an option names, made if missing; InputError if that is impossible."""
+    """The folder that an option names, made if missing."""
     try:
         Path(name).mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -326,7 +326,7 @@ class Mappers:
 
 
 def given() -> list[str]:
-    """The arguments and options of this command that stand on the command line."""
+    """The parameters of this command that stand on the command line."""
     context = click.get_current_context()
     return [
         parameter.opts[0]

@@ -111,7 +111,7 @@ class Rows(Generic[T]):
     def table(
         self, *columns: tuple[str, Callable[[T], object]], title: str = "", headed: bool = True
     ) -> TextTable:
-        """The table of these columns: a title, and a function from a thing to its cell."""
+        """The table of these columns: a title, and a function that makes a cell."""
         rows = [tuple(_cell(value(thing)) for _, value in columns) for thing in self._things]
         return TextTable(tuple(name for name, _ in columns), rows, title, headed=headed)
 
@@ -121,7 +121,7 @@ def _cell(value: object) -> str | Cell:
 
 
 def written(text: str | None, **row: str | None) -> Block:
-    """The text for stdout, verbatim; without one, a table that names the file written."""
+    """The text for stdout; without one, a table that names the file."""
     return TextTable(tuple(row), [tuple(map(str, row.values()))]) if text is None else Raw(text)
 
 
@@ -191,7 +191,7 @@ class Output:
         live = live if self.style == "pretty" else None
 
         def accounted(account: Callable[[Sequence[E]], acc.Account]) -> acc.Account:
-            """The account with the verdict of the exit code, which knows of an interrupt."""
+            """The account with the verdict of the exit code."""
             summary = account(done.entries)
             words = summary.extent.words + ("" if done.finished else ", interrupted")
             return replace(
@@ -430,7 +430,7 @@ def _objection(name: str) -> str | None:
 
 
 def command_line(arguments: Sequence[str]) -> str:
-    """The command line of these arguments, without the options of `_PRINTING`."""
+    """The command line without the options of `_PRINTING`."""
     words, rest = ["topo-verify"], iter(arguments)
     for word in rest:
         option, equals, _ = word.partition("=")

@@ -61,7 +61,7 @@ class NamedWorld:
 
     @cached_property
     def argument(self) -> str:
-        """A WORLD argument for a later call; a large world from standard input is saved."""
+        """A WORLD argument for a later call; a large one from standard input is saved."""
         if self.text == "-":
             return self.world.id if self._has_id else _saved(self.world)
         return f"./{self.text}" if self.text.startswith("-") else self.text
@@ -73,7 +73,7 @@ class NamedWorld:
 
 
 def named_world(text: str, marker: int | None = None, stdin: bytes | None = None) -> NamedWorld:
-    """The world that the user names; `stdin` is the content of standard input, if already read."""
+    """The world that the user names; `stdin` is standard input, if already read."""
     world = resolve_world(text, stdin=None if stdin is None else BytesIO(stdin))
     if marker is not None:
         named_by_id = world.name == text
@@ -127,7 +127,7 @@ def _is_saved(path: Path, text: str) -> bool:
 def judged(
     run: Exploration, at: NamedWorld, limits: Limits, *, strict: bool = False
 ) -> tuple[Report, bool]:
-    """The report on a run, and whether it is undecided: out of time, or declined by the mapper."""
+    """The report on a run, and whether it is undecided: out of time, or declined."""
     report = judge(run, where=at.text, strict=strict)
     # Its findings would only say that it has no map.
     if undecided(run, report):
@@ -147,7 +147,7 @@ def judged(
 
 
 def claims_cell(claims: Mapping[str, Status], *, incomplete: bool = False) -> str:
-    """How many claims fail, else how many hold, with the status of the others."""
+    """How many claims fail, else how many hold."""
     failed = sum(status == "failed" for status in claims.values())
     if incomplete and "undecided" not in claims.values():
         return "not decided"
@@ -365,7 +365,7 @@ def target_title(target: str, world: str) -> str:
 
 
 def exhibit_of(report: Report, *others: PlayedRun) -> acc.Exhibit | None:
-    """A run with its findings and other runs beside it; None if the report has no run."""
+    """A run with its findings and other runs beside it, or None."""
     if report.run is None:
         return None
     run = PlayedRun(report.target, tuple(report.run.trace), report.judgements, report.run.stopped)

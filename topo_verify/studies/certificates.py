@@ -60,7 +60,7 @@ class KernelCheck(msgspec.Struct, frozen=True):
 
 
 class ReceivedDecisions(msgspec.Struct, frozen=True):
-    """How many decisions of a log a certificate proves to follow."""
+    """The decisions of a log that a certificate proves to follow."""
 
     certified: int
     total: int

@@ -418,7 +418,7 @@ class _Counting(ForwardingRobot):
 
 
 def proof(fault: Fault) -> Proof | None:
-    """The verdict on the theorem with the same mistake; None if there is no such theorem."""
+    """The verdict on the theorem with the same mistake, if there is one."""
     if fault.theorem is None:
         return None
     from topo_verify.proofs.catalogue import choose

@@ -134,7 +134,7 @@ def _nearest(fold: Fold) -> Iterator[tuple[int, int, tuple[Door, ...]]]:
 
 
 def way_to(fold: Fold, place: int) -> tuple[tuple[Door, ...], int]:
-    """The doors of a shortest way from the log's end to a node, and the dart of arrival."""
+    """The doors of a shortest way from the log's end to a node; the dart of arrival."""
     return next((_doors(walk), entry) for node, entry, walk in _places(fold) if node == place)
 
 

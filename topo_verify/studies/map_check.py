@@ -95,7 +95,7 @@ def moves(world: World, at: Dart, doors: Sequence[Door]) -> Iterator[Move]:
 
 
 def tour_log(world: World) -> Trace:
-    """The log of a robot that walks the cheapest proof of this world: `World.proof_tour`."""
+    """The log of a robot that walks `World.proof_tour`, the cheapest proof."""
     known = world.id if len(world.edges) <= MAX_ID_EDGES else None
     start = Start(percept=first_percept(world), world=known)
     return start, *moves(world, world.root or 0, world.proof_tour())

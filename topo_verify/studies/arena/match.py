@@ -83,7 +83,7 @@ def _kept(
 
 
 def not_shown(campaigns: Sequence[MapperCampaign], store: Store) -> str:
-    """A sentence about the store's runs that belong to none of these campaigns, or ""."""
+    """A sentence about the store's runs of no such campaign, or ""."""
     planned: set[tuple[str, str]] = set()
     for campaign in campaigns:
         assert isinstance(campaign.store, _Hidden), "it was made by `matches`"

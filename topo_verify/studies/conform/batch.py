@@ -55,7 +55,7 @@ class DeliveredMap(NamedTuple):
 
 
 class BatchReplay:
-    """A program's answer as a mapper; if it is no run, the call raises the misbehaviour."""
+    """A program's answer as a mapper; without a run, the call raises the misbehaviour."""
 
     def __init__(self, answer: BatchAnswer) -> None:
         self.answer = answer
@@ -170,7 +170,7 @@ class BatchProgram:
         worlds: Sequence[tuple[str, World]],
         done: dict[int, BatchAnswer],
     ) -> Misbehaved | None:
-        """Send worlds to a fresh process and collect its runs; return why it failed, if it did."""
+        """Send worlds to a fresh process and collect its runs; return why it failed."""
         self._child = child = Child(self.command, self._reaper)
         try:
             # Read while writing, or both may wait.

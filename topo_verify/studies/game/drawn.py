@@ -44,7 +44,7 @@ class Rest(NamedTuple):
 
 
 class DrawnWorld:
-    """A world by its canonical code: where folds lie in it, and what they leave to be done."""
+    """A world by its canonical code, and what folds leave to be done in it."""
 
     def __init__(self, table: Table) -> None:
         self.table = table
@@ -193,7 +193,7 @@ class DrawnWorld:
 
 
 def _extended(basis: list[int], vector: int) -> bool:
-    """Add a vector modulo 2 to the basis; return whether it was outside its span."""
+    """Add a vector modulo 2 to the basis; return whether it was independent."""
     for member in basis:
         vector = min(vector, vector ^ member)
     if vector:

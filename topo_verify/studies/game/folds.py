@@ -80,7 +80,7 @@ def crossed(code: FoldCode, dart: int, sight: Sight) -> tuple[FoldCode, int]:
 
 
 def quotients(code: FoldCode) -> Iterator[FoldCode]:
-    """The fold, and every fold that arises by identifying vertices, each once."""
+    """The fold, and every fold with some vertices identified, each once."""
     known, todo = {code}, [code]
     while todo:
         yield (code := todo.pop())

@@ -132,7 +132,7 @@ class Solver(Generic[S]):
         return least
 
     def _answers(self, states: Sequence[S], paid: int, limit: float) -> float:
-        """The value over these states plus `paid`; or a lower bound above the limit."""
+        """The value over these states plus `paid`; or a bound above the limit."""
         if not self._mean:
             total = paid + max(map(self.bound, states), default=0)
             for state in states:

@@ -188,7 +188,7 @@ def _mean(values: Sequence[int]) -> tuple[float, float | None]:
 
 
 def growth(points: Iterable[tuple[float, float]]) -> GrowthFit | None:
-    """The growth of a line through these points (m, cost); None for fewer than two sizes."""
+    """The growth of a line through points (m, cost); None for fewer than two sizes."""
     import numpy as np
 
     logs = [(log(edges), log(cost)) for edges, cost in points]

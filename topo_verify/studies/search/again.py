@@ -91,7 +91,7 @@ class RunAgain(msgspec.Struct, frozen=True):
 
 
 def run_again(campaign: c.Campaign, rows: Sequence[Row], tell: Progress | None = None) -> RunAgain:
-    """Run some worlds of a search again, alone and in a row, given its notable rows."""
+    """Run some worlds of a search again, given its notable rows."""
     before = _drawn(rows, campaign)
     tell = tell or no_progress
 
@@ -246,7 +246,7 @@ def _unlike(campaign: c.Campaign, row: Row, message: str, replay: str) -> Unlike
 
 
 def _reproduced(campaign: c.Campaign, world: str, before: Sequence[str]) -> str | None:
-    """A command that makes a world fail after others in one process, if one is found."""
+    """A command that makes a world fail after others in one process, or None."""
     number = 1
     while before and number <= LONGEST:
         row = [*before[-number:], world]

@@ -51,7 +51,7 @@ class Counterexample(msgspec.Struct, frozen=True):
 
 
 class FailingClaim(msgspec.Struct, frozen=True):
-    """The number of checked worlds in which a claim fails, and the smallest of them."""
+    """The number of worlds in which a claim fails, and the smallest."""
 
     claim: str
     failing: int
@@ -59,7 +59,7 @@ class FailingClaim(msgspec.Struct, frozen=True):
 
 
 class LostWorker(msgspec.Struct, frozen=True):
-    """A world in which a worker was lost, and how; tried again, nothing went wrong there."""
+    """A world in which a worker was lost, and how; a second try went well."""
 
     world: str
     how: str

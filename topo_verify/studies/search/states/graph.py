@@ -186,7 +186,7 @@ class StateGraph:
 
 
 def _culprit(path: JudgedPath) -> tuple[int, int] | None:
-    """The state and way behind which a claim first fails; None: before any choice."""
+    """The state and way after which a claim first fails, or None."""
     last = len(path.tried.run.trace)
     findings = path.tried.report.findings
     first = min(last if finding.event is None else finding.event for finding in findings)

@@ -274,7 +274,7 @@ def tried(
     row: WordTable, kills: Words, count: int, overlap: int, best: WordTable, remaining: int,
     last: int, place: int,
 ) -> tuple[int, int]:  # fmt: skip
-    """The least and the most that is paid from a state on by trying this hypothesis."""
+    """The least and the most that is paid from a state on by this hypothesis."""
     paid = price(row, place, last, count, overlap)
     if row[place, 2] < 0:
         return paid, paid
@@ -292,7 +292,7 @@ def behind(
     world: WordTable, explored: int, entries: int, tree: Words, e: int, rule: int, overlap: int,
     darts: Words, row: WordTable, kills: Words, facts: Words, best: WordTable, ends: Words,
 ) -> None:  # fmt: skip
-    """Everything that may happen behind e: `facts` and `ends` get what is wrong, costs, counts."""
+    """Everything that may happen behind e, in `facts` and `ends`."""
     pose(world, explored, entries, tree, e, rule, darts, row, kills, facts)
     if facts[0] == 0:
         ends[0], ends[1], ends[2], ends[3] = 0, 0, 0, 0
