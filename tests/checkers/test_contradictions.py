@@ -7,7 +7,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from tests.checkers.example import said, with_evidence
+from tests.checkers.example import inserted, said, with_evidence
 from tests.helpers import edited, failing, of_type, place, trace_of
 from topo_verify import World
 from topo_verify.checkers import decision_conclusions
@@ -140,6 +140,11 @@ def test_only_a_rejection_that_cites_a_contradiction_meets_it() -> None:
     )
     unknown = edited(TRACE, FIRST, hypothesis=10**6)
     assert [c.met for c in decision_conclusions(FoldedTrace(unknown)) if c.when == FIRST] == [False]
+
+
+def test_a_confirmation_of_a_dart_that_s_lacks_leaves_s_proved() -> None:
+    lie = inserted(TRACE, FIRST, ev.Confirm(10**6, 10**6, "folding"))
+    assert failing(WORLD, lie) == {"no-false-confirm", "decisions-entailed"}
 
 
 def test_a_rejection_that_does_not_follow_proves_no_new_vertex() -> None:

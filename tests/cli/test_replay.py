@@ -14,7 +14,7 @@ from tests.cli.conftest import Call, Refused, Results
 from tests.helpers import trace_of
 from tests.proofs.mechanised.conftest import nowhere
 from topo_verify import World, families
-from topo_verify.checkers import Judgement, check
+from topo_verify.checkers import CLAIMS, Judgement, check
 from topo_verify.cli.runs import unjudged
 from topo_verify.proofs.mechanised import judge, toolchain
 from topo_verify.report.account import claim_cases
@@ -234,7 +234,7 @@ def test_worlds_without_a_map_are_the_reason_why_map_entailed_is_judged_in_part(
 def opinion(monkeypatch: pytest.MonkeyPatch, *, more: int = 0) -> None:
     """Have the judge say what the checkers say, but that `more` of the last claim was judged."""
     checked = check(World.from_id("m5/17"), trace_of("m5/17"))
-    told = [one for one in checked if one.claim in judge.PROVED_CLAIMS]
+    told = [*checked]
     told[-1] = msgspec.structs.replace(told[-1], judged=told[-1].judged + more)
     answer = judge.ProvedOpinion("the judge", tuple(told))
     monkeypatch.setattr(judge, "second_opinion", Mock(return_value=answer))
@@ -246,9 +246,8 @@ def test_the_output_says_that_the_proved_judge_judged(
     opinion(monkeypatch)
     (entry,) = results(f"replay {trace.name} --kernel")["results"]
     assert (entry["kernel"]["by"], entry["kernel"]["why"]) == ("the judge", "")
-    assert [one["claim"] for one in entry["kernel"]["judgements"]] == [*judge.PROVED_CLAIMS]
-    number = len(judge.PROVED_CLAIMS)
-    said = f"Judged again by the judge: the same of {number} of 10 claims."
+    assert [one["claim"] for one in entry["kernel"]["judgements"]] == [*CLAIMS]
+    said = "Judged again by the judge: the same of 10 of 10 claims."
     assert said in call(f"replay {trace.name} --kernel").stdout
 
 

@@ -122,7 +122,7 @@ def map_conclusion(folded: FoldedTrace) -> Conclusion:
 
 
 def decision_conclusions(folded: FoldedTrace) -> Iterator[Conclusion]:
-    """Every declared reject, confirm and augmentation, up to the first that draws a wrong S."""
+    """Every declared reject, confirm and augmentation, up to the first that draws an unproved S."""
     trace = folded.trace
     on_fold = MapOnFold(folded.fold)
     rules = {event.rule for event in trace if isinstance(event, Reject)}
@@ -135,9 +135,9 @@ def decision_conclusions(folded: FoldedTrace) -> Iterator[Conclusion]:
             break
         if why := _unknown_dart(on_fold, event):
             yield Conclusion(when, why)
-            return
-        why, witness = _doubt(on_fold, event, refuted, tries)
-        yield Conclusion(when, why, witness, _is_met(on_fold, event))
+        else:
+            why, witness = _doubt(on_fold, event, refuted, tries)
+            yield Conclusion(when, why, witness, _is_met(on_fold, event))
         if isinstance(event, Augment):
             if why:  # from here on S is not proved
                 return

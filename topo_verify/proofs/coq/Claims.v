@@ -1,12 +1,14 @@
 (** The claims that a trace is judged by, over a world and a trace (docs/semantics.md, section 9).
 
-    SCEPTICS READ THIS FILE. It contains definitions only, no theorem. It says what all claims but
-    8 say, with the names of docs/semantics.md. Claim 8 is not written here yet.
+    SCEPTICS READ THIS FILE. It contains definitions only, no theorem. It says what the ten claims
+    say, with the names of docs/semantics.md.
 
     w     any world: the point, or a world with edges          t    a trace
     W     the world as a map: [ground w]                       S    the map that the mapper declares
     past  the steps before a moment                            x    a dart of the world
     e, h  darts of S, as the mapper numbers them               H    the hypotheses for e
+    b     the dart of the world where the edge of e ends       g    what a rejection cites
+    L     the log up to a moment                            p, q    places of L: darts that it saw
 
     Nothing that a mapper said is believed. Where the robot stood follows from the doors alone, and S
     is drawn from the declared augmentations; each step is judged only while all doors before it exist
@@ -23,9 +25,23 @@ Inductive step := Pose (e : nat) (H : list nat) | Act (ev : event).
     at all, because an edge is not a pair, or no dart is marked though there are darts. *)
 Record ending := { reported_cost : option nat; reported_map : option Delivery }.
 
-(** A trace: the percept at the start, what happened then, and the end, None where the run ended
-    without delivering anything. *)
-Record trace := { percept_at_start : Percept; steps : list step; finish : option ending }.
+(** The rule of a rejection: motion; prefix, history or records; folding. The rule planar is left out:
+    planarity is not defined. *)
+Inductive rule_cited := InMotion | ByTracing | ByFolding.
+
+(** A contradiction that a rejection by folding cites, in the order of section 13; or other words. *)
+Inductive trouble := Unlike | Turned | OwnEnd | TwoOfS | OtherWords.
+
+(** What a rejection cites: its rule, and the evidence of section 13, field by field. A record is a dart
+    of S and further doors. *)
+Record citation := { by_rule : rule_cited; doors_behind : nat; expected : option Percept;
+  observed : option Percept; sequence_cited : option nat; traced_at : option nat;
+  record_cited : option (nat * list nat); contradiction : option trouble }.
+
+(** A trace: the percept at the start, what happened then, what each rejection cites, by the number of
+    its step, and the end, None where the run ended without delivering anything. *)
+Record trace := { percept_at_start : Percept; steps : list step; cited : nat -> option citation;
+  finish : option ending }.
 
 (** The steps that are events. *)
 Definition acts (past : list step) := flat_map (fun d => match d with Act ev => [ev] | Pose _ _ => []
@@ -182,3 +198,135 @@ Definition follows_from t past ev := let p := percept_at_start t in
 Definition decisions_entailed w t := percepts_true w t /\
   forall past ev after, steps t = past ++ Act ev :: after -> is_decision ev = true ->
   follows_from t past ev.
+
+(** A walk behind an edge: the number of the next step; the reference dart of a robot that is behind the
+    edge; the doors from the place behind the edge to the robot, the last one first, and by how much the
+    reference dart is turned; and the sequences. *)
+Record outing := { next_step : nat; reference : option nat; way_out : list nat * nat;
+  sequences : list (list nat) }.
+
+(** One more door j: it cancels the last one if it is the dart by which the robot came in. After that
+    the reference dart is turned by the cancelled door. *)
+Definition shortened j w : list nat * nat := match j, w with
+  | 0, i :: v => (v, i)
+  | _, _ => (j :: w, 0) end.
+
+(** One step more. A rejection in motion makes the doors a sequence, if there are any. *)
+Definition led_on W (said : nat -> option citation) o d := {| next_step := S (next_step o);
+  reference := match d, reference o with Act (Move k _), Some a => move W a k | _, r => r end;
+  way_out := match d, reference o with
+    | Act (Move k _), Some a => shortened ((k + snd (way_out o)) mod degree W a) (fst (way_out o))
+    | _, _ => way_out o end;
+  sequences := match d, said (next_step o), fst (way_out o) with
+    | Act (Reject _ _), Some g, _ :: _ => match by_rule g with
+        | InMotion => sequences o ++ [rev (fst (way_out o))] | _ => sequences o end
+    | _, _, _ => sequences o end |}.
+
+(** The walk begins at step number n. After a late pose the robot is not behind the edge. *)
+Definition setting_out n (position : option nat) b := {| next_step := n;
+  reference := match position with Some a => if a =? b then Some b else None | None => None end;
+  way_out := ([], 0); sequences := [] |}.
+
+(** Edge e, which ends in dart b of the world, was posed last, with hypotheses H, and S did not grow
+    since; o is the walk behind it. *)
+Definition posed_with W said past e H b o := exists before after, past = before ++ Pose e H :: after /\
+  (forall d, In d after -> match d with Pose _ _ => False | Act ev => ~ grows ev end) /\
+  o = fold_left (led_on W said) after
+    (setting_out (S (length before)) (walk W (root W) (doors_of before)) b).
+
+(** The edge of the unexplored dart e of S ends in dart b of the world. *)
+Definition ends_at W past e b := exists phi, drawn_by W past phi /\ open_dart (S_after W past) e /\
+  alpha W (phi e) = Some b.
+
+(** Where doors lead on the map, from dart h over explored edges: the dart of arrival, and no door; or
+    the first unexplored dart by which they leave, with its door and those behind it. *)
+Fixpoint traced M h (w : list nat) := match w with
+  | [] => (h, [])
+  | k :: v => match alpha M (turn M k h) with
+      | Some x => traced M x v
+      | None => (turn M k h, w) end end.
+
+(** The place behind the unexplored dart d and the doors v was seen: a sequence of an earlier edge,
+    traced from the dart where that edge ends, leads there. *)
+Definition was_seen W said past d v := exists earlier ev rest e a H b o s k u,
+  past = earlier ++ Act ev :: rest /\
+  match ev with Loop e' a' _ | New e' a' _ => e' = e /\ a' = a | _ => False end /\
+  ends_at W earlier e b /\ posed_with W said earlier e H b o /\ In s (sequences o) /\
+  traced (S_after W (earlier ++ [Act ev])) a s = (d, k :: v ++ u).
+
+(** The doors that a rejection cites: the first ones of a sequence; or, in motion, of the word at that
+    moment. *)
+Definition word_cited o g := let i := doors_behind g in
+  let word := match sequence_cited g with
+    | Some n => nth_error (sequences o) n
+    | None => match by_rule g with InMotion => Some (rev (fst (way_out o))) | _ => None end end in
+  match word with Some w => if i <=? length w then Some (firstn i w) else None | None => None end.
+
+(** What the rejection cites as expected and as observed disagrees. Observed is what the world shows
+    behind b and the cited doors; expected, what S shows where these doors lead from h, or what was seen
+    behind an unexplored dart. *)
+Definition percepts_disagree W said past phi h b o g := contradiction g = None /\
+  exists w x y, word_cited o g = Some w /\ walk W b w = Some x /\ observed g = Some (percept W x) /\
+  expected g = Some y /\ y <> percept W x /\
+  let (d, rest) := traced (S_after W past) h w in
+  (traced_at g = None \/ traced_at g = Some d) /\ match rest with
+  | [] => record_cited g = None /\ y = percept (S_after W past) d
+  | _ :: v => record_cited g = Some (d, v) /\ was_seen W said past d v /\
+      exists c z, alpha W (phi d) = Some c /\ walk W c v = Some z /\ y = percept W z end.
+
+(** Two places of the log look alike: in their degree, and in the marker. *)
+Definition looks_like L (p q : place) := match seen L (fst p), seen L (fst q) with
+  | Some (d, m), Some (e, n) => d = e /\ (m = None <-> n = None)
+  | _, _ => False end.
+
+(** Places that are one dart, if the edges A are edges as well. Folding goes on behind a contradiction,
+    except that places that do not look alike are never identified. *)
+Inductive one_dart (A : assumed_edges) L : place -> place -> Prop :=
+| one_same p q : valid L p -> same nothing L p q -> one_dart A L p q
+| one_sym p q : one_dart A L p q -> one_dart A L q p
+| one_trans p q r : one_dart A L p q -> one_dart A L q r -> one_dart A L p r
+| one_next i a j b : one_dart A L (i, a) (j, b) -> one_dart A L (i, S a) (j, S b)
+| one_end p q p' q' : link A L p q -> link A L p' q' -> one_dart A L p p' -> looks_like L q q' ->
+    one_dart A L q q'.
+
+(** The contradictions that follow: other ends of one dart that do not look alike; a dart that is one
+    with another of its vertex; with its own other end; with a dart of another vertex of S. *)
+Inductive follows_from_edges (A : assumed_edges) L (distinct : place -> place -> Prop) :
+  trouble -> Prop :=
+| unlike_follows p q p' q' : link A L p q -> link A L p' q' -> one_dart A L p p' ->
+    ~ looks_like L q q' -> follows_from_edges A L distinct Unlike
+| turned_follows i a b d m : seen L i = Some (d, m) -> a < b -> b < d ->
+    one_dart A L (i, a) (i, b) -> follows_from_edges A L distinct Turned
+| own_end_follows p q : link A L p q -> one_dart A L p q -> follows_from_edges A L distinct OwnEnd
+| two_of_S_follow p q : distinct p q -> one_dart A L p q -> follows_from_edges A L distinct TwoOfS.
+
+(** Dart d of S is place p, in every world that shows the log. *)
+Definition seen_as t past d p := let L := log_after (percept_at_start t) (acts past) in
+  valid L p /\ forall V v phi, world V -> visits V L v ->
+  embedded (map_after (percept_at_start t) (acts past)) V phi -> dart V v p = phi d.
+
+(** p and q are darts of different vertices of S. *)
+Definition two_vertices t past p q := let M := map_after (percept_at_start t) (acts past) in
+  exists d d', d < darts M /\ d' < darts M /\ (forall k, turn M k d <> d') /\
+  seen_as t past d p /\ seen_as t past d' q.
+
+(** The contradiction that the rejection cites follows from the history with an edge from e to h. The
+    percepts are true, and S was proved so far. Percepts beside it must be those at the two ends. *)
+Definition contradiction_met w t past phi e h b g := let W := ground w in
+  (doors_behind g = 0 /\ sequence_cited g = None /\ traced_at g = None /\ record_cited g = None) /\
+  (expected g = None \/ expected g = Some (percept W (phi h))) /\
+  (observed g = None \/ observed g = Some (percept W b)) /\
+  percepts_true w t /\
+  (forall before ev after, past = before ++ Act ev :: after -> grows ev -> follows_from t before ev) /\
+  exists c p q, contradiction g = Some c /\ seen_as t past e p /\ seen_as t past h q /\
+    follows_from_edges [(p, q)] (log_after (percept_at_start t) (acts past)) (two_vertices t past) c.
+
+(** Claim 8. The edge of a rejection was posed last, the hypothesis with it, both are unexplored darts of
+    S, and what the rejection cites disagrees. *)
+Definition rejection_justified w t := let W := ground w in
+  forall past e h, judged W t past (Act (Reject e h)) -> exists g phi H b o,
+    cited t (length past) = Some g /\ drawn_by W past phi /\ open_dart (S_after W past) e /\
+    open_dart (S_after W past) h /\ alpha W (phi e) = Some b /\ posed_with W (cited t) past e H b o /\
+    In h H /\ match by_rule g with
+      | ByFolding => contradiction_met w t past phi e h b g
+      | _ => percepts_disagree W (cited t) past phi h b o g end.

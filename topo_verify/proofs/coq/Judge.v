@@ -2,8 +2,8 @@
     9).
 
     l is a list of darts or of pairs, s a stage of the run, d a step, x a dart of the world, n a
-    number; the other letters are those of Claims.v. JudgeCorrect.v proves that it says [Failed]
-    exactly where a claim of Claims.v is violated.
+    number; the other letters are those of Claims.v. JudgeCorrect.v and the files behind it
+    prove that it says [Failed] exactly where a claim of Claims.v is violated.
 
     The program follows the trace once. At each step it knows where the robot stands, the map S and
     its images in the world, which edges were crossed, and which hypotheses are in question. *)
@@ -376,6 +376,7 @@ Definition judge_decisions w t := let W := ground w in let n := how_many W t dec
     | Edges _ => all_follow (first_history (percept_at_start t)) (acts (steps t)) end))
     n (n + not_grown W (last_stage W t)).
 
-(** The judge: claims 1 to 7 and 9, in this order. Claim 10 stands apart: it takes longer. *)
+(** The judge: claims 1 to 7, in this order. The others stand apart: 8 (JudgeCitations.v) and 10 may take
+    longer. *)
 Definition judge_trace w t : list judgement := [judge_percepts w t; judge_posed w t; judge_kept w t;
-  judge_confirmed w t; judge_map w t; judge_cost t; judge_bound w t; judge_entailed w t].
+  judge_confirmed w t; judge_map w t; judge_cost t; judge_bound w t].

@@ -1,13 +1,16 @@
 (* The main program of the extracted judge. It reads natural numbers from standard input, separated by
    white space: how many runs there are, and for each run
 
-     asked    1 if claim 10 is asked, or 0
+     asked    1 if claim 8 is asked, or 0; the same for claim 10
      world    the next dart clockwise of each dart, and the other dart of its edge, two lists; dart 0 is the
               root; without a dart it is the point
      trace    percept, steps, end
      percept  degree; 0, or 1 more than the direction of the marker
-     steps    how many, and each: 0 door percept; 1 e h (reject); 2 e h (confirm); 3 e h d (loop);
-              4 e a d (new); 5 e H (pose)
+     steps    how many, and each: 0 door percept; 1 e h citation (reject); 2 e h (confirm); 3 e h d
+              (loop); 4 e a d (new); 5 e H (pose)
+     citation rule (0 motion, 1 prefix, history or records, 2 folding), step, expected, observed (each 0;
+              or 1 and the percept), sequence, at (each 0, or 1 more than it), record (0; or 1, dart
+              and doors), contradiction (0; or its number, in the order of Claims.v)
      end      0; or 1, the cost (0, or 1 more than it), and the map (0 if it is none; or 1, rotations, pairs
               and the marked dart)
 
@@ -24,16 +27,30 @@ let label () = match number () with 0 -> N0 | n -> Npos (positive n)
 
 let percept () = let degree = number () in (degree, optional ())
 
+let stated read = if number () = 0 then None else Some (read ())
+
+let citation () =
+  let by_rule = [| InMotion; ByTracing; ByFolding |].(number ()) in
+  let doors_behind = number () in
+  let expected = stated percept in
+  let observed = stated percept in
+  let sequence_cited = optional () in
+  let traced_at = optional () in
+  let record_cited = stated (fun () -> let dart = number () in (dart, many number)) in
+  let contradiction = Option.map (fun i -> [| Unlike; Turned; OwnEnd; TwoOfS; OtherWords |].(i)) (optional ()) in
+  { by_rule; doors_behind; expected; observed; sequence_cited; traced_at; record_cited; contradiction }
+
+(* A step, and what it cites if it is a rejection. *)
 let step () =
   let kind = number () in
   let e = number () in
   match kind with
-  | 0 -> Act (Move (e, percept ()))
-  | 1 -> Act (Reject (e, number ()))
-  | 2 -> Act (Confirm (e, number ()))
-  | 3 -> let h = number () in Act (Loop (e, h, number ()))
-  | 4 -> let a = number () in Act (New (e, a, number ()))
-  | 5 -> Pose (e, many number)
+  | 0 -> (Act (Move (e, percept ())), None)
+  | 1 -> let h = number () in (Act (Reject (e, h)), Some (citation ()))
+  | 2 -> (Act (Confirm (e, number ())), None)
+  | 3 -> let h = number () in (Act (Loop (e, h, number ())), None)
+  | 4 -> let a = number () in (Act (New (e, a, number ())), None)
+  | 5 -> (Pose (e, many number), None)
   | _ -> failwith "no step"
 
 let delivery () =
@@ -54,16 +71,21 @@ let world () =
 
 let trace () =
   let percept_at_start = percept () in
-  let steps = many step in
-  { percept_at_start; steps; finish = (if number () = 0 then None else Some (ending ())) }
+  let steps, citations = List.split (many step) in
+  let citations = Array.of_list citations in
+  let cited i = if i < Array.length citations then citations.(i) else None in
+  { percept_at_start; steps; cited; finish = (if number () = 0 then None else Some (ending ())) }
 
 let word = function Ok -> "ok" | Failed -> "failed" | Partial -> "partial" | NotDeclared -> "not-declared"
 
 let run () =
-  let asked = number () = 1 in
+  let justified = number () = 1 in
+  let decisions = number () = 1 in
   let world = world () in
   let trace = trace () in
   let told ((status, judged), of_) = Printf.sprintf "%s %d %d" (word status) judged of_ in
-  print_endline (String.concat " " (List.map told (judge_trace world trace @ if asked then [judge_decisions world trace] else [])))
+  let asked is_asked judge = if is_asked then [judge world trace] else [] in
+  print_endline (String.concat " " (List.map told (judge_trace world trace @ asked justified judge_justified
+    @ asked true judge_entailed @ asked decisions judge_decisions)))
 
 let () = for _ = 1 to number () do run () done

@@ -5,7 +5,7 @@ much is judged, `judged` of `of`, is not proved. Trusted besides Coq: its extrac
 natural numbers become OCaml's integers; the OCaml compiler; `numbers` and coq/judge_driver.ml,
 which pass the trace.
 
-What this does not show: claim 8, and claim 10 where a trace declares the planar prior.
+What this does not show: claims 8 and 10 where a trace declares the planar prior.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from tempfile import TemporaryDirectory
 from typing import get_args
 
 from topo_verify.checkers import CLAIMS, Judgement, Status
+from topo_verify.checkers.folding import OWN_END, TURNED, TWO_OF_S, UNLIKE
 from topo_verify.errors import InputError
 from topo_verify.proofs.mechanised import toolchain
 from topo_verify.proofs.mechanised.certificate_format import (
@@ -28,16 +29,18 @@ from topo_verify.proofs.mechanised.certificate_format import (
     percept_line,
 )
 from topo_verify.robot import events as ev
+from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import World
 
-MISSING = "rejection-justified"
-"""The claim that Coq does not define yet."""
-
-PROVED_CLAIMS = tuple(claim for claim in CLAIMS if claim != MISSING)
-"""The judged claims, in the order of the answer."""
+APART = "rejection-justified", "decisions-entailed"
+"""The claims that are not judged of every trace."""
 
 LONG = 400
-"""Longer traces are not judged for claim 10, which folds the log at each decision."""
+"""Longer traces are not judged for claim 10, which folds the log at each decision; nor for claim 8
+if they cite contradictions."""
+
+CONTRADICTIONS = UNLIKE, TURNED, OWN_END, TWO_OF_S
+"""In the order of coq/Claims.v, where other words come last."""
 
 TracedRun = tuple[World, Sequence[ev.Event]]
 
@@ -93,7 +96,8 @@ def build(folder: Path, *, timeout: float) -> Path:
     Raises:
         InputError: a compiler refuses a file.
     """
-    names = [name for name in toolchain.required("Judge") if not (folder / f"{name}.vo").exists()]
+    needed = toolchain.required("JudgeCitations")
+    names = [name for name in needed if not (folder / f"{name}.vo").exists()]
     toolchain.copy_library(folder, [*names, "ExtractJudge"])
     shutil.copy(toolchain.SOURCES / "judge_driver.ml", folder)
     ran = toolchain.compile_all(folder, [*names, "ExtractJudge"], timeout=timeout)
@@ -107,8 +111,14 @@ def build(folder: Path, *, timeout: float) -> Path:
 
 
 def judged_claims(trace: Sequence[ev.Event]) -> tuple[str, ...]:
-    planar = any(isinstance(event, ev.Reject) and event.rule == "planar" for event in trace)
-    return PROVED_CLAIMS[:-1] if planar or len(trace) > LONG else PROVED_CLAIMS
+    """The claims that are judged of this trace, in the order of the answer."""
+    rules = {event.rule for event in trace if isinstance(event, ev.Reject)}
+    is_long, is_planar = len(trace) > LONG, "planar" in rules
+    left_out = {
+        "rejection-justified": is_planar or (is_long and "folding" in rules),
+        "decisions-entailed": is_planar or is_long,
+    }
+    return tuple(claim for claim in CLAIMS if not left_out.get(claim))
 
 
 def judge(
@@ -120,18 +130,22 @@ def judge(
         InputError: as `numbers`.
         toolchain.Unfinished: the program ended without a result.
     """
+    runs = list(runs)
     lines = [" ".join(map(str, numbers(world, trace))) for world, trace in runs]
     stdin = "\n".join([str(len(lines)), *lines])
     ran = toolchain.run([str(program)], program.parent, timeout=timeout, stdin=stdin)
     answers = ran.output.splitlines()
     if not ran.accepted or len(answers) != len(lines):
         raise toolchain.Unfinished(f"the judge ended without a result: {ran.output[-300:]}")
-    return [tuple(_judgements(line.split())) for line in answers]
+    return [
+        tuple(_judgements(judged_claims(trace), line.split()))
+        for (_, trace), line in zip(runs, answers, strict=True)
+    ]
 
 
-def _judgements(words: Sequence[str]) -> Iterator[Judgement]:
+def _judgements(claims: Sequence[str], words: Sequence[str]) -> Iterator[Judgement]:
     rows = zip(words[::3], words[1::3], words[2::3], strict=True)
-    for claim, (word, judged, of) in zip(PROVED_CLAIMS, rows, strict=False):  # 10 may be missing
+    for claim, (word, judged, of) in zip(claims, rows, strict=True):
         status: Status = next(status for status in get_args(Status) if status == word)
         yield Judgement(claim, status, int(judged), int(of))
 
@@ -149,7 +163,7 @@ def numbers(world: World, trace: Sequence[ev.Event]) -> list[int]:
     world = World.from_code(world.code)  # its root is dart 0
     steps = [_step(event) for event in (trace[1:-1] if delivered else trace[1:])]
     stated = [
-        int(judged_claims(trace) == PROVED_CLAIMS),
+        *(int(claim in judged_claims(trace)) for claim in APART),
         *_listed(world.sigma), *_listed(world.alpha), *percept_line(start.percept),
         len(steps), *chain.from_iterable(steps),
         *(_ending(finish) if isinstance(finish, ev.Finish) else [0]),
@@ -171,7 +185,22 @@ def _step(event: ev.Event) -> Sequence[int]:
         return [5, event.edge, *_listed(event.hypotheses)]
     line = event_line(event)
     assert line is not None, "`require_order` lets only the first and the last be others"
-    return line
+    return [*line, *_citation(event)] if isinstance(event, ev.Reject) else line
+
+
+def _citation(event: ev.Reject) -> list[int]:
+    evidence, record, cited = event.evidence, event.evidence.record, event.evidence.contradiction
+    return [
+        {"motion": 0, "folding": 2, "planar": 2}.get(event.rule, 1), evidence.step,
+        *_stated(evidence.expected), *_stated(evidence.observed),
+        optional(evidence.sequence), optional(evidence.at),
+        *([0] if record is None else [1, record.dart, *_listed(record.doors)]),
+        0 if cited is None else 1 + [*CONTRADICTIONS, cited].index(cited),
+    ]  # fmt: skip
+
+
+def _stated(percept: Percept | None) -> list[int]:
+    return [0] if percept is None else [1, *percept_line(percept)]
 
 
 def _ending(finish: ev.Finish) -> list[int]:
