@@ -80,6 +80,7 @@ class ToldHistory(History):
 
     def tell_new(self, e: MapDart) -> None:
         self.told_new.add(e)
+        self.crossed[e].possible = None
         self._settle()
 
     def suppose(self, e: MapDart, h: MapDart) -> Places | None:

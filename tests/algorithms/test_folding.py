@@ -219,11 +219,29 @@ def test_a_layer_follows_what_is_joined_below() -> None:
     assert "degrees" in (layer.follow() or "")
 
 
-def test_a_layer_is_lost_when_places_below_are_identified() -> None:
+def test_a_layer_is_lost_only_when_places_change_below_that_it_changes_too() -> None:
     partial = PartialFold()
-    one, other = partial.add(Percept(2, None)), partial.add(Percept(2, None))
-    layer = partial.layer()
+    known = partial.add(Percept(2, None), known=True)
+    ghost, one, other = (partial.add(Percept(2, None)) for _ in range(3))
+    layer, empty = partial.layer(), partial.layer()
+    assert layer.identify(ghost, known) == ""
     assert partial.identify(one, other) == ""
+    assert layer.follow() == ""
+    assert layer.resolve(one) == partial.resolve(one)
+    partial.know(ghost)
+    assert layer.follow() is None
+    assert empty.follow() == ""
+
+
+def test_an_end_foretold_wrongly_after_another_change_is_folded_anew() -> None:
+    partial = PartialFold()
+    known = partial.add(Percept(2, None), known=True)
+    ghost, end, one, other = (partial.add(Percept(degree, None)) for degree in (2, 1, 2, 2))
+    assert partial.join(partial.turn(ghost, 1), end) == ""
+    layer = partial.layer()
+    assert layer.identify(known, ghost) == ""
+    assert partial.identify(one, other) == ""
+    assert partial.join(partial.turn(known, 1), partial.add(Percept(3, None))) == ""
     assert layer.follow() is None
 
 

@@ -41,7 +41,8 @@ class SeenPlaces:
         behind: of each leading dart, its other end or 0.
         weight: of each node, the number of others that it stands for.
         known: the nodes that are vertices of S.
-        merges: the number of darts identified with others.
+        joined: the leading darts of every edge, in order.
+        changed: the darts of each node that was identified or became known, in order.
     """
 
     def __init__(self) -> None:
@@ -51,7 +52,7 @@ class SeenPlaces:
         self.leader, self.behind, self.weight = [0], [0], [0]
         self.known: set[NodeDart] = set()
         self.joined: list[tuple[NodeDart, NodeDart]] = []
-        self.merges = 0
+        self.changed: list[NodeDart] = []
 
     def add(self, percept: Percept) -> NodeDart:
         """Add a node with this percept at its first dart. Returns that dart."""
@@ -77,6 +78,9 @@ class PartialFold:
 
     A fold may be a **layer** above another one, which it reads but never changes. Methods that
     identify return "" or the contradiction, after which the fold is useless.
+
+    Invariant: a layer differs from the fold below only at the darts in its `leader` and `behind`.
+    So a change below at other darts holds in the layer too, and needs no work there.
     """
 
     def __init__(self, below: PartialFold | None = None) -> None:
@@ -85,7 +89,8 @@ class PartialFold:
         self.leader: dict[NodeDart, NodeDart] = {}
         self.behind: dict[NodeDart, NodeDart] = {}
         self.weight: dict[NodeDart, int] = {}
-        self._merges, self._followed = self.seen.merges, len(self.seen.joined)
+        self._joined, self._made = len(self.seen.joined), len(self.seen.changed)
+        self._changed = self._made
 
     def layer(self) -> PartialFold:
         """An empty layer above this fold."""
@@ -121,13 +126,15 @@ class PartialFold:
 
     def know(self, dart: NodeDart) -> None:
         """Make the dart's node a vertex of S."""
-        self.seen.known.add(self.seen.node[self.resolve(dart)])
+        dart = self.resolve(dart)
+        self.seen.known.add(self.seen.node[dart])
+        self.seen.changed += self.seen.clockwise(dart)
 
     def join(self, d: NodeDart, e: NodeDart) -> str:
         """Join two darts to one edge, and fold."""
+        d, e = self.resolve(d), self.resolve(e)
         if self.below is None:
             self.seen.joined.append((d, e))
-        d, e = self.resolve(d), self.resolve(e)
         if d == e:
             return OWN_END
         behind, seen = self.behind, self.seen.behind
@@ -208,7 +215,8 @@ class PartialFold:
 
     def _keep(self, *, right: bool) -> None:
         seen = self.seen
-        seen.merges += len(self.leader) if right else 0
+        if right and self.leader:
+            seen.changed += [*self.leader, *self.leader.values()]
         for additions, kept in (
             (self.leader, seen.leader),
             (self.behind, seen.behind),
@@ -221,13 +229,28 @@ class PartialFold:
     def follow(self) -> str | None:
         """Fold in what was joined below since this layer was made or last followed.
 
-        Returns: "" or the contradiction; None if places were identified below.
+        Returns: "" or the contradiction; None if the layer must be made anew: a place that it
+        changes has changed below, or there is a contradiction and any place has.
         """
-        new = self.seen.joined[self._followed :]
-        self._followed += len(new)
-        if self.seen.merges != self._merges:
+        leader, behind = self.leader.keys(), self.behind.keys()
+        changed = self.seen.changed[self._changed :]
+        self._changed += len(changed)
+        if not (leader.isdisjoint(changed) and behind.isdisjoint(changed)):
             return None
-        return next((clash for edge in new if (clash := self.join(*edge))), "")
+        while not self.stands():
+            contradiction = self.join(*self.seen.joined[self._joined])
+            if contradiction:
+                return contradiction if self._changed == self._made else None
+            self._joined += 1
+        return ""
+
+    def stands(self) -> bool:
+        """Whether no edge was joined, since `follow`, at a dart that this layer changes."""
+        for edge in self.seen.joined[self._joined :]:
+            if not (self.leader.keys().isdisjoint(edge) and self.behind.keys().isdisjoint(edge)):
+                return False
+            self._joined += 1
+        return True
 
 
 class FoldingRule(NoRule):

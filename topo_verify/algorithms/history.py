@@ -12,6 +12,9 @@ it is the world. A policy that steers by a History affects only the cost.
 a new vertex once folding refutes every h. One settled edge may settle others, because two vertices
 of S are never one. For each other h, the places if e ended in h are kept and follow the history.
 
+The first h that is not refuted is the witness that vu may be known. It is checked again only once
+an edge was settled, places changed, or an edge was joined where its places differ from the fold.
+
 Source: docs/homing.md; docs/semantics.md, section 11.
 """
 
@@ -19,8 +22,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
-from itertools import islice
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from topo_verify.algorithms.chart import Chart, Tree
 from topo_verify.algorithms.exploration import Refutation
@@ -35,16 +37,18 @@ class Crossed:
     """A crossed dart of U.
 
     Attributes:
+        entry: the dart of entry behind it.
         refuted: the hypotheses that no world allows.
         supposed: of the others, the places if they are true.
-        vertices: the number of vertices of S when they were supposed.
         possible: the first hypothesis allowed at the last check.
+        checked: `settled` of the history and `changes` of its places at that check.
     """
 
+    entry: NodeDart
     refuted: dict[MapDart, Refutation] = field(default_factory=dict[MapDart, Refutation])
     supposed: dict[MapDart, Places] = field(default_factory=dict[MapDart, Places])
-    vertices: int = 0
     possible: MapDart | None = None
+    checked: tuple[int, int] = (0, 0)
 
 
 class ImpossibleError(Exception):
@@ -60,6 +64,7 @@ class History:
         crossed: the crossed darts of U.
         at: the robot's reference dart.
         settled: the number of settled edges.
+        notes: what a policy keeps about crossed darts; dropped when there is a new percept.
     """
 
     allowed: ClassVar = "world"
@@ -71,6 +76,7 @@ class History:
         self.at = self.places.entries[0]
         self.crossed: dict[MapDart, Crossed] = {}
         self.cost, self.settled = 0, 0
+        self.notes: dict[MapDart, Any] = {}
         self._home: Tree | None = None
         self._neighbours: dict[PlaceNode, list[tuple[PlaceNode, NodeDart]]] = {}
 
@@ -91,9 +97,7 @@ class History:
 
     def behind(self, e: MapDart) -> NodeDart:
         """The dart of entry behind a crossed dart of S."""
-        end = self.places.across(self.node_dart(e))
-        assert end is not None, f"dart {e} was never crossed"
-        return end
+        return self.places.resolve(self.crossed[e].entry)
 
     def home(self) -> Tree:
         """The breadth-first tree of S rooted at v0."""
@@ -163,10 +167,19 @@ class History:
         search = self.outward(self.behind(e), ghosts_only=True)
         return {place: distance for place, distance, _ in search}
 
-    def distances(self, goals: Collection[PlaceNode]) -> dict[PlaceNode, int]:
-        """Distances of the goals from the robot."""
-        search = ((place, far) for place, far, _ in self.outward(self.at) if place in goals)
-        return dict(islice(search, len(goals)))
+    def distances(self, goals: Collection[PlaceNode]) -> Iterator[tuple[PlaceNode, int]]:
+        """The goals with their distances from the robot, nearest first."""
+        reached, missing, distance = set[PlaceNode](), len(goals), 0
+        border = {self.places.place(self.at)}
+        while missing:
+            reached |= border
+            for place in goals:
+                if place in border:
+                    missing -= 1
+                    yield place, distance
+            nearby = (self._neighbours.get(place) or self.neighbours(place) for place in border)
+            border = {place for row in nearby for place, _ in row} - reached
+            distance += 1
 
     def way(self, goal: NodeDart) -> list[NodeDart]:
         """The exits on a shortest way from the robot to the place of a dart."""
@@ -196,13 +209,13 @@ class History:
         self.cost += 1
         beyond = places.across(exit_dart)
         if beyond is None:
-            merges = places.merges
+            changes = places.changes
             e = self.map_dart(exit_dart)
             beyond, contradiction = places.add(exit_dart, percept)  # H.14
             if contradiction:
                 raise self.impossible(contradiction)
             # crossed doors of a ghost may now be doors of S
-            merged = places.merges != merges
+            merged = places.changes != changes
             if merged:
                 self._neighbours.clear()
             else:
@@ -217,8 +230,9 @@ class History:
 
     def _note(self, darts: Collection[MapDart]) -> None:
         for e in darts:
-            if e not in self.crossed and self.places.across(self.node_dart(e)) is not None:
-                self.crossed[e] = Crossed()
+            entry = None if e in self.crossed else self.places.across(self.node_dart(e))
+            if entry is not None:
+                self.crossed[e] = Crossed(entry)
 
     # ---------------------------------------------------------------- settling
 
@@ -239,9 +253,6 @@ class History:
         crossed = self.crossed[e]
         if h in crossed.refuted:
             return None
-        if crossed.vertices != len(self.places.entries):  # a layer does not learn that S has grown
-            crossed.supposed.clear()
-            crossed.vertices = len(self.places.entries)
         supposed = crossed.supposed.get(h)
         if supposed is None or not supposed.follow():
             fold = self.places.suppose(self.node_dart(e), self.node_dart(h))  # H.10
@@ -252,11 +263,13 @@ class History:
         return supposed
 
     def _settle(self) -> None:
+        self.notes.clear()
         grown = True
         while grown:
             grown = False
             for e in list(self.crossed):  # H.15
-                if e not in self.crossed:  # settled meanwhile as the other end
+                # Not settled meanwhile as the other end, and not checked already.
+                if e not in self.crossed or self._stands(e):
                     continue
                 h = self.map_dart(self.behind(e))
                 if h is not None:  # H.16
@@ -267,8 +280,18 @@ class History:
                     continue
                 grown = True
 
+    def _stands(self, e: MapDart) -> bool:
+        """Whether nothing changed, since e was checked, that its possible end depends on."""
+        crossed = self.crossed[e]
+        return (
+            crossed.possible is not None
+            and crossed.checked == (self.settled, self.places.changes)
+            and crossed.supposed[crossed.possible].fold.stands()
+        )
+
     def _may_be_known(self, e: MapDart) -> bool:
         crossed = self.crossed[e]
+        crossed.checked = self.settled, self.places.changes
         h = crossed.possible  # still the first, as refutations last
         if h is None or h not in self.chart.unexplored or self.suppose(e, h) is None:
             crossed.possible = next((h for h, _ in self.hypotheses(e)), None)

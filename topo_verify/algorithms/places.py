@@ -37,9 +37,9 @@ class Places:
         return self.fold.follow() == ""
 
     @property
-    def merges(self) -> int:
-        """The number of darts identified with others, without suppositions."""
-        return self.seen.merges
+    def changes(self) -> int:
+        """A number that grows when places are identified or become vertices of S."""
+        return len(self.seen.changed)
 
     # ---------------------------------------------------------------- darts
 
@@ -49,8 +49,21 @@ class Places:
 
     def across(self, dart: NodeDart) -> NodeDart | None:
         """The other end of a dart's edge; None if the dart was never crossed."""
-        end = self.fold.across(dart)
-        return self.fold.resolve(end) if end else None
+        beyond = self.beyond(dart)
+        return beyond and beyond[0]
+
+    def beyond(self, dart: NodeDart) -> tuple[NodeDart, Vertex | None] | None:
+        """The other end of a dart's edge and its vertex of S, if it is one; None if unknown."""
+        fold, seen = self.fold, self.seen  # look-ups written out, since it runs by the million
+        leader, leader_seen = fold.leader, seen.leader
+        while up := leader_seen[dart] or leader.get(dart):
+            dart = up
+        end = fold.behind.get(dart) or seen.behind[dart]
+        if not end:
+            return None
+        while up := leader_seen[end] or leader.get(end):
+            end = up
+        return end, self._vertices.get(seen.node[end])
 
     def turn(self, dart: NodeDart, door: Door) -> NodeDart:
         """The dart `door` doors clockwise from this one."""
@@ -77,7 +90,7 @@ class Places:
 
     def vertex(self, dart: NodeDart) -> Vertex | None:
         """The vertex of S at a dart's place; None if it is a ghost."""
-        return self._vertices.get(self.place(dart))
+        return self._vertices.get(self.seen.node[self.fold.resolve(dart)])
 
     def coincidences(self) -> Iterator[int]:
         """The degree of each place of the fold below that this layer identifies with another."""

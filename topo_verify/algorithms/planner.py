@@ -56,6 +56,7 @@ class Habits:
             every = kinds(history.chart, e)
             self.asked[e] = {h: every[h] for h, _ in history.hypotheses(e)}
             self.posed.update(self.asked[e].values())
+            history.notes.clear()  # the rates have changed
         asked = self.asked[e]
         return most_telling_door(history, e, lambda h: self.rate(asked.get(h, (FAR, FAR))))
 
