@@ -3,6 +3,8 @@
 //     rustc -O --crate-type cdylib -o mapper.so mapper.rs
 //     topo-verify search --library ./mapper.so --edges 4
 //
+// With `--cfg wrong` it takes the marker's dart for the dart by which it came in.
+//
 // This sketch maps the worlds of one vertex, where the marker is always seen: there the percept says
 // by which dart the robot came in. All other worlds it skips, so a search says UNKNOWN of them.
 use std::os::raw::{c_char, c_void};
@@ -48,7 +50,7 @@ fn explore(robot: &Robot) -> bool {
         let (_, marker) = percept((robot.step)(robot.world, door, -1));
         cost += 1;
         let Some(door) = marker else { return false };
-        at = (degree - door) % degree; // the marker's dart is 0
+        at = if cfg!(wrong) { door } else { (degree - door) % degree }; // the marker's dart is 0
         ends[edge] = at;
         ends[at as usize] = edge as i64;
     }

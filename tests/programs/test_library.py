@@ -12,6 +12,7 @@ from tests.programs.natives import ROOT, built, hostile
 from topo_verify import InputError, World, examine, explore
 from topo_verify.campaign.targets import one_target, target_arguments, target_text
 from topo_verify.programs.library import header_text, library_file
+from topo_verify.programs.loader import Target
 from topo_verify.studies.search.search import search
 
 MISDEEDS = {
@@ -104,13 +105,23 @@ def test_the_header_is_read_by_c_and_by_c_plus_plus(tmp_path: Path) -> None:
         subprocess.run(line, cwd=tmp_path, check=True)
 
 
-def test_the_sketch_in_rust_maps_what_it_does_not_skip(tmp_path: Path) -> None:
+def built_by_rust(tmp_path: Path, *options: str) -> Target:
+    """The sketch in Rust."""
     if shutil.which("rustc") is None:
         pytest.skip("rustc is not installed")
-    source = ROOT / "examples" / "native_rust" / "mapper.rs"
-    line = ["rustc", "-O", "--crate-type", "cdylib", "-o", f"{tmp_path}/mapper.so", str(source)]
+    source, library = ROOT / "examples" / "native_rust" / "mapper.rs", tmp_path / "mapper.so"
+    line = ["rustc", "-O", *options, "--crate-type", "cdylib", "-o", str(library), str(source)]
     if subprocess.run(line, capture_output=True, check=False).returncode:
         pytest.skip("rustc makes no library here")
-    target = one_target(f"--library {tmp_path / 'mapper.so'}")
+    return one_target(f"--library {library}")
+
+
+def test_the_sketch_in_rust_maps_what_it_does_not_skip(tmp_path: Path) -> None:
+    target = built_by_rust(tmp_path)
     assert examine(target, World.from_id("m2/9")).ok
     assert explore(World.from_id("m1/0"), target).declined
+
+
+def test_the_wrong_sketch_in_rust_is_caught(tmp_path: Path) -> None:
+    report = examine(built_by_rust(tmp_path, "--cfg", "wrong"), World.from_id("m2/9"))
+    assert report.claims["map-isomorphic"] == "failed"
