@@ -22,7 +22,9 @@ from topo_verify.compiled.kernel import F, kernel, module_source
 from topo_verify.compiled.workspace import CAPACITIES, RUN, SMALL
 
 JUDGE_CAPACITIES = {
-    name: size for name, size in judging.JUDGE_CAPACITIES.items() if name != "JUDGE_SLOTS"
+    name: size
+    for name, size in judging.JUDGE_CAPACITIES.items()
+    if name not in ("JUDGE_SLOTS", "JUDGE_SET", "JUDGE_SETS")
 }
 
 ENDLESS = 5_000_000

@@ -11,7 +11,8 @@ pytest.importorskip("numba", reason="the compiled engine needs numba")
 
 from tests.compiled.judged import as_judged, counted
 from topo_verify import CATALOGUE, worlds
-from topo_verify.campaign.compiled_shard import CompiledChecks, ShardCounts, examine_range
+from topo_verify.campaign.compiled_checks import CompiledChecks
+from topo_verify.campaign.compiled_shard import ShardCounts, examine_range
 from topo_verify.campaign.run import explore
 from topo_verify.checkers import CLAIMS, check
 from topo_verify.compiled.events import words

@@ -14,27 +14,25 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
-from topo_verify.checkers import CLAIMS, Judgement, Status, check
+from topo_verify.campaign.compiled_checks import ALL_CLAIMS, STATUSES
+from topo_verify.checkers import CLAIMS, Status, check
 from topo_verify.compiled import require, tally
 from topo_verify.compiled import workspace as ws
 from topo_verify.compiled.enumeration import prepare
-from topo_verify.compiled.events import words
 from topo_verify.compiled.explore import (
     KERNELS,
     CompiledJob,
     CompiledRun,
-    place_map,
-    place_world,
     require_kernel,
     run_world,
 )
 from topo_verify.compiled.faults import PLANTED
-from topo_verify.compiled.judging import layout, verdict
+from topo_verify.compiled.judging import layout
 from topo_verify.compiled.judging.truth import HASH_PRIME
 from topo_verify.compiled.kernel import compiled
 from topo_verify.compiled.names import Words
 from topo_verify.errors import InputError
-from topo_verify.robot.events import Event, Finish, Move, Start
+from topo_verify.robot.events import Event, Move, Start
 from topo_verify.robot.simulator import first_percept
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.rooted_map import World
@@ -46,12 +44,6 @@ if TYPE_CHECKING:
     from topo_verify.compiled.native_run import NativeCalls
 
     Numbers = NDArray[np.int64]
-
-STATUSES: tuple[Status, ...] = ("ok", "failed", "partial", "not-declared", "undecided")
-"""The names of the numbers of statuses in `layout`."""
-
-ALL_CLAIMS = len(CLAIMS)
-"""The judge's level for all claims."""
 
 
 class DearerWorld(NamedTuple):
@@ -321,60 +313,6 @@ class _Shard:
             excess=row.excess,
             dearer_worlds=tuple(map(DearerWorld, *(kept(ranks, row.more) for ranks in dearer))),
         )
-
-
-class CompiledChecks:
-    """Judges runs in small worlds as `check` does, by the compiled judge.
-
-    The checkers judge each run that it leaves open or convicts.
-    """
-
-    def __init__(self) -> None:
-        import numpy as np
-
-        self._space = np.zeros(ws.SMALL.at("SIZE"), np.int64)
-        self._case = np.zeros(layout.JUDGE_SIZE, np.int64)
-        self._judge = compiled(verdict.judge, ws.SMALL)
-
-    def __call__(
-        self, world: World, trace: Sequence[Event], stopped: str | None = None, *, strict: bool
-    ) -> Sequence[Judgement]:
-        """Judge as `check` does."""
-        if stopped is not None or not self._holds(world, trace):
-            return check(world, trace, stopped, strict=strict)
-        case = layout.CaseWords(self._case)
-        return [
-            Judgement(claim, STATUSES[case.status[k]], int(case.judged[k]), int(case.of[k]))
-            for k, claim in enumerate(CLAIMS)
-        ]
-
-    def _holds(self, world: World, trace: Sequence[Event]) -> bool:
-        start, events, finish = trace[0], trace[1:-1], trace[-1]
-        if (
-            len(world.alpha) > ws.WORLD_DARTS
-            or not (isinstance(start, Start) and start.percept == first_percept(world))
-            or not isinstance(finish, Finish)
-            or (finish.cost or 0) < 0
-            or Start in map(type, events)
-        ):
-            return False
-        try:
-            row = words(events)
-            fits = len(row) <= ws.TRACE and place_map(self._space, ws.SMALL, finish.map)
-            if fits:
-                at = ws.SMALL.at("trace.word")
-                self._space[at : at + len(row)] = row
-        except (ValueError, OverflowError):
-            return False
-        if not fits:
-            return False
-        place_world(self._space, ws.SMALL, world)
-        self._space[ws.SMALL.at("trace.size")] = len(row)
-        case = layout.CaseWords(self._case)
-        case.darts, case.vertices = len(world.alpha), len(world.vertices)
-        case.bound, case.level, case.delivered = world.cost_bound, ALL_CLAIMS, 1
-        case.reported = -1 if finish.cost is None else finish.cost
-        return bool(self._judge(self._space, self._case) == 0)
 
 
 def doors_hash(events: Iterable[Event]) -> int:

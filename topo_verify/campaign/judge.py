@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import msgspec
 
 from topo_verify.algorithms import NAMED
-from topo_verify.campaign.run import Exploration, explore
+from topo_verify.campaign.run import CompiledAlgorithm, Exploration, explore
 from topo_verify.campaign.targets import is_found_again, target_arguments
 from topo_verify.checkers import CLAIMS, Finding, Judgement, Status, check
 from topo_verify.checkers.claims import LARGE
@@ -270,6 +270,7 @@ def judge(
 ) -> Report:
     """Judge a run by every claim; the arguments are those of `examine` and `judge_trace`.
 
+    Of a run that `is_for_compiled_judge`, the compiled judge replaces `check`.
     If the history does not entail the map, the mapper also runs in the witness world, where a
     deterministic mapper makes the same moves. Of a run without a trace only `TRACELESS` are
     judged.
@@ -279,6 +280,10 @@ def judge(
     replay_command = replay_line(where, run.algorithm, run.policies, words)
     if not run.trace:
         return _judge_result(run, where, replay_command)
+    if known is None and is_for_compiled_judge(run, strict=strict):
+        from topo_verify.campaign.compiled_checks import CompiledChecks
+
+        known = CompiledChecks(is_long=True)
     report = judge_trace(
         run.world,
         run.trace,
@@ -296,6 +301,15 @@ def judge(
     return report.with_findings(
         [_with_run_in_witness(finding, run, words, lucky=lucky) for finding in report.findings]
     )
+
+
+def is_for_compiled_judge(run: Exploration, *, strict: bool) -> bool:
+    """Whether the compiled judge judges a run, and the checkers only what it does not pass.
+
+    So it is for a run of the compiled engine in a world with more than 2,000 edges.
+    """
+    is_large = len(run.world.edges) > LARGE
+    return is_large and not strict and isinstance(run.mapper, CompiledAlgorithm)
 
 
 TRACELESS = ("map-isomorphic", "cost-within-bound")

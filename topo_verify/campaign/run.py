@@ -244,7 +244,7 @@ def _compiled(
         world,
         target.text,
         mapper.policies,
-        (_start(world, target, mapper.policies), *run.events) if trace else (),
+        run.events_after(_start(world, target, mapper.policies)),
         run.map,
         run.stopped,
         cost=run.cost,

@@ -15,10 +15,11 @@ from typing import Literal
 import click
 import msgspec
 
-from topo_verify.campaign.judge import Report
+from topo_verify.campaign.judge import Report, is_for_compiled_judge
 from topo_verify.campaign.run import Engine, Exploration, on_engine
 from topo_verify.campaign.run import explore as run_mapper
 from topo_verify.checkers import Finding, Judgement, Status
+from topo_verify.checkers.claims import LARGE
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result, Rows, entry_of
@@ -57,6 +58,8 @@ class ExploreEntry(msgspec.Struct, frozen=True):
             run is that one's.
         rejected_free, rejected_moving: hypotheses rejected without motion, and by motion.
         confirmed: hypotheses confirmed.
+        by_compiled_judge: the compiled judge, which is not trusted, judged the run; the checkers
+            judged it only if that convicted it or left it open.
     """
 
     world: str
@@ -81,6 +84,7 @@ class ExploreEntry(msgspec.Struct, frozen=True):
     marker: int | None
     place: int
     same_as: int | None = None
+    by_compiled_judge: bool = False
 
 
 All = Literal["all"]
@@ -283,7 +287,7 @@ def _explored(
 
         playback = Playback(at.world, run.trace, report.judgements, run.stopped)
         files.write(asked.svg, animated_svg(playback, name=run.algorithm))
-    return _result(run, at, report, incomplete=incomplete, gap=asked.gap)
+    return _result(run, at, report, asked, incomplete=incomplete)
 
 
 def _placed(at: runs.NamedWorld) -> Iterator[runs.NamedWorld]:
@@ -331,12 +335,22 @@ def _show(entries: Sequence[ExploreEntry]) -> Iterator[Block]:
         sentence
         for entry in entries
         if not entry.findings and entry.stopped is None
-        for sentence in runs.unjudged(entry.algorithm, entry.world, entry.judgements)
+        for sentence in _judged_how(entry)
     )
     for sentence in sentences:
         yield Text("")
         yield sentence
     yield from _gap_table(entries)
+
+
+def _judged_how(entry: ExploreEntry) -> Iterator[Text]:
+    """Sentences about what was not fully judged, and about a judge that is not trusted."""
+    yield from runs.unjudged(entry.algorithm, entry.world, entry.judgements)
+    if entry.by_compiled_judge:
+        yield Text(
+            f"Judged by the compiled judge, since {entry.world} has over {LARGE} edges; with"
+            " --strict the checkers judge every claim, which takes longer."
+        )
 
 
 def _wrong(entry: ExploreEntry, run: str) -> Iterator[Block]:
@@ -409,11 +423,16 @@ def _size(entry: ExploreEntry) -> str:
 
 
 def _result(
-    run: Exploration, at: runs.NamedWorld, report: Report, *, incomplete: bool, gap: bool = False
+    run: Exploration,
+    at: runs.NamedWorld,
+    report: Report,
+    asked: _ExploreOptions,
+    *,
+    incomplete: bool,
 ) -> Result[ExploreEntry]:
     # The gap is a share of all false hypotheses, so all must be declared.
     measured = None
-    if gap and report.ok and not {"not-declared", "partial"} & {*report.claims.values()}:
+    if asked.gap and report.ok and not {"not-declared", "partial"} & {*report.claims.values()}:
         measured = measure(run.trace)
     entry = entry_of(
         ExploreEntry,
@@ -431,6 +450,7 @@ def _result(
         gap=measured,
         marker=at.world.root,
         place=0 if at.world.root is None else at.world.vertex_of[at.world.root],
+        by_compiled_judge=is_for_compiled_judge(run, strict=asked.strict),
     )
     return Result(entry, failed=bool(report.findings), incomplete=incomplete)
 

@@ -136,11 +136,14 @@ def percept_word(percept: Percept | None) -> int:
 
 def words(events: Iterable[ev.Event]) -> list[int]:
     row: list[int] = []
+    moves: dict[int, tuple[ev.Move, tuple[int, ...]]] = {}  # by identity: most are shared
     for event in events:
         match event:
             case ev.Move(door, percept, purpose):
-                number = ABSENT if purpose is None else PURPOSES.index(purpose)
-                row += (MOVE, door, percept_word(percept), number)
+                if id(event) not in moves:
+                    number = ABSENT if purpose is None else PURPOSES.index(purpose)
+                    moves[id(event)] = event, (MOVE, door, percept_word(percept), number)
+                row += moves[id(event)][1]
             case ev.Pose(edge, hypotheses):
                 row += (POSE, edge, len(hypotheses), *hypotheses)
             case ev.Reject():

@@ -7,10 +7,12 @@ up to half of the free memory; a run that needs more of anything else, in the la
 
 from __future__ import annotations
 
+import mmap
 import os
 import resource
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -80,7 +82,7 @@ class CompiledRun:
     cost: int
     map: MapData | None
     stopped: str | None
-    decoded: tuple[Event, ...] | None
+    decoded: Sequence[Event] | None
     reported: int | None
 
     @property
@@ -89,10 +91,13 @@ class CompiledRun:
 
     @property
     def events(self) -> tuple[Event, ...]:
-        if self.decoded is None:
-            return ()
+        """The events from the first move to the map."""
+        return self.events_after()
+
+    def events_after(self, *start: Event) -> tuple[Event, ...]:
+        """The events behind a start, in one copy, since there may be millions."""
         finish = () if self.map is None else (Finish(self.reported, self.map),)
-        return self.decoded + finish
+        return () if self.decoded is None else tuple(chain(start, self.decoded, finish))
 
 
 def run_world(
@@ -253,22 +258,35 @@ class CompiledJob:
                 ws.STOP_BUDGET: f"the mapper asked for more than {self.budget} moves",
                 ws.STOP_DOOR: "the mapper asked for a door that is not there",
             }[stop],
-            tuple(self.events) if self.trace else None,
+            self.events if self.trace else None,
             int(space[layout.at("robot.cost")]),
         )
 
 
 def workspace(layout: ws.WordLayout, room: int) -> Workspace:
+    """A workspace with `room` words of trace."""
+    return zeros(layout.at("trace.word") + room)
+
+
+def zeros(size: int) -> Workspace:
+    """An array of words, which takes memory where it is written.
+
+    Raises:
+        InputError: there is no address space for it.
+    """
     import numpy as np
 
-    size = layout.at("trace.word") + room
     try:
-        return np.zeros(size, np.int64)
-    except MemoryError:
+        memory = mmap.mmap(-1, 8 * size)
+    except OSError:
         raise InputError(
             f"the compiled engine needs {size * 8 / 2**30:.2f} GiB of address space for this run"
             " and gets none: raise the limit (ulimit -v), or use the reference engine"
         ) from None
+    # numpy asks for pages of 2 MiB, and most fields have few words.
+    if hasattr(mmap, "MADV_NOHUGEPAGE"):
+        memory.madvise(mmap.MADV_NOHUGEPAGE)
+    return np.frombuffer(memory, np.int64)
 
 
 def write(space: Workspace, layout: ws.WordLayout, part: str, **words: int) -> None:
@@ -309,7 +327,8 @@ def place_map(space: Workspace, layout: ws.WordLayout, delivered: MapData) -> bo
     degrees = [len(darts) for darts in delivered.vertices]
     size = sum(degrees)
     numbered = [dart for darts in delivered.vertices for dart in darts] == list(range(size))
-    is_whole = numbered and 2 * len(delivered.edges) == size <= ws.CHART_DARTS
+    most = layout.constants["CHART_DARTS"]
+    is_whole = numbered and 2 * len(delivered.edges) == size <= most
     if not is_whole or delivered.marker != (0 if size else None):
         return False
     alpha = [-1] * size

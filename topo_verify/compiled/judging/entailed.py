@@ -18,19 +18,25 @@ from topo_verify.compiled.workspace import *
 
 
 @kernel
-def fold_history(run: RunWords, case: CaseWords) -> bool:
-    """Fold the moves and judge the decisions; False: no world shows the history."""
+def start_history(run: RunWords, case: CaseWords, asked: int) -> None:
+    """Start the fold of the history; if asked, draw S on it."""
     drawn = case.drawn
     start_judge_fold(case.fold, shown(run.world, 0))
+    drawn.asked = asked
     drawn.unproved = 0
     drawn.stands = 1
     drawn.rejection = 0
-    end = end_of_trace(run.trace)
-    asked = case.level >= 10 or case.cited > 0
-    if asked:
-        drawn.darts = 0
-        drawn.vertices = 0
+    drawn.darts = 0
+    drawn.vertices = 0
+    if asked != 0:
         add_vertex_on_fold(case, 0, 0)
+
+
+@kernel
+def fold_history(run: RunWords, case: CaseWords) -> bool:
+    """Fold the moves and judge the decisions; False: no world shows the history."""
+    drawn = case.drawn
+    end = end_of_trace(run.trace)
     i = run.trace.place_of("word")
     while i < end:
         kind = EventWords(run, i).kind
@@ -40,7 +46,7 @@ def fold_history(run: RunWords, case: CaseWords) -> bool:
                 return False
             i += 4
             continue
-        if asked and kind != POSE and drawn.stands != 0:  # pyright: ignore[reportUnnecessaryComparison]  calls change it
+        if drawn.asked != 0 and kind != POSE and drawn.stands != 0:  # pyright: ignore[reportUnnecessaryComparison]  calls change it
             conclude_event(run, case, DecisionWords(run, i))
         elif kind == REJECT:
             note_rejection(drawn, 0)  # S is no longer proved
@@ -236,13 +242,11 @@ def is_met(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:  
     found = fold.met
     fold.met = -1
     if cited == TWO_OF_S:
-        seen = drawn.vertices
-        for v in range(seen):
-            for w in range(v):
-                if find_node(fold, drawn.node[drawn.entry[v]]) == find_node(
-                    fold, drawn.node[drawn.entry[w]]
-                ):
-                    found |= 1 << TWO_OF_S
+        for v in range(drawn.vertices):
+            fold.number[find_node(fold, drawn.node[drawn.entry[v]])] = v
+        for v in range(drawn.vertices):
+            if fold.number[find_node(fold, drawn.node[drawn.entry[v]])] != v:
+                found |= 1 << TWO_OF_S
     roll_back(fold, mark)
     if (found >> cited) & 1 == 0 and found != 0:
         found = all_that_follow(case, e, h)

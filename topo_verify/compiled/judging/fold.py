@@ -12,11 +12,15 @@ from topo_verify.compiled.judging.layout import *
 from topo_verify.compiled.kernel import inlined, kernel
 from topo_verify.compiled.workspace import MASK, SHIFT
 
+LEAST_TIDIED = 1 << 12
+"""Nodes are dropped where this number of doors, and twice those kept, are taken."""
+
 
 @inlined
 def start_judge_fold(fold: FoldWords, percept: int) -> None:
     fold.nodes = 0
     fold.doors = 0
+    fold.tidied = 0
     fold.undos = 0
     fold.met = -1
     fold.at = visit(fold, percept)
@@ -219,6 +223,68 @@ def roll_back(fold: FoldWords, mark: int) -> None:
 
 
 @kernel
+def tidy_up(case: CaseWords) -> None:
+    """Drop the nodes that are identified with others, if these take much room.
+
+    Node 0 stays, since its dart 0 is the marker's. A node moves towards the front alone.
+    """
+    fold, drawn = case.fold, case.drawn
+    if fold.doors < 2 * fold.tidied + LEAST_TIDIED:
+        return
+    settle_places(case)
+    nodes = 0
+    doors = 0
+    for node in range(fold.nodes):
+        if node != 0 and fold.parent[node] != node:
+            continue
+        fold.parent[nodes] = fold.number[fold.parent[node]]
+        fold.offset[nodes] = fold.offset[node]
+        fold.weight[nodes] = fold.weight[node]
+        fold.marked[nodes] = fold.marked[node]
+        degree = fold.degree[node]
+        base = fold.base[node]
+        fold.degree[nodes] = degree
+        fold.base[nodes] = doors
+        for slot in range(base, base + degree):
+            end = fold.end_node[slot]
+            fold.end_node[doors] = fold.number[end] if end >= 0 else -1
+            fold.end_dart[doors] = fold.end_dart[slot]
+            fold.owner[doors] = nodes
+            doors += 1
+        nodes += 1
+    fold.nodes = nodes
+    fold.doors = doors
+    fold.tidied = doors
+    fold.at = fold.number[fold.at]
+    for d in range(drawn.darts):
+        drawn.node[d] = fold.number[drawn.node[d]]
+
+
+@inlined
+def settle_places(case: CaseWords) -> None:
+    """Name every place by its representative, and number these and node 0."""
+    fold, drawn = case.fold, case.drawn
+    fold.dart = find_dart(fold, fold.at, fold.dart)
+    fold.at = find_node(fold, fold.at)
+    for d in range(drawn.darts):
+        drawn.dart[d] = find_dart(fold, drawn.node[d], drawn.dart[d])
+        drawn.node[d] = find_node(fold, drawn.node[d])
+    nodes = 0
+    for node in range(fold.nodes):
+        if node == 0 or fold.parent[node] == node:
+            fold.number[node] = nodes
+            nodes += 1
+            for slot in range(fold.base[node], fold.base[node] + fold.degree[node]):
+                end = fold.end_node[slot]
+                if end >= 0:
+                    fold.end_dart[slot] = find_dart(fold, end, fold.end_dart[slot])
+                    fold.end_node[slot] = find_node(fold, end)
+    root = find_node(fold, 0)
+    fold.offset[0] = find_dart(fold, 0, 0)
+    fold.parent[0] = root
+
+
+@kernel
 def lay_out(fold: FoldWords) -> int:
     """The fold as a map, with a leaf on every open dart: the number of open darts.
 
@@ -256,18 +322,20 @@ def is_planar_fold(fold: FoldWords) -> bool:
     vertices = 0
     open_darts = 0
     faces = 0
-    seen = 0
+    for dart in range(fold.size):
+        fold.seen[dart] = 0
     for dart in range(fold.size):
         node = fold.vertex[dart]
         if fold.number[node] == dart:
             vertices += 1
         if fold.alpha[dart] < 0:
             open_darts += 1
-        if (seen >> dart) & 1 == 0:
+        if fold.seen[dart] == 0:
             faces += 1
             at = dart
-            while (seen >> at) & 1 == 0:
-                seen |= 1 << at
+            while fold.seen[at] == 0:
+                fold.seen[at] = 1
+                # A leaf turns back into its dart.
                 if fold.alpha[at] >= 0:
                     at = fold.alpha[at]
                 node = fold.vertex[at]
@@ -312,9 +380,10 @@ def all_that_follow(case: CaseWords, e: int, h: int) -> int:
                     put_beyond(case, v, consequences.end[k])
                     k = consequences.next[k]
     for v in range(drawn.vertices):
-        for w in range(v):
-            if entry_of(case, v) == entry_of(case, w):
-                consequences.met |= 1 << TWO_OF_S
+        fold.number[entry_of(case, v)] = v
+    for v in range(drawn.vertices):
+        if fold.number[entry_of(case, v)] != v:
+            consequences.met |= 1 << TWO_OF_S
     return consequences.met
 
 

@@ -20,15 +20,9 @@ def unjustified(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bo
     e = rejection.edge
     h = rejection.h
     rule = rejection.rule
-    at = case.pose_at
-    if at < 0 or case.pose_edge != e:
+    if e < 0 or case.pose_edge != e:
         return True
-    is_posed = False
-    posed = PoseWords(run, at)
-    for k in range(posed.place_of("h"), posed.place_of("h") + posed.number):
-        if run[k] == h:
-            is_posed = True
-    if not is_posed or e < 0 or e >= case.size or h < 0 or h >= case.size:
+    if e >= case.size or h < 0 or h >= case.size or case.posed_by[h] != case.poses:
         return True
     if case.alpha[e] >= 0 or case.alpha[h] >= 0:
         return True
@@ -73,31 +67,28 @@ def cites_in_vain(case: CaseWords) -> bool:
 def percepts_agree(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:
     step = rejection.step
     number = rejection.sequence
-    doors = case.place_of("word_door")
-    percepts = case.place_of("word_percept")
+    steps = case.place_of("word_step")
     size = case.word_size
     if number == ABSENT:
         if rejection.rule != BY_MOTION:
             return True
     else:
-        if number < 0 or number >= case.sequences - case.first_sequence:
+        if number < 0 or number >= case.sequences:
             return True
-        s = case.first_sequence + number
-        doors = case.place_of("arena_door") + case.sequence_at[s]
-        percepts = case.place_of("arena_percept") + case.sequence_at[s]
-        size = case.sequence_size[s]
+        steps = case.place_of("arena_step") + case.sequence_at[number]
+        size = case.sequence_size[number]
     if step < 0 or step > size:
         return True
     observed = (
         shown(run.world, run.world.alpha[case.phi[rejection.edge]])
         if step == 0
-        else case[percepts + step - 1]
+        else case[steps + step - 1] >> SHIFT
     )
     at = rejection.h
     for k in range(step):
-        exit_dart = case.number[exit_of(run.world, case.phi[at], case[doors + k])]
+        exit_dart = case.number[exit_of(run.world, case.phi[at], case[steps + k] & MASK)]
         if case.alpha[exit_dart] < 0:
-            return beyond_s(run, case, rejection, exit_dart, doors + k + 1, step - k - 1, observed)
+            return beyond_s(run, case, rejection, exit_dart, steps + k + 1, step - k - 1, observed)
         at = case.alpha[exit_dart]
     expected = shown(run.world, case.phi[at])
     return (
@@ -115,7 +106,7 @@ def beyond_s(
     case: CaseWords,
     rejection: RejectionWords,
     dart: int,
-    doors: int,
+    steps: int,
     rest: int,
     observed: int,
 ) -> bool:
@@ -123,17 +114,17 @@ def beyond_s(
     if rejection.record != dart or rejection.doors != rest or rejection.at not in (ABSENT, dart):
         return True
     for k in range(rest):
-        if rejection.door[k] != case[doors + k]:
+        if rejection.door[k] != case[steps + k] & MASK:
             return True
     record = case.record_of[dart]
     while record >= 0:
         begin = case.record_at[record]
         k = 0
         if case.record_rest[record] >= rest:
-            while k < rest and case.arena_door[begin + 1 + k] == case[doors + k]:
+            while k < rest and (case.arena_step[begin + 1 + k] ^ case[steps + k]) & MASK == 0:
                 k += 1
             if k == rest:
-                expected = case.arena_percept[begin + rest]
+                expected = case.arena_step[begin + rest] >> SHIFT
                 return (
                     rejection.observed != observed
                     or rejection.expected != expected
@@ -154,27 +145,40 @@ def keep_sequence(case: CaseWords) -> None:
     case.sequence_at[s] = begin
     case.sequence_size[s] = size
     for k in range(size):
-        case.arena_door[begin + k] = case.word_door[k]
-        case.arena_percept[begin + k] = case.word_percept[k]
+        case.arena_step[begin + k] = case.word_step[k]
     case.sequences = s + 1
     case.arena = begin + size
 
 
 @inlined
 def record_sequences(world: WorldWords, case: CaseWords, start: int) -> None:
-    """Record what the sequences show behind the first unexplored dart."""
-    for s in range(case.first_sequence, case.sequences):
+    """Record what the sequences show behind the first unexplored dart; keep no more of them."""
+    for s in range(case.sequences):
         at = start
         begin = case.sequence_at[s]
-        size = case.sequence_size[s]
-        for k in range(size):
-            exit_dart = case.number[exit_of(world, case.phi[at], case.arena_door[begin + k])]
+        end = begin + case.sequence_size[s]
+        for k in range(begin, end):
+            exit_dart = case.number[exit_of(world, case.phi[at], case.arena_step[k] & MASK)]
             if case.alpha[exit_dart] < 0:
-                record = case.records  # at most one for each sequence
-                case.record_at[record] = begin + k
-                case.record_rest[record] = size - k - 1
-                case.record_before[record] = case.record_of[exit_dart]
-                case.record_of[exit_dart] = record
-                case.records = record + 1
+                record_rest(case, exit_dart, k, end)
                 break
             at = case.alpha[exit_dart]
+
+
+@inlined
+def record_rest(case: CaseWords, exit_dart: int, begin: int, end: int) -> None:
+    """Record these words of the arena behind a dart, and move them to the others on record."""
+    record = case.records
+    if record >= JUDGE_SEQUENCES:
+        case.full = 1
+        return
+    to = case.recorded
+    case.record_at[record] = to
+    case.record_rest[record] = end - begin - 1
+    case.record_before[record] = case.record_of[exit_dart]
+    case.record_of[exit_dart] = record
+    case.records = record + 1
+    for k in range(begin, end):
+        case.arena_step[to] = case.arena_step[k]
+        to += 1
+    case.recorded = to

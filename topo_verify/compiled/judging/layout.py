@@ -6,6 +6,7 @@ open. Sizes are for worlds of up to 12 edges, whose budget is 6,780 moves.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 from topo_verify.compiled.events import *
@@ -19,13 +20,16 @@ OK, FAILED, PARTIAL, NOT_DECLARED, UNDECIDED = range(5)
 """The status of a claim, as a number."""
 
 JUDGE_DARTS = 64
-"""S has fewer darts, since sets are masks; else the verdict is open."""
+"""S has fewer darts, else the verdict is open."""
 JUDGE_STEPS = 8192
 JUDGE_ARENA = 32768
 JUDGE_SEQUENCES = 4096
 JUDGE_NODES = 8192
 JUDGE_DOORS = 65536
 JUDGE_SLOTS = JUDGE_DOORS // 4
+JUDGE_SET = JUDGE_DARTS // 64
+"""Words of a set of darts."""
+JUDGE_SETS = JUDGE_DARTS * JUDGE_SET
 
 JUDGE_CAPACITIES = {name: size for name, size in globals().items() if name.startswith("JUDGE_")}
 
@@ -38,6 +42,7 @@ PerArenaWord = Annotated[Words, "JUDGE_ARENA"]
 PerNode = Annotated[Words, "JUDGE_NODES"]
 PerDoor = Annotated[Words, "JUDGE_DOORS"]
 PerSlot = Annotated[Words, "JUDGE_SLOTS"]
+PerSet = Annotated[Words, "JUDGE_SETS"]
 
 FATE_POSED, FATE_LOOP, FATE_NEW = 1, 2, 3
 
@@ -49,6 +54,7 @@ class OpenWords(WordView):
 class FoldWords(OpenWords):
     nodes: int
     doors: int
+    tidied: int  # doors after the nodes that are none any more were dropped
     at: int
     dart: int
     parent: PerNode
@@ -69,6 +75,7 @@ class FoldWords(OpenWords):
     owner: PerSlot
     alpha: PerCaseDart
     vertex: PerCaseDart
+    seen: PerCaseDart  # is its face counted?
     size: int
 
 
@@ -90,8 +97,9 @@ class DrawnWords(OpenWords):
     open: PerCaseDart
     after: PerCaseDart  # next dart on the face; an open dart turns back
     refuted: PerCaseDart  # the last e shown not to end there; -1: none
-    entry: PerCaseDart
-    stands: int
+    entry: PerCaseDart  # first dart of each vertex
+    asked: int  # is S drawn at all?
+    stands: int  # is S proved so far?
     unproved: int  # does some decision not follow?
     rejection: int
     met: PerCaseStep  # 1 if the cited contradiction follows
@@ -115,10 +123,10 @@ class CaseWords(OpenWords):
     legal: int  # does every door so far exist?
     true: int  # is every percept so far the world's?
     spoiled: int  # did S grow by what is false?
-    size: int
-    crossed: int  # mask of crossed edges, by lesser dart
-    grown: int
+    size: int  # darts of S
     phi: PerCaseDart
+    crossed: PerCaseDart  # was this edge crossed? by its lesser dart
+    grown: PerCaseDart  # did S grow along it?
     number: PerCaseDart  # dart of S; -1: none
     alpha: PerCaseDart  # of S; -1: unexplored
     image: PerCaseDart
@@ -132,26 +140,24 @@ class CaseWords(OpenWords):
     confirmations: int
     augmentations: int
     posed: int
-    pose_at: int  # the last pose; -1: S grew since, or none
-    pose_edge: int
+    pose_edge: int  # of the last pose; -1: S grew since, or none
     # of each edge of the world, by its lesser dart: 0 not posed, 1 posed, or `FATE_…` below
     fate: PerCaseDart
-    cited_by: PerCaseStep
-    left: PerCaseDart  # mask of undecided hypotheses
+    cited_by: PerCaseStep  # their numbers, from 1
+    left: PerSet  # of each edge that was posed: the set of undecided hypotheses
+    poses: int  # number of poses in all runs
+    posed_by: PerCaseDart  # the last pose with this hypothesis
     # whether the last pose was made elsewhere than behind its edge: the word stays empty
     is_late: int
     turned: int
     word_size: int
-    word_door: PerCaseStep
-    word_percept: PerCaseStep
-    # the first sequence since the last pose; those before are on record or forgotten
-    first_sequence: int
-    sequences: int
+    word_step: PerCaseStep  # a percept, and the door before it: percept << SHIFT | door
+    sequences: int  # since the last pose; those before are on record or forgotten
     sequence_at: PerSequence
     sequence_size: PerSequence
     arena: int
-    arena_door: PerArenaWord
-    arena_percept: PerArenaWord
+    recorded: int  # words of the arena that are on record
+    arena_step: PerArenaWord  # steps of the sequences
     records: int
     record_of: PerCaseDart  # the last record behind it; -1: none
     # where a record's first percept is in the arena; and how many doors follow behind it
@@ -170,6 +176,51 @@ CASE = Fields(
 )
 
 JUDGE_SIZE = CASE.size
+
+_LONG_CAPACITIES = {
+    "JUDGE_DARTS": 1 << 15,
+    "JUDGE_STEPS": 1 << 22,
+    "JUDGE_ARENA": 1 << 24,
+    "JUDGE_SEQUENCES": 1 << 22,
+    "JUDGE_NODES": 1 << 21,
+    "JUDGE_DOORS": 1 << 23,
+    "JUDGE_SLOTS": 1 << 21,
+    "JUDGE_SET": 1 << 9,
+    "JUDGE_SETS": 1 << 24,
+}
+
+_LONG_OFFSETS = CASE.offsets({**CASE.capacities, **_LONG_CAPACITIES})
+
+_LONG_RUN = layout(
+    "long",
+    {
+        **dict.fromkeys(CAPACITIES, 1),
+        "WORLD_DARTS": _LONG_CAPACITIES["JUDGE_DARTS"],
+        "CHART_DARTS": _LONG_CAPACITIES["JUDGE_DARTS"],
+    },
+)
+
+LONG = replace(
+    _LONG_RUN,
+    constants={
+        **_LONG_RUN.constants,
+        **_LONG_CAPACITIES,
+        **CASE.constants(_LONG_OFFSETS),
+    },
+    sources=tuple(
+        f"topo_verify.compiled.{name}"
+        for name in (
+            "workspace", "pruning", "events", "judging.layout", "judging.justified",
+            "judging.truth", "judging.fold", "judging.entailed", "judging.verdict",
+        )
+    ),
+)  # fmt: skip
+"""The layout in which a trace is judged part by part, in worlds of up to 16,384 edges.
+
+The fields of a case up to `size` stand where they stand in `CASE`.
+"""
+
+LONG_SIZE = _LONG_OFFSETS["SIZE"]
 
 
 @inlined

@@ -20,8 +20,7 @@ HASH_PRIME = 1099511628211
 
 @kernel
 def replay(run: RunWords, case: CaseWords) -> None:
-    """Follow the trace and judge each event by claims 1, 2, 3, 4, 5 and 8."""
-    start_replay(run.world, case)
+    """Follow the trace on, and judge each event by claims 1, 2, 3, 4, 5 and 8."""
     i = run.trace.place_of("word")
     end = end_of_trace(run.trace)
     while i < end:
@@ -40,8 +39,11 @@ def replay(run: RunWords, case: CaseWords) -> None:
         i += size
 
 
-@inlined
+@kernel
 def start_replay(world: WorldWords, case: CaseWords) -> None:
+    """Let S be v0, and forget the run before."""
+    case.full = 0
+    case.wrong = 0
     for at in range(case.place_of("cost"), case.place_of("phi")):
         case[at] = 0
     for at in range(case.place_of("saw"), case.place_of("fate")):
@@ -49,17 +51,18 @@ def start_replay(world: WorldWords, case: CaseWords) -> None:
     for d in range(case.darts):
         case.number[d] = -1
         case.fate[d] = 0
-        case.left[d] = 0
+        case.crossed[d] = 0
+        case.grown[d] = 0
     case.legal = 1
     case.true = 1
     case.followed = 1
-    case.pose_at = -1
+    case.pose_edge = -1
     case.is_late = 0
     case.turned = 0
     case.word_size = 0
-    case.first_sequence = 0
     case.sequences = 0
     case.arena = 0
+    case.recorded = 0
     case.records = 0
     draw_vertex(world, case, 0)
 
@@ -108,7 +111,7 @@ def follow_move(run: RunWords, case: CaseWords, move: MoveWords) -> None:
     exit_dart = exit_of(world, at, door)
     at = world.alpha[exit_dart]
     case.at = at
-    case.crossed |= 1 << min(at, exit_dart)
+    case.crossed[min(at, exit_dart)] = 1
     case.followed += 1
     percept = shown(world, at)
     if move.percept != percept:
@@ -119,13 +122,12 @@ def follow_move(run: RunWords, case: CaseWords, move: MoveWords) -> None:
         door -= world.degree[v]
     size = case.word_size
     if door == 0 and size > 0:
-        case.turned = case.word_door[size - 1]
+        case.turned = case.word_step[size - 1] & MASK
         case.word_size = size - 1
     elif case.is_late == 0 and size >= JUDGE_STEPS:
         case.full = 1
     elif case.is_late == 0:
-        case.word_door[size] = door
-        case.word_percept[size] = percept
+        case.word_step[size] = percept << SHIFT | door
         case.word_size = size + 1
         case.turned = 0
 
@@ -169,15 +171,18 @@ def pose(run: RunWords, case: CaseWords, posed: PoseWords, edge: int, truth: int
     e = posed.edge
     number = posed.number
     case.posed += number
-    case.pose_at = posed.origin
+    case.poses += 1
     case.pose_edge = e
     case.turned = 0
     case.word_size = 0
-    case.first_sequence = case.sequences
-    wrong = edge < 0 or case.crossed & (1 << edge) == 0
+    case.sequences = 0
+    case.arena = case.recorded
+    wrong = edge < 0 or case.crossed[edge] == 0
+    if edge >= 0 and case.fate[edge] == 0:
+        for word in range(edge * JUDGE_SET, edge * JUDGE_SET + JUDGE_SET):
+            case.left[word] = 0
     case.is_late = edge < 0 or case.at != run.world.alpha[case.phi[e]]
     has_truth = truth < 0
-    hypotheses = 0
     for k in range(posed.place_of("h"), posed.place_of("h") + number):
         h = run[k]
         if not is_open(case, h):
@@ -186,19 +191,20 @@ def pose(run: RunWords, case: CaseWords, posed: PoseWords, edge: int, truth: int
             has_truth = True
         if h < 0 or h >= JUDGE_DARTS - 2:
             case.full = 1
-        else:
-            hypotheses |= 1 << h
+            continue
+        case.posed_by[h] = case.poses
+        if edge >= 0:
+            case.left[edge * JUDGE_SET + (h >> 6)] |= 1 << (h & 63)
     if wrong or not has_truth:
         case.wrong |= 1 << 1
     if edge >= 0:
         case.fate[edge] = FATE_POSED
-        case.left[edge] |= hypotheses
 
 
 @inlined
 def settle_hypothesis(case: CaseWords, edge: int, h: int) -> None:
     if edge >= 0 and 0 <= h < JUDGE_DARTS - 2:
-        case.left[edge] &= ~(1 << h)
+        case.left[edge * JUDGE_SET + (h >> 6)] &= ~(1 << (h & 63))
 
 
 @inlined
@@ -209,7 +215,7 @@ def augment(
     world = run.world
     e = event.edge
     is_new = event.growth == NEW
-    posed = case.pose_at >= 0 and case.pose_edge == e
+    posed = e >= 0 and case.pose_edge == e
     case.augmentations += 1
     if not posed:
         case.wrong |= 1 << 1
@@ -226,23 +232,32 @@ def augment(
         case.spoiled = 1
         return
     if posed:
-        left = case.left[edge] if is_new else 0
-        if is_new:
-            now_open = 0
-            for d in range(size):
-                if case.alpha[d] < 0:
-                    now_open |= 1 << d
-            left &= now_open
-        case.left[edge] = left
         case.fate[edge] = FATE_NEW if is_new else FATE_LOOP
-        if left != 0:
+        if left_open(case, edge, size if is_new else 0):
             case.wrong |= 1 << 2
     if is_new:
         draw_vertex(world, case, end)
     case.alpha[e] = dart
     case.alpha[dart] = e
-    case.grown |= 1 << edge
+    case.grown[edge] = 1
     if posed:
         record_sequences(world, case, dart)
-    case.pose_at = -1
-    case.first_sequence = case.sequences
+    case.pose_edge = -1
+    case.sequences = 0
+    case.arena = case.recorded
+
+
+@inlined
+def left_open(case: CaseWords, edge: int, size: int) -> bool:
+    """Keep the undecided hypotheses below `size` that are unexplored; whether there are any."""
+    is_any = False
+    for word in range(JUDGE_SET):
+        mask = case.left[edge * JUDGE_SET + word]
+        if mask != 0:
+            for bit in range(64):
+                h = 64 * word + bit
+                if (mask >> bit) & 1 != 0 and (h >= size or case.alpha[h] >= 0):
+                    mask &= ~(1 << bit)
+            case.left[edge * JUDGE_SET + word] = mask
+            is_any = is_any or mask != 0
+    return is_any

@@ -5,38 +5,69 @@ Twin of checkers/claims.py and coverage.py.
 
 from __future__ import annotations
 
-from topo_verify.compiled.judging.entailed import fold_history
-from topo_verify.compiled.judging.fold import find_dart, find_node, lay_out
+from topo_verify.compiled.judging.entailed import fold_history, start_history
+from topo_verify.compiled.judging.fold import find_dart, find_node, lay_out, tidy_up
 from topo_verify.compiled.judging.justified import cites_in_vain
 from topo_verify.compiled.judging.layout import *
-from topo_verify.compiled.judging.truth import replay
+from topo_verify.compiled.judging.truth import replay, start_replay
 from topo_verify.compiled.kernel import entry, inlined, kernel
 from topo_verify.compiled.names import Words
 from topo_verify.compiled.pruning import bit_count
 from topo_verify.compiled.workspace import *
 
+FIRST_PART, LAST_PART = 1, 2
 
-@entry
+
+@kernel
 def judge(run: RunWords, case: CaseWords) -> int:
     """Judge the run: a mask of the failing claims; -1: open."""
-    case.full = 0
-    case.wrong = 0
+    start_replay(run.world, case)
     replay(run, case)
-    judge_delivery(run, case)
-    is_history = case.legal != 0 and case.true != 0
-    if not is_history:
-        if case.cited > 0:
-            case.wrong |= 1 << 7
-    elif case.level >= 9 or case.cited > 0:
+    if is_history(case) and (case.level >= 9 or case.cited > 0):
+        start_history(run, case, 1 if case.level >= 10 or case.cited > 0 else 0)
+        if not fold_history(run, case):
+            case.full = 1  # impossible: the world shows this history
+    return settle_verdict(run, case)
+
+
+@entry
+def judge_part(run: RunWords, case: CaseWords, part: int, asked: int) -> int:
+    """Judge the next part of a trace: 0; after the last one, or if the verdict is open, `judge`.
+
+    Args:
+        part: `FIRST_PART`, `LAST_PART`, both (their sum), or 0.
+        asked: whether a rejection anywhere cites a contradiction; 2: one by the rule `planar`.
+    """
+    if part & FIRST_PART != 0:
+        start_replay(run.world, case)
+        start_history(run, case, 1 if case.level >= 10 or asked > 0 else 0)
+        case.saw_planar = 1 if asked > 1 else 0
+    replay(run, case)
+    if is_history(case) and case.full == 0:
+        tidy_up(case)
         if not fold_history(run, case):
             case.full = 1
-        if cites_in_vain(case):
-            case.wrong |= 1 << 7
-    if case.level >= 9 and (
-        not is_history or case.delivered == 0 or not proves_map(run.chart, case)
-    ):
+    if case.full != 0:
+        return -1
+    return settle_verdict(run, case) if part & LAST_PART != 0 else 0
+
+
+@inlined
+def is_history(case: CaseWords) -> bool:
+    """Whether the world shows all percepts so far, and has all doors."""
+    return case.legal != 0 and case.true != 0
+
+
+@kernel
+def settle_verdict(run: RunWords, case: CaseWords) -> int:
+    """The verdict at the end of the trace."""
+    judge_delivery(run, case)
+    is_true = is_history(case)
+    if case.cited > 0 and (not is_true or cites_in_vain(case)):
+        case.wrong |= 1 << 7
+    if case.level >= 9 and (not is_true or case.delivered == 0 or not proves_map(run.chart, case)):
         case.wrong |= 1 << 8
-    if case.level >= 10 and (not is_history or case.drawn.unproved != 0):
+    if case.level >= 10 and (not is_true or case.drawn.unproved != 0):
         case.wrong |= 1 << 9
     share_out(case)
     wrong = 0
@@ -190,20 +221,27 @@ def share(case: CaseWords, claim: int, judged: int, of: int) -> None:
 
 @kernel
 def share_out(case: CaseWords) -> None:
-    crossed = case.crossed
-    edges = bit_count(crossed)
+    """What `coverage` says of each claim."""
+    edges = 0
     posed = 0
-    unsettled = edges
+    grown = 0
+    unsettled = 0
     left = 0
     missing = 0
     loops = 0
     for d in range(case.darts):
         fate = case.fate[d]
+        was_crossed = case.crossed[d]
+        edges += was_crossed
+        grown += was_crossed & case.grown[d]
+        unsettled += was_crossed
         if fate == 0:
             continue
-        rest = bit_count(case.left[d]) + bit_count(case.left[d] >> 32)
+        rest = 0
+        for word in range(d * JUDGE_SET, d * JUDGE_SET + JUDGE_SET):
+            if case.left[word] != 0:
+                rest += bit_count(case.left[word]) + bit_count(case.left[word] >> 32)
         left += rest
-        was_crossed = (crossed >> d) & 1
         posed += was_crossed
         if fate in (FATE_LOOP, FATE_NEW):
             missing += rest
@@ -224,7 +262,7 @@ def share_out(case: CaseWords) -> None:
     share(case, 7, 1, 1)
     share(case, 8, rejections, rejections + missing + unsettled)
     share(case, 9, ended, 1)
-    share(case, 10, decisions, decisions + bit_count(crossed & ~case.grown))
+    share(case, 10, decisions, decisions + edges - grown)
 
 
 @inlined

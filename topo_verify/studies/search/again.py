@@ -193,7 +193,7 @@ def _one_process(
     with _program(campaign.mappers[0]) as program:
         program.start()
         if campaign.engine == "compiled":
-            from topo_verify.campaign.compiled_shard import CompiledChecks
+            from topo_verify.campaign.compiled_checks import CompiledChecks
 
             checks = CompiledChecks()
             for shard in shards:
