@@ -8,6 +8,7 @@ store.py           Store: the SQLite file from which a campaign resumes
 backend.py         where shards are examined; what a lost worker means
 compiled.py        a shard by the compiled engine, judged again in part
 compiled_shard.py  the counts of the compiled engine
+compiled_checks.py the judgements of the compiled judge on a trace
 run.py             runs a mapper in a world; the engines
 judge.py           judges a run by every claim
 targets.py         what a TARGET means, and the text of a callable
