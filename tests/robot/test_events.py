@@ -209,3 +209,17 @@ def test_policies_print_as_code_that_makes_them_again() -> None:
     chosen = ev.Policies("last", "random(3)")
     assert eval(repr(chosen), {"tv": topo_verify}) == chosen  # noqa: S307  as pasted
     assert pretty(chosen) == repr(chosen) == "tv.Policies(pick='last', order='random(3)')"
+
+
+def test_an_event_of_a_kind_of_ones_own_is_in_order_where_its_base_is() -> None:
+    class Patrol(ev.Move, frozen=True):
+        """A move of another mapper's vocabulary."""
+
+    class Done(ev.Finish, frozen=True):
+        """A finish of another mapper's vocabulary."""
+
+    start, *_, end = trace_of("m1/0")
+    assert isinstance(end, ev.Finish)
+    ev.require_order([start, Patrol(0, Percept(2, 1)), end])
+    with pytest.raises(InputError, match="event 1 of the trace is out of order"):
+        ev.require_order([start, Done(end.cost, end.map), end])
