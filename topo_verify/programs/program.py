@@ -136,7 +136,7 @@ class Program:
         # Decisions cost no move of the budget; a flood would fill the memory before a time limit.
         declared, written, most = 0, 0, _most_declared(robot)
         decode = self._decode
-        declare = robot.record if isinstance(robot, SimulatedRobot) else robot.declare
+        declare = robot.events.append if isinstance(robot, SimulatedRobot) else robot.declare
         while True:
             line = self._receive(child)
             try:
