@@ -13,6 +13,7 @@ from topo_verify import World, certify
 from topo_verify.checkers import check, claims, decision_conclusions
 from topo_verify.checkers.entailment import Conclusion, FoldedTrace, map_conclusion
 from topo_verify.checkers.replayed_trace import ReplayedTrace
+from topo_verify.errors import plural
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import first_percept
@@ -42,7 +43,8 @@ def test_while_a_dart_is_open_neither_of_the_two_worlds_is_proved() -> None:
                 when, why, witness, _ = map_conclusion(
                     FoldedTrace(delivering(history, fold.world(hang)))
                 )
-                assert (when, why) == (length, f"darts never crossed: {fold.open_darts()}")
+                doors = plural(fold.open_darts(), "door")
+                assert (when, why) == (length, f"{doors} seen and never crossed")
                 assert witness is not None
                 assert witness.code == fold.world(3 - hang).code
                 assert shows(witness, history)
@@ -52,7 +54,7 @@ def test_the_witness_against_another_map_than_the_proved_one_is_the_proved_one()
     world, other = World.from_id("m3/14"), World.from_id("m3/15")
     history = trace_of(world)[:-1]
     when, why, witness, _ = map_conclusion(FoldedTrace(delivering(history, other)))
-    assert (when, why) == (len(history), "the history proves another map")
+    assert (when, why) == (len(history), "it proves another map")
     assert witness is not None
     assert witness.is_isomorphic(world)
     assert map_conclusion(FoldedTrace(delivering(history, world))) == Conclusion(len(history), "")

@@ -25,7 +25,7 @@ from typing import NamedTuple
 from topo_verify.checkers.darts import KnownDart
 from topo_verify.checkers.folding import Contradiction, Fold, Pair
 from topo_verify.checkers.map_on_fold import MapOnFold
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.robot.events import Augment, Confirm, Event, Finish, MapData, Move, Reject, Start
 from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import Code, World
@@ -114,7 +114,7 @@ def map_conclusion(folded: FoldedTrace) -> Conclusion:
     if isinstance(code, str):
         return Conclusion(last, code)
     left = fold.open_darts()
-    why = f"darts never crossed: {left}" if left else "the history proves another map"
+    why = f"{plural(left, 'door')} seen and never crossed" if left else "it proves another map"
     if not left and fold.table() == code:
         return Conclusion(last, "")
     witness = fold.world(1)

@@ -18,6 +18,7 @@ from topo_verify.cli.runs import finding_line
 from topo_verify.errors import InputError, plural
 from topo_verify.proofs.mechanised import certificates
 from topo_verify.report.blocks import Block, Bullets, Text, TextTable
+from topo_verify.robot.events import Move
 from topo_verify.robot.limits import MOST_SECONDS
 from topo_verify.studies import certificates as study
 from topo_verify.studies.advice import Advice, advice
@@ -45,6 +46,8 @@ class CertifyEntry(msgspec.Struct, frozen=True):
         verdict: PROVED. UNKNOWN: several worlds show the log. REFUTED: no world shows it, or a
             map or decision in it does not follow.
         vertices, edges: of the proved map, else of the smaller witness.
+        moves: of the log, in edge traversals.
+        least_cost: of a proof of this map, in edge traversals; null unless it is proved.
         open_doors: at most 100, nearest to the end of the log first.
         advice: how to go on to prove the map; null: nothing is left to walk.
         witnesses: two different worlds that show this log: files if written, else ids.
@@ -57,6 +60,8 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     verdict: str
     vertices: int
     edges: int
+    moves: int
+    least_cost: int | None
     open_darts: int
     open_doors: tuple[OpenDoor, ...]
     advice: Advice | None
@@ -174,6 +179,8 @@ def _result(
         CertifyEntry,
         certificate,
         trace=trace,
+        moves=sum(isinstance(event, Move) for event in certificate.log),
+        least_cost=None if certificate.map is None else certificate.map.least_cost(),
         open_doors=tuple(open_doors(certificate, MOST_OPEN_DOORS)),
         advice=advice(certificate),
         decisions=DecisionCount(certificate.entailed, certificate.decisions),
@@ -218,6 +225,11 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield Bullets(tuple(map(finding_line, entry.findings[:5])))
             if entry.trace.endswith(".csv"):
                 yield Text("Of a CSV table, event 0 is the row below the titles.")
+        if entry.least_cost is not None:
+            yield Text(
+                f"{entry.trace}: {plural(entry.moves, 'move')}; a proof of this map takes at least"
+                f" {entry.least_cost}."
+            )
         if entry.advice is not None:
             yield from _show_open(entry, entry.advice)
         if entry.witnesses:
