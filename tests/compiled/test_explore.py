@@ -151,12 +151,10 @@ def test_free_memory_is_that_of_the_machine_or_of_the_control_group(
 
 
 def test_without_address_space_the_limit_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    import numpy as np
+    def none(_file: int, _size: int) -> object:
+        raise OSError
 
-    def none(_words: int, _kind: object) -> object:
-        raise MemoryError
-
-    monkeypatch.setattr(np, "zeros", none)
+    monkeypatch.setattr("mmap.mmap", none)
     with pytest.raises(InputError, match=r"GiB of address space .*ulimit -v"):
         explore.workspace(workspace.LARGE, 1)
 
