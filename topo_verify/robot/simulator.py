@@ -179,10 +179,6 @@ class SimulatedRobot:
             decision = plain_decision(event)
         except Misuse as why:
             self._stop(why)
-        self.record(decision)
-
-    def record(self, decision: ev.Decision) -> None:
-        """Put a checked decision on record."""
         self.events.append(decision)
 
     def settle(self) -> None:
