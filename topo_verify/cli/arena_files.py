@@ -95,10 +95,12 @@ def suite_blocks(suite: Suite, table: Sequence[lg.LeagueEntry]) -> Iterator[Bloc
     for entry in table:
         if entry.suite == suite.name and entry.place is None and entry.counterexample is None:
             missing = entry.total - entry.worlds
+            unmade = f", {missing - entry.undecided} of them not run yet"
             yield Text("")
             yield Text(
                 f"{entry.mapper} has no place in {suite.name}: {plural(missing, 'world')} of"
-                f" {entry.total} not decided"
+                f" {entry.total} not decided{unmade if missing > entry.undecided else ''}; conform"
+                " looks for a mistake in smaller worlds"
             )
             if entry.why:
                 yield Bullets(entry.why)
