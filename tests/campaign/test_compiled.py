@@ -20,7 +20,7 @@ from topo_verify.campaign.backend import here
 from topo_verify.campaign.campaign import Campaign, Interrupted, Ranks, Shard, ShardResult
 from topo_verify.campaign.campaign import examine as examine_by_checkers
 from topo_verify.campaign.compiled import examine_compiled
-from topo_verify.campaign.compiled_shard import STATUSES
+from topo_verify.campaign.compiled_checks import STATUSES
 from topo_verify.campaign.run import CompiledAlgorithm, Engine
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.tally import Tally

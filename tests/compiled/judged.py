@@ -12,7 +12,8 @@ import pytest
 from msgspec import structs
 
 from topo_verify import World
-from topo_verify.campaign.compiled_shard import STATUSES, ShardCounts
+from topo_verify.campaign.compiled_checks import STATUSES
+from topo_verify.campaign.compiled_shard import ShardCounts
 from topo_verify.campaign.run import Exploration, explore
 from topo_verify.checkers import check
 from topo_verify.checkers.findings import Judgement

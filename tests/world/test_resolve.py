@@ -14,7 +14,7 @@ from tests.world.formats.worlds import world_or_sentence
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
 from topo_verify.world.formats import files
-from topo_verify.world.resolve import as_world, resolve_world
+from topo_verify.world.resolve import resolve_world
 
 TRIANGLE = families.complete(3)
 
@@ -210,11 +210,3 @@ def test_arguments_that_do_not_fit_are_told_which_do(arguments: str, sentence: s
 def test_any_text_behind_family_gives_a_world_or_one_sentence(name: str, arguments: str) -> None:
     world = world_or_sentence(lambda: resolve_world(f"family:{name}({arguments})"))
     assert world is None or resolve_world(f"family:{world.name}") == world
-
-
-def test_a_world_is_itself_a_text_names_one_and_nothing_else_does() -> None:
-    world = World.from_id("m3/5")
-    assert as_world(world) is world
-    assert as_world("m3/5") == world
-    with pytest.raises(InputError, match="expected a World or a text that names one"):
-        as_world(5)
