@@ -6,10 +6,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property, partial
+from functools import partial
 
 from topo_verify.algorithms.chart import Chart, Tree
-from topo_verify.algorithms.motion import Choice, Executed, Hypothesis, Pilot, overlap
+from topo_verify.algorithms.motion import Choice, Executed, Hypothesis, Pilot, on_demand, overlap
 from topo_verify.faults.fault import crossed, planted
 from topo_verify.robot.events import MapDart
 from topo_verify.robot.percept import Door, Percept
@@ -74,7 +74,7 @@ def goes_on_as_if_just_come_in(pilot: Pilot, chart: Chart, entry: MapDart) -> Ma
 class counts_doors_from_dart_0(Hypothesis):
     """the doors home are counted from each vertex' first dart, not from the dart of arrival"""
 
-    @cached_property
+    @on_demand
     def doors(self) -> tuple[Door, ...]:
         chart, from_entry = self._chart, super().doors
         exits = [chart.turn(a, k) for a, k in zip(self.arrivals, from_entry, strict=False)]
@@ -96,7 +96,7 @@ class walks_home_over_e_itself(Hypothesis):
 class stops_a_door_before_v0(Hypothesis):
     """if the way home has two doors or more, the last is not walked"""
 
-    @cached_property
+    @on_demand
     def arrivals(self) -> tuple[MapDart, ...]:
         way = super().arrivals
         return way[:-1] if len(way) > 2 else way
@@ -106,7 +106,7 @@ class stops_a_door_before_v0(Hypothesis):
 class expects_a_step_ahead(Hypothesis):
     """the percept behind each door is compared with what is expected behind the next one"""
 
-    @cached_property
+    @on_demand
     def expected(self) -> tuple[Percept, ...]:
         first, *rest = super().expected
         return (first, *rest[1:], *rest[-1:])

@@ -188,7 +188,8 @@ def verdict_case(
 
 def joint_verdict(verdicts: Sequence[str]) -> Verdict:
     """The weakest of these verdicts; UNKNOWN if there are none."""
-    return next((verdict for verdict in _WEAKEST if verdict in verdicts), "UNKNOWN")
+    weakest: list[Verdict] = [verdict for verdict in _WEAKEST if verdict in verdicts]
+    return weakest[0] if weakest else "UNKNOWN"
 
 
 _WEAKEST: tuple[Verdict, ...] = ("REFUTED", "UNKNOWN", "SAMPLED", "EXHAUSTED", "PROVED")

@@ -189,8 +189,8 @@ def _rows(name: str, value: object) -> list[list[int]]:
         )
     rows: list[list[int]] = []
     for place, row in enumerate(given):
-        # a set has no order
-        items = None if name == "vertices" and isinstance(row, AbstractSet) else _items(row)
+        is_set = isinstance(row, AbstractSet)  # has no order
+        items = None if name == "vertices" and is_set else _items(row)
         if items and {int}.issuperset(map(type, items)) and max(*map(abs, items), 0) < 2**64:
             rows.append(items)  # the usual case, quickly
             continue

@@ -46,7 +46,7 @@ def fold_history(run: RunWords, case: CaseWords) -> bool:
                 return False
             i += 4
             continue
-        if drawn.asked != 0 and kind != POSE and drawn.stands != 0:  # pyright: ignore[reportUnnecessaryComparison]  calls change it
+        if drawn.asked != 0 and kind != POSE and drawn.stands != 0:
             conclude_event(run, case, DecisionWords(run, i))
         elif kind == REJECT:
             note_rejection(drawn, 0)  # S is no longer proved
