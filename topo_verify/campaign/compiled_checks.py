@@ -54,7 +54,7 @@ class CompiledChecks:
     ) -> Sequence[Judgement]:
         """The judgements of `check`."""
         judgements = None if stopped is not None else self.unchecked(world, trace, strict=strict)
-        if judgements is None or any(one.status == "failed" for one in judgements):
+        if judgements is None or any(j.status == "failed" for j in judgements):
             return check(world, trace, stopped, strict=strict)
         return judgements
 

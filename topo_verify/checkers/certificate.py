@@ -58,8 +58,8 @@ def judge_log(trace: Sequence[Event]) -> JudgedLog:
     fold, broken = folded.fold, folded.read_to(len(trace))
     most = max(MOST_DARTS, 16 * len(trace))
     if (darts := sum(map(fold.degree, fold.roots()))) > most:
-        told = f"the places of this log have {darts} doors together: expected at most {most}"
-        raise InputError(f"{told}; is a degree wrong?")
+        size = f"the places of this log have {darts} doors together: expected at most {most}"
+        raise InputError(f"{size}; is a degree wrong?")
     decides = any(isinstance(event, ent.CONCLUDED) for event in trace)
     conclusions = tuple(ent.decision_conclusions(ent.FoldedTrace(trace))) if decides else ()
     if broken is not None:
@@ -83,8 +83,9 @@ def _wrong(world: World, trace: Sequence[Event]) -> tuple[Finding, ...]:
     """
     if all(isinstance(event, Start | Move) for event in trace):
         return ()
-    found = (wrong for one in check(world, trace, strict=True) for wrong in one.findings)
-    return tuple(finding for finding in found if finding.event is not None)
+    judgements = check(world, trace, strict=True)
+    findings = (finding for judgement in judgements for finding in judgement.findings)
+    return tuple(finding for finding in findings if finding.event is not None)
 
 
 def showing(world: World, trace: Sequence[Event]) -> World:

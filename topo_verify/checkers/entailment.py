@@ -113,9 +113,9 @@ def map_conclusion(folded: FoldedTrace) -> Conclusion:
     code = delivered_code(finish.map)
     if isinstance(code, str):
         return Conclusion(last, code)
-    left = fold.open_darts()
-    why = f"{plural(left, 'door')} seen and never crossed" if left else "it proves another map"
-    if not left and fold.table() == code:
+    number = fold.open_darts()
+    why = f"{plural(number, 'door')} seen and never crossed" if number else "it proves another map"
+    if not number and fold.table() == code:
         return Conclusion(last, "")
     witness = fold.world(1)
     return Conclusion(last, why, fold.world(2) if witness.code == code else witness)

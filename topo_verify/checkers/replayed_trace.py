@@ -172,5 +172,5 @@ class ReplayedTrace:
         A history that the world does not show proves nothing.
         """
         folded = FoldedTrace(self.trace) if self.fold.read else self.fold
-        found = decision_conclusions(folded) if self.is_history else ()
-        return {conclusion.when: conclusion for conclusion in found}
+        conclusions = decision_conclusions(folded) if self.is_history else ()
+        return {conclusion.when: conclusion for conclusion in conclusions}

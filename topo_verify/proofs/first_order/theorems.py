@@ -79,17 +79,17 @@ def mutant(obligation: Obligation, lost: str) -> Theorem:
     formulas |= {"premise-fails": neg(dropped), "goal-fails": neg(obligation.goal)}
 
     def prove(budget: Budget) -> TheoremResult:
-        found = finite_models.smallest(formulas, budget)
-        if found.structure is None:
+        model = finite_models.smallest(formulas, budget)
+        if model.structure is None:
             # No model: EXHAUSTED is unexpected.
             largest = finite_models.SIZES[-1][0]
             return z3_solver.z3_result(
-                verdict="EXHAUSTED" if found.answer == "unsat" else "UNKNOWN",
-                note=found.why or f"no structure of up to {largest} darts breaks it",
+                verdict="EXHAUSTED" if model.answer == "unsat" else "UNKNOWN",
+                note=model.why or f"no structure of up to {largest} darts breaks it",
             )
         return z3_solver.z3_result(
             verdict="REFUTED",
-            counterexample=finite_models.described(found),
+            counterexample=finite_models.described(model),
             note=f"{lost} is false there, the other premises are true, the goal is false",
         )
 
@@ -167,7 +167,9 @@ RULE_MUTANTS = (
 
 INDUCTIVE: tuple[Theorem, ...] = tuple(map(theorem, OBLIGATIONS))
 
-AXIOM_MUTANTS: tuple[Theorem, ...] = tuple(mutant(one, _telling(one)) for one in OBLIGATIONS)
+AXIOM_MUTANTS: tuple[Theorem, ...] = tuple(
+    mutant(obligation, _telling(obligation)) for obligation in OBLIGATIONS
+)
 
 FAULTY_RULES: tuple[Theorem, ...] = tuple(map(rule_mutant, RULE_MUTANTS))
 

@@ -432,11 +432,11 @@ class LogSoFar:
 
     def joined(self, edge: int, other: LogPlace) -> Fact | None:
         """The fact that an edge leads from a dart of S to a place."""
-        one = self.map_to_fold[edge]
-        arc = self.fold.joining(one)
+        dart = self.map_to_fold[edge]
+        arc = self.fold.joining(dart)
         if arc is None or self.fold.end(arc) != self.fold.find(other):
             return None
-        return Fact(self.visit, one, other, arc)
+        return Fact(self.visit, dart, other, arc)
 
     def _apart(self, edge: int, dart: int) -> Fact | None:
         one, other = self.map_to_fold[edge], self.map_to_fold[dart]
