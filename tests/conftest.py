@@ -21,7 +21,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from tests.browser import browser, show
-from tests.long import is_long
+from tests.long import LONG, NIGHTLY, is_named
 from tests.small_rows import small_rows
 
 if TYPE_CHECKING:
@@ -55,13 +55,15 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the tests `traced` that measure coverage, `long` ones, and `coq` those that compile."""
+    """Mark tests: `traced` measures coverage, `coq` compiles; `long` and `slow` take long."""
     for item in items:
         inside = any(folder in item.path.parents for folder in TRACING)
         if inside and item.get_closest_marker("no_cover") is None:
             item.add_marker("traced")
-        if is_long(item.path, item.name):
+        if is_named(LONG, item.path, item.name):
             item.add_marker("long")
+        if is_named(NIGHTLY, item.path, item.name):
+            item.add_marker("slow")
         if "library" in getattr(item, "fixturenames", ()):  # tests/proofs/mechanised/conftest.py
             item.add_marker("coq")
 

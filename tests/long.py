@@ -1,8 +1,10 @@
-"""The tests that take long: `make long` and `make nightly` run them, `make test` does not.
+"""The tests that take long, by name: `make test` runs none of them.
 
-A test is named in long.txt if it takes more than about one second: the largest sizes of statements
-whose smaller sizes `make test` runs, and whole commands whose parts it runs one by one. `.ci/run`
-runs all of them, so that a change is asked everything before it is taken.
+    long.txt      about a second or more: `make long`, and so `.ci/run`, runs them
+    nightly.txt   several seconds: `make nightly` alone runs them; they are marked `slow`
+
+They are the largest sizes of statements whose smaller sizes `make test` runs, and whole commands
+whose parts it runs one by one.
 """
 
 import re
@@ -11,18 +13,25 @@ from pathlib import Path
 
 TESTS = Path(__file__).resolve().parent
 
-LONG = defaultdict[str, list[str]](list)
+Patterns = dict[str, list[str]]
 """Patterns of the names of tests, parameters included, by their file in tests/."""
 
-for _line in (TESTS / "long.txt").read_text(encoding="utf-8").splitlines():
-    if _line and not _line.startswith("#"):
-        _file, _, _pattern = _line.partition("::")
-        LONG[_file].append(_pattern)
+
+def _patterns(name: str) -> Patterns:
+    patterns = defaultdict[str, list[str]](list)
+    for line in (TESTS / name).read_text(encoding="utf-8").splitlines():
+        if line and not line.startswith("#"):
+            file, _, pattern = line.partition("::")
+            patterns[file].append(pattern)
+    return dict(patterns)
 
 
-def is_long(path: Path, name: str) -> bool:
-    """Whether a test is named in `LONG`."""
+LONG, NIGHTLY = _patterns("long.txt"), _patterns("nightly.txt")
+
+
+def is_named(patterns: Patterns, path: Path, name: str) -> bool:
+    """Whether these patterns name the test."""
     if not path.is_relative_to(TESTS):
         return False
-    patterns = LONG.get(path.relative_to(TESTS).as_posix(), ())
-    return any(re.fullmatch(pattern, name) for pattern in patterns)
+    of_file = patterns.get(path.relative_to(TESTS).as_posix(), ())
+    return any(re.fullmatch(pattern, name) for pattern in of_file)

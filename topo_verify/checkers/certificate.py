@@ -83,8 +83,7 @@ def _wrong(world: World, trace: Sequence[Event]) -> tuple[Finding, ...]:
     """
     if all(isinstance(event, Start | Move) for event in trace):
         return ()
-    judgements = check(world, trace, strict=True)
-    findings = (finding for judgement in judgements for finding in judgement.findings)
+    findings = (f for judgement in check(world, trace, strict=True) for f in judgement.findings)
     return tuple(finding for finding in findings if finding.event is not None)
 
 

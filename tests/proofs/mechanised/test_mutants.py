@@ -473,9 +473,12 @@ QUICK = {
     "decided-without-looking", "numbered-one-late", "shared-doors-not-compared",
     "records-one-door-late", "ways-rooted-elsewhere", "fuel-for-fewer-rounds",
     "arcs-not-taken-again", "concluded-if-allowed", "dead-end-listed", "lucky-map",
-    "half-as-many-moves-again",
+    "half-as-many-moves-again", "rejected-and-not-posed", "ways-home-too-short",
 }  # fmt: skip
-"""Those of the everyday suite: one for each way to be wrong."""
+"""Those of `make coq`: one for each way to be wrong. `make nightly` tries all."""
+
+
+RARE = (pytest.mark.slow, pytest.mark.rare)
 
 
 def patched(mutant: Mutant) -> str:
@@ -501,10 +504,7 @@ def refusal(mutant: Mutant, place: Path) -> tuple[str, str]:
 
 @pytest.mark.parametrize(
     "mutant",
-    [
-        pytest.param(one, id=one.name, marks=() if one.name in QUICK else pytest.mark.slow)
-        for one in MUTANTS
-    ],
+    [pytest.param(one, id=one.name, marks=() if one.name in QUICK else RARE) for one in MUTANTS],
 )
 def test_a_mutant_is_refused(mutant: Mutant, place: Path) -> None:
     name, output = refusal(mutant, place)

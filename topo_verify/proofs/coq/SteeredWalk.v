@@ -183,7 +183,7 @@ Proof.
       apply arcs_links in K. simpl in K. clear - K Sa To X Vk Vq Hq.
       assert (Old : forall ms i, In (a, b) (arcs_of_moves i (ms ++ [(k, o)])) ->
         In (a, b) (arcs_of_moves i ms) \/ a = (i + length ms, k) \/ a = (S (i + length ms), 0)).
-      { induction ms as [|(j, r) ms IH]; intros i I; simpl in I.
+      { intros ms. induction ms as [|(j, r) ms IH]; intros i I; simpl in I.
         - rewrite Nat.add_0_r. destruct I as [I|[I|[]]]; injection I as <- _; auto.
         - destruct I as [I|[I|I]]; simpl; auto. apply IH in I. rewrite <- Nat.add_succ_comm. tauto. }
       apply Old in K as [K|[->| ->]].
