@@ -19,10 +19,10 @@ class NoRule:
     """Rejects nothing without motion; remembers nothing."""
 
     def arrive(self, chart: Chart, e: MapDart, percept: Percept) -> None:
-        """Does nothing."""
+        """Keep nothing of the percept at vu."""
 
     def observe(self, sequence: Executed) -> None:
-        """Does nothing."""
+        """Keep nothing of the sequence."""
 
     def refute(
         self, chart: Chart, hypothesis: Hypothesis, sequences: Sequence[Executed]
@@ -37,4 +37,4 @@ class NoRule:
     def learn(
         self, chart: Chart, e: MapDart, entry: MapDart, sequences: Sequence[Executed]
     ) -> None:
-        """Does nothing."""
+        """Keep nothing of the sequences behind e."""
