@@ -163,10 +163,10 @@ def speedup(row: Row, _: bool) -> None:
 def _examined(claims: int, shard: tuple[int, int, int]) -> tuple[int, int, float, int]:
     edges, start, stop = shard
     begin = process_time()
-    counts = examine_range(PAPER, edges, "any", start, stop, claims=claims)
+    tally = examine_range(PAPER, edges, "any", start, stop, claims=claims).tally
     used = process_time() - begin
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024
-    return counts[0].worlds, sum(count.failing for count in counts), used, memory
+    return tally.worlds, tally.failing, used, memory
 
 
 def _shards(whole: bool) -> Iterator[tuple[int, int, int]]:

@@ -63,10 +63,11 @@ def compared(task: tuple[Pair, int, int]) -> tuple[int, int, int]:
 
     pair, edges, start = task
     stop = min(start + SHARD, rank_order.count(edges))
-    one, other = examine_range(pair, edges, "any", start, stop, claims=8)
-    if one.failing or other.failing:
+    end = examine_range(pair, edges, "any", start, stop, claims=8)
+    if end.tally.failing:
         raise SystemExit(f"a claim fails: {task}")
-    return one.dearer, one.excess, min((world.rank for world in one.dearer_worlds), default=-1)
+    first = min((world.rank for world in end.named[0].dearer), default=-1)
+    return end.tally.pairs.dearer, end.tally.pairs.most, first
 
 
 def by_engine(largest: int) -> Iterator[tuple[Pair, Row]]:

@@ -38,9 +38,8 @@ from topo_verify.world.enumeration.pruned import ranked_tables
 pytest.importorskip("numba")
 
 from topo_verify.campaign import compiled_shard as engine
+from topo_verify.campaign.compiled_shard import Snapshot
 from topo_verify.compiled import tally
-
-Counts = Any
 
 
 def plain(tally: Tally) -> Tally:
@@ -151,15 +150,25 @@ def judged_again(asked: Campaign, monkeypatch: pytest.MonkeyPatch) -> set[int]:
     return ranks
 
 
-def lying(monkeypatch: pytest.MonkeyPatch, change: Callable[[Counts], Counts]) -> None:
+def lying(monkeypatch: pytest.MonkeyPatch, change: Callable[[Snapshot], Snapshot]) -> None:
     """The engine reports other counts from now on."""
     examine = engine.examine_steps
 
-    def lies(*arguments: Any, **options: Any) -> Iterator[engine.Snapshot]:
-        for rank, counts in examine(*arguments, **options):
-            yield engine.Snapshot(rank, tuple(change(one) for one in counts))
+    def lies(*arguments: Any, **options: Any) -> Iterator[Snapshot]:
+        return map(change, examine(*arguments, **options))
 
     monkeypatch.setattr(engine, "examine_steps", lies)
+
+
+def changed(end: Snapshot, **fields: Any) -> Snapshot:
+    """The snapshot with other fields of its tally."""
+    return end._replace(tally=msgspec.structs.replace(end.tally, **fields))
+
+
+def costing(end: Snapshot, **fields: int) -> Snapshot:
+    """The snapshot with other costs of `basic`."""
+    costs = msgspec.structs.replace(end.tally.costs["basic"], **fields)
+    return changed(end, costs={**end.tally.costs, "basic": costs})
 
 
 BASIC = campaign("basic", 5)
@@ -201,24 +210,25 @@ def test_the_worst_worlds_are_judged_by_the_checkers_too(monkeypatch: pytest.Mon
     assert seconds.checkers > 0 < seconds.engine
 
 
-def cheaper(counts: Counts) -> Counts:
-    share = {**counts.shares, "no-false-confirm": (0, 0)}
-    return msgspec.structs.replace(counts, shares=share)
+def cheaper(end: Snapshot) -> Snapshot:
+    return changed(end, shares={**end.tally.shares, "no-false-confirm": (0, 0)})
 
 
-def never_confirms(counts: Counts) -> Counts:
-    statuses = {**counts.statuses, "no-false-confirm": {"not-declared": counts.worlds}}
-    return msgspec.structs.replace(counts, statuses=statuses)
+def never_confirms(end: Snapshot) -> Snapshot:
+    statuses = {"no-false-confirm": {"not-declared": end.tally.worlds}}
+    return changed(end, statuses={**end.tally.statuses, **statuses})
 
 
-def convicts(counts: Counts) -> Counts:
-    claims = {**counts.claims, "map-entailed": (1, 0)}
-    return msgspec.structs.replace(counts, claims=claims, failing=1, failing_ranks=(0,))
+def convicts(end: Snapshot) -> Snapshot:
+    (named,) = end.named
+    named = named._replace(first={"map-entailed": 0}, failing=(0,))
+    claims = {**end.tally.claims, "map-entailed": 1}
+    return changed(end._replace(named=(named,)), claims=claims, failing=1)
 
 
 @pytest.mark.parametrize("change", [cheaper, never_confirms, convicts])
 def test_an_engine_that_judges_otherwise_is_our_bug(
-    change: Callable[[Counts], Counts], monkeypatch: pytest.MonkeyPatch
+    change: Callable[[Snapshot], Snapshot], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     lying(monkeypatch, change)
     words = (
@@ -270,8 +280,8 @@ def test_what_the_engine_leaves_open_the_checkers_decide(monkeypatch: pytest.Mon
     asked, shard = campaign("basic", 3), Shard(3, 10, 30)
     by_checkers = examine_by_checkers(asked, targets("basic"), shard).tally
 
-    def undecided(counts: Counts) -> Counts:
-        return msgspec.structs.replace(counts, undecided=counts.worlds)
+    def undecided(end: Snapshot) -> Snapshot:
+        return changed(end, undecided=end.tally.worlds)
 
     lying(monkeypatch, undecided)
     tally = made(asked, shard).tally
@@ -391,8 +401,8 @@ def test_without_a_fault_the_same_kernels_as_python_pass(monkeypatch: pytest.Mon
 def test_a_world_that_is_named_with_another_cost_is_our_bug(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    def late(counts: Counts) -> Counts:  # behind the steps that are compared
-        return counts if counts.worlds < 74 else msgspec.structs.replace(counts, most=99)
+    def late(end: Snapshot) -> Snapshot:  # behind the steps that are compared
+        return end if end.tally.worlds < 74 else costing(end, most=99)
 
     monkeypatch.setattr(shards, "SAMPLE", 10**6)
     lying(monkeypatch, late)
@@ -404,13 +414,13 @@ def test_a_world_that_is_named_with_another_cost_is_our_bug(
 def test_a_world_that_is_named_as_costlier_with_other_costs_is_our_bug(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    def late(counts: Counts) -> Counts:
-        if counts.worlds < 706 or not counts.dearer_worlds:
-            return counts
-        first, *others = counts.dearer_worlds
-        return msgspec.structs.replace(
-            counts, dearer_worlds=(first._replace(other=first.other - 1), *others)
-        )
+    def late(end: Snapshot) -> Snapshot:
+        if end.tally.worlds < 706:
+            return end
+        named, other = end.named
+        first, *further = named.dearer
+        dearer = (first._replace(other=first.other - 1), *further)
+        return end._replace(named=(named._replace(dearer=dearer), other))
 
     monkeypatch.setattr(shards, "SAMPLE", 10**6)
     lying(monkeypatch, late)
@@ -474,8 +484,10 @@ def test_verify_goes_one_size_further_and_compares_the_engines(
     assert (further.verdict, further.checked) == ("EXHAUSTED", 792)
     assert "; those of 4 edges by the compiled engine, and " in further.summary
 
-    def late(counts: Counts) -> Counts:  # behind the worlds that a search compares
-        return msgspec.structs.replace(counts, total=counts.total + (counts.worlds == 74))
+    def late(end: Snapshot) -> Snapshot:  # behind the worlds that a search compares
+        if end.tally.worlds != 74:
+            return end
+        return costing(end, total=end.tally.costs["basic"].total + 1)
 
     monkeypatch.setattr(shards, "SAMPLE", 10**6)
     lying(monkeypatch, late)
@@ -484,4 +496,4 @@ def test_verify_goes_one_size_further_and_compares_the_engines(
 
 
 def test_the_engine_knows_every_algorithm_of_the_catalogue() -> None:
-    assert {one.algorithm for one in engine.examine_range(list(CATALOGUE), 2)} == set(CATALOGUE)
+    assert engine.examine_range(list(CATALOGUE), 2).tally.costs.keys() == set(CATALOGUE)

@@ -13,8 +13,8 @@ from msgspec import structs
 
 from topo_verify import World
 from topo_verify.campaign.compiled_checks import STATUSES
-from topo_verify.campaign.compiled_shard import ShardCounts
 from topo_verify.campaign.run import Exploration, explore
+from topo_verify.campaign.tally import Tally
 from topo_verify.checkers import check
 from topo_verify.checkers.findings import Judgement
 from topo_verify.compiled import workspace as ws
@@ -75,12 +75,13 @@ def as_judged(judgements: Sequence[Judgement]) -> Judged:
     return tuple((one.status, one.judged, one.of) for one in judgements)
 
 
-def counted(counts: ShardCounts) -> Judged:
-    """The counts of one run."""
-    assert counts.worlds == 1
+def counted(tally: Tally) -> Judged:
+    """The judgements of a single run, from its tally."""
+    assert tally.worlds == 1
     return tuple(
-        (next(status for status, runs in seen.items() if runs), *counts.shares[claim])
-        for claim, seen in counts.statuses.items()
+        (status, *tally.shares[claim])
+        for claim, statuses in tally.statuses.items()
+        for status in statuses
     )
 
 

@@ -94,8 +94,8 @@ def test_each_contradiction_that_the_checkers_let_a_rejection_cite_the_judge_doe
 def test_machine_code_gives_each_run_the_verdict_of_the_checkers(name: str, room: int) -> None:
     for world in chain(worlds(edges=2), sampled(3, 20), sampled(4, 10)):
         edges, rank = (int(part) for part in str(world.name)[1:].split("/"))
-        (counts,) = examine_range([name], edges, start=rank, stop=rank + 1, room=room)
-        assert counted(counts) == by_checkers(run_of(world, name, name)), world.name
+        end = examine_range([name], edges, start=rank, stop=rank + 1, room=room)
+        assert counted(end.tally) == by_checkers(run_of(world, name, name)), world.name
 
 
 # ---------------------------------------------------------------- the whole comparison
@@ -130,9 +130,9 @@ def test_machine_code_gives_every_run_to_4_edges_the_verdict_of_the_checkers(nam
     faults = {name: name} if name in FAULTS else None
     for edges in range(1, 5):
         for rank, world in enumerate(worlds(edges=edges)):
-            (counts,) = examine_range([name], edges, start=rank, stop=rank + 1, faults=faults)
+            end = examine_range([name], edges, start=rank, stop=rank + 1, faults=faults)
             run = run_of(world, FAULTS.get(name, name), name)
-            assert counted(counts) == by_checkers(run), (
+            assert counted(end.tally) == by_checkers(run), (
                 f"m{edges}/{rank} of {rank_order.count(edges)}"
             )
 

@@ -12,8 +12,9 @@ pytest.importorskip("numba", reason="the compiled engine needs numba")
 from tests.compiled.judged import as_judged, counted
 from topo_verify import CATALOGUE, worlds
 from topo_verify.campaign.compiled_checks import CompiledChecks
-from topo_verify.campaign.compiled_shard import ShardCounts, examine_range
+from topo_verify.campaign.compiled_shard import Snapshot, examine_range
 from topo_verify.campaign.run import explore
+from topo_verify.campaign.tally import Costs
 from topo_verify.checkers import CLAIMS, check
 from topo_verify.compiled.events import words
 from topo_verify.compiled.faults import PLANTED
@@ -54,63 +55,59 @@ def judged_by_checkers(mapper: Mapper | str, edges: int) -> dict[str, object]:
     }
 
 
-def judged_by_kernel(counts: ShardCounts) -> dict[str, object]:
+def judged_by_kernel(end: Snapshot) -> dict[str, object]:
+    costs = [*end.tally.costs.values()] or [Costs()]
     return {
-        "statuses": {
-            claim: {status: runs for status, runs in seen.items() if runs}
-            for claim, seen in counts.statuses.items()
-        },
-        "shares": counts.shares,
-        "total": counts.total,
-        "most": counts.most,
-        "failing": counts.failing,
-        "failing_ranks": counts.failing_ranks,
+        "statuses": end.tally.statuses,
+        "shares": end.tally.shares,
+        "total": costs[0].total,
+        "most": costs[0].most,
+        "failing": end.tally.failing,
+        "failing_ranks": end.named[0].failing,
     }
 
 
 @pytest.mark.parametrize("name", CATALOGUE)
 @pytest.mark.parametrize("edges", [1, 2, 3])
 def test_every_claim_has_the_status_and_share_that_the_checkers_give(name: str, edges: int) -> None:
-    (counts,) = examine_range([name], edges)
-    assert judged_by_kernel(counts) == judged_by_checkers(name, edges)
+    assert judged_by_kernel(examine_range([name], edges)) == judged_by_checkers(name, edges)
 
 
 @pytest.mark.parametrize("name", PLANTED)
 def test_a_seeded_fault_has_the_verdicts_that_the_checkers_give(name: str) -> None:
     for edges in (2, 3):
-        (counts,) = examine_range([name], edges, faults={name: name})
-        assert judged_by_kernel(counts) == judged_by_checkers(FAULTS[name], edges), edges
+        end = examine_range([name], edges, faults={name: name})
+        assert judged_by_kernel(end) == judged_by_checkers(FAULTS[name], edges), edges
 
 
 def test_a_range_stops_behind_its_first_failing_world() -> None:
     name = "leaves-out-the-darts-of-vk"
-    (whole,) = examine_range([name], 3, faults={name: name})
-    (short,) = examine_range([name], 3, faults={name: name}, stop_at_first=True)
-    assert short.failing == 1
-    assert short.failing_ranks == whole.failing_ranks[:1]
-    assert short.worlds == whole.failing_ranks[0] + 1
+    whole = examine_range([name], 3, faults={name: name})
+    short = examine_range([name], 3, faults={name: name}, stop_at_first=True)
+    assert short.tally.failing == 1
+    assert short.named[0].failing == whole.named[0].failing[:1]
+    assert short.tally.worlds == whole.named[0].failing[0] + 1
 
 
-def test_the_parts_of_a_range_come_to_the_whole() -> None:
-    (whole,) = examine_range(["enhancement-ii"], 5)
-    cut = 3000
-    (first,) = examine_range(["enhancement-ii"], 5, stop=cut)
-    (second,) = examine_range(["enhancement-ii"], 5, start=cut)
-    assert first.worlds + second.worlds == whole.worlds == rank_order.count(5)
-    assert first.total + second.total == whole.total
-    assert (first.digest + second.digest) % (1 << 64) == whole.digest
+def test_the_tallies_of_parts_add_up_to_that_of_the_whole() -> None:
+    whole = examine_range(["enhancement-ii", "basic"], 5).tally
+    first = examine_range(["enhancement-ii", "basic"], 5, stop=3000).tally
+    second = examine_range(["enhancement-ii", "basic"], 5, start=3000).tally
+    assert whole.worlds == rank_order.count(5)
+    assert first + second == whole
     assert first.digest != second.digest
 
 
 def test_two_algorithms_are_compared_world_by_world() -> None:
     names = ["basic", "enhancement-i"]
-    ours, theirs = examine_range(names, 5)
     costs = [[explore(w, name).cost for w in worlds(edges=4)] for name in names]
-    small, _ = examine_range(names, 4)
-    assert small.dearer == sum(a > b for a, b in zip(*costs, strict=True))
-    assert small.cheaper == sum(a < b for a, b in zip(*costs, strict=True))
-    assert ours.total != theirs.total
-    for rank, cost, other in ours.dearer_worlds:
+    pairs = examine_range(names, 4).tally.pairs
+    assert pairs.dearer == sum(a > b for a, b in zip(*costs, strict=True))
+    assert pairs.cheaper == sum(a < b for a, b in zip(*costs, strict=True))
+    end = examine_range(names, 5)
+    assert len({end.tally.costs[name].total for name in names}) == 2
+    assert end.named[0].dearer
+    for rank, cost, other in end.named[0].dearer:
         world = World.from_id(f"m5/{rank}")
         assert (explore(world, "basic").cost, explore(world, "enhancement-i").cost) == (cost, other)
 
@@ -129,23 +126,24 @@ def test_a_run_of_more_words_than_the_workspace_has_is_judged_by_the_checkers() 
     world = World.from_id(f"m7/{LONG_TRACE}")
     run = explore(world, "folding+planar", engine="compiled")
     assert len(words(run.trace)) > TRACE
-    (counts,) = examine_range(["folding+planar"], 7, start=LONG_TRACE, stop=LONG_TRACE + 1)
-    assert counted(counts) == as_judged(check(world, run.trace, run.stopped))
-    assert counts.failing_ranks == (LONG_TRACE,)
+    end = examine_range(["folding+planar"], 7, start=LONG_TRACE, stop=LONG_TRACE + 1)
+    assert counted(end.tally) == as_judged(check(world, run.trace, run.stopped))
+    assert end.named[0].failing == (LONG_TRACE,)
 
 
 def test_a_class_is_examined_alone() -> None:
-    (counts,) = examine_range(["folding+planar"], 4, "planar")
-    assert counts.worlds == rank_order.count_planar(4)
-    assert not counts.failing
+    tally = examine_range(["folding+planar"], 4, "planar").tally
+    assert tally.worlds == rank_order.count_planar(4)
+    assert not tally.failing
 
 
 def test_the_worst_worlds_cost_the_most() -> None:
-    (counts,) = examine_range(["basic"], 5)
-    assert (counts.total, counts.most) == (68_652, 36)
-    assert len(counts.worst) == min(10, counts.attained)
-    for rank in counts.worst:
-        assert explore(World.from_id(f"m5/{rank}"), "basic").cost == counts.most
+    end = examine_range(["basic"], 5)
+    costs, worst = end.tally.costs["basic"], end.named[0].worst
+    assert (costs.total, costs.most) == (68_652, 36)
+    assert len(worst) == min(10, costs.attained)
+    for rank in worst:
+        assert explore(World.from_id(f"m5/{rank}"), "basic").cost == costs.most
 
 
 def test_what_cannot_be_examined_is_refused_with_the_choices() -> None:
@@ -159,8 +157,8 @@ def test_what_cannot_be_examined_is_refused_with_the_choices() -> None:
 
 def test_the_kernel_asks_a_claim_at_every_level() -> None:
     for level in (8, 9, 10):
-        (counts,) = examine_range(["basic"], 2, claims=level)
-        assert list(counts.statuses) == list(CLAIMS)[:level]
+        tally = examine_range(["basic"], 2, claims=level).tally
+        assert list(tally.statuses) == list(CLAIMS)[:level]
 
 
 def test_compiled_checks_judge_as_the_checkers_do() -> None:

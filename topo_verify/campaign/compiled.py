@@ -35,7 +35,7 @@ from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import attempt, lost_row, row_of
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Exploration, explore, is_native
-from topo_verify.campaign.tally import KEPT_FAILING, Costs, Counts, Pairs, Tally, notable
+from topo_verify.campaign.tally import KEPT_FAILING, Costs, Counts, Tally, notable
 from topo_verify.campaign.worker import Beat, Heartbeat
 from topo_verify.checkers import CLAIMS
 from topo_verify.errors import InternalError
@@ -45,7 +45,7 @@ from topo_verify.robot.events import Event, Finish, Trace
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
-    from topo_verify.campaign.compiled_shard import ShardCounts, Snapshot
+    from topo_verify.campaign.compiled_shard import Snapshot
     from topo_verify.compiled.native_run import NativeCalls
 
 SAMPLE = 1000
@@ -121,7 +121,7 @@ class _CompiledShard:
         self._rows: dict[tuple[int, int], Row] = {}
         self._checked: set[int] = set()
         self._known: dict[tuple[int, int], _Judged] = {}
-        self._alone: set[tuple[int, int]] = set()
+        self._alone: set[int] = set()
 
     @property
     def _done(self) -> int:
@@ -156,7 +156,7 @@ class _CompiledShard:
             *snapshots, end = _snapshots(self._campaign, ranks, self._calls)
         self._beats()
         self._seconds += c.EngineSeconds(engine=process_time() - begin)
-        if any(counts.undecided for counts in end.counts):
+        if end.tally.undecided:
             return self._undecided(ranks)
         begin = process_time()
         try:
@@ -167,7 +167,7 @@ class _CompiledShard:
             return self._unlike(ranks, wrong)
         finally:
             self._seconds += c.EngineSeconds(checkers=process_time() - begin)
-        return _tally(end.counts)
+        return end.tally
 
     def _watched(self) -> AbstractContextManager[None]:
         if not isinstance(self._beat, Heartbeat) or self._calls is None:
@@ -176,16 +176,16 @@ class _CompiledShard:
 
     def _check(self, ranks: c.Shard, snapshots: list[Snapshot], end: Snapshot) -> None:
         """Have the checkers judge the worlds that the counts name, and the sample."""
-        if not snapshots and end.counts[0].worlds > max(STEP):
+        if not snapshots and end.tally.worlds > max(STEP):
             why = "the engine made no pause"
             raise _Disagreement(f"m{ranks.edges}/{ranks.start}", why, end.rank)
         for before, behind in [*zip([None, *snapshots], snapshots, strict=False)][::2]:
             self._beats()
             first = ranks.start if before is None else before.rank + 1
             self._require_same(before, behind, self._ranks(first, behind.rank + 1))
-        for which, counts in enumerate(end.counts):
+        for which in range(len(self._mappers)):
             self._beats()
-            self._require_named(which, counts, end.counts)
+            self._require_named(which, end)
         if self._calls is not None and end.rank >= 0:
             self._judged(0, end.rank)  # the last world of the class is among these
 
@@ -222,19 +222,20 @@ class _CompiledShard:
 
     def _require_same(self, before: Snapshot | None, behind: Snapshot, step: c.Shard) -> None:
         """Raise an InternalError unless a step adds to the counts what the reference adds."""
+        from topo_verify.campaign.compiled_shard import as_digest
+
         numbers, digest, met = Counts(), 0, list[list[Row]]()
         for rank, _, _ in self._worlds.worlds(step):
             judged = [self._judged(which, rank) for which in range(len(self._mappers))]
             met.append([run.row for run in judged])
             numbers.enter(met[-1])
             digest += sum(run.digest for run in judged)
-        added = msgspec.structs.replace(numbers.tally(), digest=_as_digest(digest))
-        known = Tally() if before is None else _tally(before.counts)
-        ours, theirs = _fields(known + added), _fields(_tally(behind.counts))
-        for which, counts in enumerate(behind.counts):
-            first = None if before is None else before.counts[which]
-            ours |= _names(which, first, met)
-            theirs |= _names(which, counts, ())
+        added = msgspec.structs.replace(numbers.tally(), digest=as_digest(digest))
+        known = Tally() if before is None else before.tally
+        ours, theirs = _fields(known + added), _fields(behind.tally)
+        for which in range(len(self._mappers)):
+            ours |= self._names(which, before, met)
+            theirs |= self._names(which, behind, ())
         for name in {**ours, **theirs}:
             if ours.get(name) != theirs.get(name):
                 ranks = f"m{step.edges}/{step.start}"
@@ -246,38 +247,65 @@ class _CompiledShard:
                 where = f"{ranks}, {', '.join(self._campaign.mappers)}"
                 raise _Disagreement(where, difference, behind.rank)
 
-    def _require_named(
-        self, which: int, counts: ShardCounts, others: Sequence[ShardCounts]
-    ) -> None:
-        """Keep the rows of the named worlds, once they agree with the counts."""
-        firsts = {claim: rank for claim, (failing, rank) in counts.claims.items() if failing}
-        for rank in sorted({*firsts.values(), *counts.failing_ranks[:KEPT_FAILING]}):
+    def _names(
+        self, which: int, counted: Snapshot | None, met: Sequence[Sequence[Row]]
+    ) -> dict[str, object]:
+        """The worlds that a mapper's counts name, after more worlds are counted."""
+        from topo_verify.campaign.compiled_shard import DearerWorld
+        from topo_verify.compiled.tally import KEPT_RANKS
+
+        failing, worst, dearer, most = list[int](), list[int](), list[DearerWorld](), 0
+        if counted is not None:
+            named, most = counted.named[which], self._most(which, counted)
+            failing, worst, dearer = [*named.failing], [*named.worst], [*named.dearer]
+        for rows in met:
+            row = rows[which]
+            if not row.right:
+                failing.append(row.place)
+                continue
+            if row.cost > most:
+                most, worst = row.cost, []
+            if row.cost == most:
+                worst.append(row.place)
+            if which == 0 and len(rows) == 2 and rows[1].right and row.cost > rows[1].cost:
+                dearer.append(DearerWorld(row.place, row.cost, rows[1].cost))
+        return {
+            f"failing worlds of mapper {which}": failing[:KEPT_RANKS],
+            f"most expensive worlds of mapper {which}": worst[:KEPT_RANKS],
+            f"worlds in which mapper {which} costs more": dearer[:KEPT_RANKS],
+        }
+
+    def _most(self, which: int, counted: Snapshot) -> int:
+        return counted.tally.costs.get(self._campaign.mappers[which], Costs()).most
+
+    def _require_named(self, which: int, end: Snapshot) -> None:
+        """Keep the rows of the worlds that a mapper's counts name, once they agree with these."""
+        named = end.named[which]
+        for rank in sorted({*named.first.values(), *named.failing[:KEPT_FAILING]}):
             row = self._agreed(which, rank)
-            claims = [claim for claim, first in firsts.items() if first == rank] or ["a claim"]
+            claims = [claim for claim, first in named.first.items() if first == rank] or ["a claim"]
             for claim in claims:
                 if not row.failed or (claim in CLAIMS and claim not in row.failed):
                     difference = f"{claim} does not fail by the checkers, it does in the tally"
                     raise _Disagreement(f"{row.world}, {row.mapper}", difference, rank)
-        named = [(which, rank, counts.most) for rank in counts.worst if counts.worlds]
-        for pair in counts.dearer_worlds if which == 0 and len(others) == 2 else ():
-            named += [(0, pair.rank, pair.cost), (1, pair.rank, pair.other)]
-        for mapper, rank, cost in named:
+        costs = [(which, rank, self._most(which, end)) for rank in named.worst]
+        for pair in named.dearer:
+            costs += [(0, pair.rank, pair.cost), (1, pair.rank, pair.other)]
+        for mapper, rank, cost in costs:
             row = self._agreed(mapper, rank)
             if (row.cost, row.right) != (cost, True):
                 difference = f"cost {row.cost} by the reference, {cost} in the tally"
                 raise _Disagreement(f"{row.world}, {row.mapper}", difference, rank)
 
     def _agreed(self, which: int, rank: int) -> Row:
-        """The row of a run, once it agrees with the engine's verdict on this world alone."""
+        """The row of a run, once the engine says of this world alone what the checkers say."""
         row, _ = self._judged(which, rank)
-        if (rank, which) not in self._alone:
-            self._alone.add((rank, which))
+        if rank not in self._alone:
+            self._alone.add(rank)
+            ranks = self._ranks(rank, rank + 1)
             with self._watched():
-                alone = _snapshots(self._campaign, self._ranks(rank, rank + 1), self._calls)
-            counts = alone[-1].counts[which]
-            difference = _verdict_difference(row, counts)
-            if difference is not None:
-                raise _Disagreement(f"{row.world}, {row.mapper}", difference, rank)
+                *_, alone = _snapshots(self._campaign, ranks, self._calls)
+            self._require_same(None, alone, ranks)
         self._rows[rank, which] = row
         return row
 
@@ -362,56 +390,7 @@ def _without_map(event: Event) -> Event | int | None:
     return event.cost if isinstance(event, Finish) else event
 
 
-def _verdict_difference(row: Row, counts: ShardCounts) -> str | None:
-    if bool(row.findings) != bool(counts.failing):
-        words = ("no claim fails", "a claim fails")
-        ours, theirs = words[bool(row.findings)], words[bool(counts.failing)]
-        return f"{ours} by the checkers, {theirs} by the compiled engine"
-    for claim, judged in zip(CLAIMS, row.claims, strict=True):
-        statuses = [status for status, runs in counts.statuses[claim].items() if runs]
-        ours = f"{judged.status} ({judged.judged} of {judged.of})"
-        theirs = "{} ({} of {})".format(", ".join(statuses), *counts.shares[claim])
-        if ours != theirs:
-            return f"{claim} is {ours} by the checkers, {theirs} by the compiled engine"
-    return None
-
-
-# ---------------------------------------------------------------- counts as a tally
-
-
-def _tally(counts: Sequence[ShardCounts]) -> Tally:
-    statuses: dict[str, dict[str, int]] = {claim: {} for claim in CLAIMS}
-    shares: dict[str, tuple[int, int]] = {}
-    claims: dict[str, int] = {}
-    for claim in CLAIMS:
-        for row in counts:
-            for status, runs in row.statuses[claim].items():
-                if runs:
-                    statuses[claim][status] = statuses[claim].get(status, 0) + runs
-        judged, of = (sum(row.shares[claim][side] for row in counts) for side in (0, 1))
-        shares[claim] = judged, of
-        if failing := sum(row.newly_failing_claims[claim] for row in counts):
-            claims[claim] = failing
-    first = counts[0]
-    return Tally(
-        worlds=max(row.worlds for row in counts),
-        failing=sum(row.newly_failing for row in counts),
-        statuses=statuses,
-        shares=shares,
-        claims=claims,
-        costs={
-            row.algorithm: Costs(row.worlds - row.failing, row.total, row.most, row.attained)
-            for row in counts
-            if row.worlds > row.failing
-        },
-        pairs=Pairs(first.dearer, first.cheaper, first.excess) if len(counts) == 2 else Pairs(),
-        digest=_as_digest(sum(row.digest for row in counts)),
-    )
-
-
-def _as_digest(digest: int) -> str:
-    # In the highest of 256 bits, where sums of digests wrap around as the engine's do.
-    return f"{digest % (1 << 64) << 192:064x}"
+# ---------------------------------------------------------------- tallies compared
 
 
 def _fields(tally: Tally) -> dict[str, object]:
@@ -424,30 +403,3 @@ def _fields(tally: Tally) -> dict[str, object]:
         else:
             fields[name] = value
     return fields
-
-
-def _names(
-    which: int, counts: ShardCounts | None, met: Sequence[Sequence[Row]]
-) -> dict[str, object]:
-    """The worlds that an algorithm's counts name, after more worlds are counted."""
-    failing = [] if counts is None else list(counts.failing_ranks)
-    most, worst = (0, []) if counts is None else (counts.most, list(counts.worst))
-    dearer = [] if counts is None else [tuple(pair) for pair in counts.dearer_worlds]
-    for rows in met:
-        row = rows[which]
-        if not row.right:
-            failing.append(row.place)
-            continue
-        if row.cost > most:
-            most, worst = row.cost, []
-        if row.cost == most:
-            worst.append(row.place)
-        if which == 0 and len(rows) == 2 and rows[1].right and row.cost > rows[1].cost:
-            dearer.append((row.place, row.cost, rows[1].cost))
-    from topo_verify.compiled.tally import KEPT_RANKS
-
-    return {
-        f"failing worlds of mapper {which}": failing[:KEPT_RANKS],
-        f"most expensive worlds of mapper {which}": worst[:KEPT_RANKS],
-        f"worlds in which mapper {which} costs more": dearer[:KEPT_RANKS],
-    }

@@ -1,7 +1,7 @@
 """Examines a range of worlds by the compiled engine: enumeration, run and judgement in one kernel.
 
-    (counts,) = examine_range(["basic"], 7, "any", 0, 10_000)
-    counts.failing, counts.claims["map-isomorphic"]
+    end = examine_range(["basic"], 7, "any", 0, 10_000)
+    end.tally.failing, end.named[0].first["map-isomorphic"]
 
 The checkers judge a trace whose verdict the kernel leaves open (`judging/`).
 """
@@ -9,12 +9,11 @@ The checkers judge a trace whose verdict the kernel leaves open (`judging/`).
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import chain
+from itertools import chain, count, product
 from typing import TYPE_CHECKING, NamedTuple
 
-import msgspec
-
 from topo_verify.campaign.compiled_checks import ALL_CLAIMS, STATUSES
+from topo_verify.campaign.tally import Costs, Pairs, Tally
 from topo_verify.checkers import CLAIMS, Status, check
 from topo_verify.compiled import require, tally
 from topo_verify.compiled import workspace as ws
@@ -54,47 +53,32 @@ class DearerWorld(NamedTuple):
     other: int
 
 
-class ShardCounts(msgspec.Struct, frozen=True):
-    """The counts of one algorithm in a range of worlds.
+class NotableWorlds(NamedTuple):
+    """The first worlds, by rank, in which one algorithm is notable; at most `KEPT_RANKS` a kind.
 
     Attributes:
-        claims: for each claim, the number of failing worlds and the rank of the first; -1: none.
-        newly_failing, newly_failing_claims: worlds where a claim, or this claim, fails for it
-            and for no algorithm before it.
-        statuses: for each claim, number of runs by status.
-        shares: for each claim, how many cases were judged, of how many.
-        total, most, attained: costs without a failing claim: sum, highest, its number of runs.
-        worst, failing_ranks: the first ranks of those, and of failing worlds.
-        digest: a 64-bit hash of ranks, verdicts, costs and doors; digests add up.
-        dearer, cheaper, excess, dearer_worlds: the first of two algorithms against the second.
+        first: the first failing world of each failing claim.
+        failing: those where a claim fails.
+        worst: those with the highest cost without a failing claim.
+        dearer: of the first of two algorithms, those where it costs more.
     """
 
-    algorithm: str
-    worlds: int
-    failing: int
-    claims: dict[str, tuple[int, int]]
-    newly_failing: int
-    newly_failing_claims: dict[str, int]
-    undecided: int
-    statuses: dict[str, dict[str, int]]
-    shares: dict[str, tuple[int, int]]
-    total: int
-    most: int
-    attained: int
+    first: dict[str, int]
+    failing: tuple[int, ...]
     worst: tuple[int, ...]
-    failing_ranks: tuple[int, ...]
-    digest: int
-    dearer: int = 0
-    cheaper: int = 0
-    excess: int = 0
-    dearer_worlds: tuple[DearerWorld, ...] = ()
+    dearer: tuple[DearerWorld, ...]
 
 
 class Snapshot(NamedTuple):
-    """The counts of each algorithm from the start of the range to this rank; -1: none."""
+    """The sums from the start of the range to this rank (-1: none), and each algorithm's worlds.
+
+    `tally.undecided` counts runs; the tally's digest sums 64-bit hashes of ranks, verdicts, costs
+    and doors.
+    """
 
     rank: int
-    counts: tuple[ShardCounts, ...]
+    tally: Tally
+    named: tuple[NotableWorlds, ...]
 
 
 def examine_range(  # noqa: PLR0913  all that is asked of the engine
@@ -108,8 +92,8 @@ def examine_range(  # noqa: PLR0913  all that is asked of the engine
     stop_at_first: bool = False,
     faults: Mapping[str, str] | None = None,
     room: int = ws.TRACE,
-) -> tuple[ShardCounts, ...]:
-    """Run algorithms in every world of a range, and return the counts of each.
+) -> Snapshot:
+    """Run algorithms in every world of a range.
 
     Args:
         kind: the class of worlds; ranks are those of class `any`.
@@ -126,7 +110,7 @@ def examine_range(  # noqa: PLR0913  all that is asked of the engine
     )
     shard.space[shard.layout.at("task.room")] = min(room, ws.TRACE)
     (end,) = shard.examine(())
-    return end.counts
+    return end
 
 
 def examine_steps(  # noqa: PLR0913  all that is asked of the engine
@@ -269,50 +253,46 @@ class _Shard:
 
     def _snapshot(self) -> Snapshot:
         words = self.table.tolist()
-        counts = tuple(
-            self._counts(name, tally.CountWords(words, row * tally.COLUMNS), self.undecided[row])
-            for row, name in enumerate(self.names)
-        )
-        return Snapshot(int(self.walk.rank), counts)
+        rows = [tally.CountWords(words, row * tally.COLUMNS) for row in range(len(self.names))]
+        total = sum(map(self._tally, count(), rows), Tally())
+        return Snapshot(int(self.walk.rank), total, tuple(map(self._named, rows)))
 
-    def _counts(self, name: str, row: tally.CountWords, undecided: int) -> ShardCounts:
-        def kept(ranks: Words, number: int) -> tuple[int, ...]:
-            return tuple(ranks[k] for k in range(min(number, tally.KEPT_RANKS)))
-
-        places = list(enumerate(self.claims))
-        statuses: dict[str, dict[str, int]] = {
-            claim: {
-                status: row.status[k * tally.STATUS_COUNT + number]
-                for number, status in enumerate(STATUSES)
-            }
-            for k, claim in places
-        }
-        failing = {
-            claim: (row.claim_failing[k], row.claim_first[k]) if row.claim_failing[k] else (0, -1)
-            for k, claim in places
-        }
-        dearer = (row.more_ranks, row.more_costs, row.more_others)
-        return ShardCounts(
-            algorithm=name,
-            worlds=row.worlds,
-            failing=row.failing,
-            claims=failing,
-            newly_failing=row.newly_failing,
-            newly_failing_claims={claim: row.claim_newly_failing[k] for k, claim in places},
-            undecided=undecided,
+    def _tally(self, place: int, row: tally.CountWords) -> Tally:
+        """What one algorithm adds: of failing worlds, those where none before it fails."""
+        statuses: dict[str, dict[str, int]] = {claim: {} for claim in self.claims}
+        for (k, claim), (number, status) in product(enumerate(self.claims), enumerate(STATUSES)):
+            if runs := row.status[k * tally.STATUS_COUNT + number]:
+                statuses[claim][status] = runs
+        costs = Costs(row.worlds - row.failing, row.total, row.most, row.attained)
+        failing = {claim: row.claim_newly_failing[k] for k, claim in enumerate(self.claims)}
+        return Tally(
+            worlds=row.worlds if place == 0 else 0,
+            failing=row.newly_failing,
+            undecided=self.undecided[place],
             statuses=statuses,
-            shares={claim: (row.judged[k], row.of[k]) for k, claim in places},
-            total=row.total,
-            most=row.most,
-            attained=row.attained,
-            worst=kept(row.worst, row.attained),
-            failing_ranks=kept(row.failing_ranks, row.failing),
-            digest=row.digest % (1 << 64),
-            dearer=row.more,
-            cheaper=row.less,
-            excess=row.excess,
-            dearer_worlds=tuple(map(DearerWorld, *(kept(ranks, row.more) for ranks in dearer))),
+            shares={claim: (row.judged[k], row.of[k]) for k, claim in enumerate(self.claims)},
+            claims={claim: worlds for claim, worlds in failing.items() if worlds},
+            costs={self.names[place]: costs} if costs.runs else {},
+            pairs=Pairs(row.more, row.less, row.excess),
+            digest=as_digest(row.digest),
         )
+
+    def _named(self, row: tally.CountWords) -> NotableWorlds:
+        def kept(ranks: Words, number: int) -> list[int]:
+            return [ranks[k] for k in range(min(number, tally.KEPT_RANKS))]
+
+        dearer = (row.more_ranks, row.more_costs, row.more_others)
+        return NotableWorlds(
+            {c: row.claim_first[k] for k, c in enumerate(self.claims) if row.claim_failing[k]},
+            tuple(kept(row.failing_ranks, row.failing)),
+            tuple(kept(row.worst, row.attained)),
+            tuple(map(DearerWorld, *(kept(words, row.more) for words in dearer))),
+        )
+
+
+def as_digest(digest: int) -> str:
+    """A 64-bit digest in the highest of 256 bits, where sums wrap around as the engine's do."""
+    return f"{digest % (1 << 64) << 192:064x}"
 
 
 def doors_hash(events: Iterable[Event]) -> int:

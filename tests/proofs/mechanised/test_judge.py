@@ -194,18 +194,19 @@ def test_the_judge_agrees_on_traces_with_one_random_change(program: Path, seed: 
 
 @pytest.mark.parametrize("edges", range(1, 5))
 def test_the_judge_agrees_with_the_compiled_one(program: Path, edges: int) -> None:
-    for counts in examine_range(list(CATALOGUE), edges):
-        runs = [(world, trace_of(world, counts.algorithm)) for world in worlds([edges])]
+    for name in CATALOGUE:
+        tally = examine_range([name], edges).tally
+        runs = [(world, trace_of(world, name)) for world in worlds([edges])]
         answers = judge.judge(program, runs, timeout=LIMIT)
         for claim in CLAIMS:
             judgements = [one for answer in answers for one in answer if one.claim == claim]
             if len(judgements) < len(runs):
                 continue  # a run declares the planar prior, or is long
             statuses = Counter(judgement.status for judgement in judgements)
-            assert statuses == +Counter(counts.statuses[claim])
+            assert statuses == Counter(tally.statuses[claim])
             judged = sum(judgement.judged for judgement in judgements)
             of = sum(judgement.of for judgement in judgements)
-            assert (judged, of) == counts.shares[claim]
+            assert (judged, of) == tally.shares[claim]
 
 
 def test_the_random_changes_make_every_claim_fail_and_every_status_occur() -> None:
