@@ -45,7 +45,6 @@ def visit(fold: FoldWords, percept: int) -> int:
     fold.base[node] = base
     for at in range(base, base + degree):
         fold.end_node[at] = -1
-        fold.owner[at] = node
     fold.nodes = node + 1
     fold.doors = base + degree
     return node
@@ -226,7 +225,8 @@ def roll_back(fold: FoldWords, mark: int) -> None:
 def tidy_up(case: CaseWords) -> None:
     """Drop the nodes that are identified with others, if these take much room.
 
-    Node 0 stays, since its dart 0 is the marker's. A node moves towards the front alone.
+    A node moves towards the front alone. Node 0 is never identified with a heavier one, since a
+    node with the marker joins it when it is new; so the marker's dart stays its dart 0.
     """
     fold, drawn = case.fold, case.drawn
     if fold.doors < 2 * fold.tidied + LEAST_TIDIED:
@@ -235,10 +235,9 @@ def tidy_up(case: CaseWords) -> None:
     nodes = 0
     doors = 0
     for node in range(fold.nodes):
-        if node != 0 and fold.parent[node] != node:
+        if fold.parent[node] != node:
             continue
-        fold.parent[nodes] = fold.number[fold.parent[node]]
-        fold.offset[nodes] = fold.offset[node]
+        fold.parent[nodes] = nodes
         fold.weight[nodes] = fold.weight[node]
         fold.marked[nodes] = fold.marked[node]
         degree = fold.degree[node]
@@ -249,7 +248,6 @@ def tidy_up(case: CaseWords) -> None:
             end = fold.end_node[slot]
             fold.end_node[doors] = fold.number[end] if end >= 0 else -1
             fold.end_dart[doors] = fold.end_dart[slot]
-            fold.owner[doors] = nodes
             doors += 1
         nodes += 1
     fold.nodes = nodes
@@ -262,7 +260,7 @@ def tidy_up(case: CaseWords) -> None:
 
 @inlined
 def settle_places(case: CaseWords) -> None:
-    """Name every place by its representative, and number these and node 0."""
+    """Name every place by its representative, and number these."""
     fold, drawn = case.fold, case.drawn
     fold.dart = find_dart(fold, fold.at, fold.dart)
     fold.at = find_node(fold, fold.at)
@@ -271,7 +269,7 @@ def settle_places(case: CaseWords) -> None:
         drawn.node[d] = find_node(fold, drawn.node[d])
     nodes = 0
     for node in range(fold.nodes):
-        if node == 0 or fold.parent[node] == node:
+        if fold.parent[node] == node:
             fold.number[node] = nodes
             nodes += 1
             for slot in range(fold.base[node], fold.base[node] + fold.degree[node]):
@@ -279,9 +277,6 @@ def settle_places(case: CaseWords) -> None:
                 if end >= 0:
                     fold.end_dart[slot] = find_dart(fold, end, fold.end_dart[slot])
                     fold.end_node[slot] = find_node(fold, end)
-    root = find_node(fold, 0)
-    fold.offset[0] = find_dart(fold, 0, 0)
-    fold.parent[0] = root
 
 
 @kernel
@@ -393,11 +388,14 @@ def start_consequences(case: CaseWords) -> None:
     consequences.met = 0
     consequences.waiting = 0
     consequences.entries = 0
-    for slot in range(fold.doors):
-        consequences.same[slot] = slot
-        consequences.first[slot] = -1
-        if fold.end_node[slot] >= 0:
-            add_beyond(consequences, slot, slot_at(fold, fold.end_node[slot], fold.end_dart[slot]))
+    for node in range(fold.nodes):
+        for slot in range(fold.base[node], fold.base[node] + fold.degree[node]):
+            fold.owner[slot] = node
+            consequences.same[slot] = slot
+            consequences.first[slot] = -1
+            end = fold.end_node[slot]
+            if end >= 0:
+                add_beyond(consequences, slot, slot_at(fold, end, fold.end_dart[slot]))
 
 
 @inlined
