@@ -5,7 +5,13 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable, Generator, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager, nullcontext, redirect_stdout
+from contextlib import (
+    AbstractContextManager,
+    contextmanager,
+    nullcontext,
+    redirect_stdout,
+    suppress,
+)
 from copy import copy
 from dataclasses import dataclass
 from functools import wraps
@@ -447,10 +453,13 @@ def open_store(output: Output, folder: Path | None) -> Generator[Store | None]:
     if folder is None:
         yield None
         return
-    if (folder / OLD_STORE).exists() and not (folder / STORE).exists():
+    old, runs = folder / OLD_STORE, "runs"
+    if old.exists() and not (folder / STORE).exists():
+        with suppress(OSError), old.open("rb") as lines:
+            runs = plural(max(0, sum(1 for _ in lines) - 1), "run")  # the first line is the header
         output.note(
-            f"topo-verify 0.2 or before wrote {folder / OLD_STORE}: its runs are made again, in"
-            f" {STORE}; remove the old file"
+            f"topo-verify 0.2 or before wrote {old}: its {runs} are made again, in {STORE}; remove"
+            " the old file"
         )
     with Store(folder / STORE) as store:
         yield store
