@@ -462,7 +462,7 @@ def test_a_store_never_mixes_engines(folder: Path) -> None:
 
     assert known("compiled").from_ledger == 0
     assert known("compiled").from_ledger == 86
-    with pytest.raises(InputError, match="holds another campaign: its shard is 500000, now it is"):
+    with pytest.raises(InputError, match="holds another campaign: its engine is compiled, now it"):
         known("reference")
 
 

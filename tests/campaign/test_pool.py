@@ -238,7 +238,7 @@ def test_a_shard_that_strangers_kill_again_and_again_is_cut_down_to_worlds_and_d
 
 
 def test_a_mapper_that_cannot_be_interrupted_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(backend, "GRACE", 1.0 - Limits().world_timeout)
+    monkeypatch.setattr(backend, "SILENCE_GRACE", 1.0 - Limits().world_timeout)
     found = search("mappers.py:holds", edges=3, workers=2, limits=SHORT)
     first = found.counterexample
     assert first is not None

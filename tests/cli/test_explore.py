@@ -95,6 +95,28 @@ def test_a_mapper_that_moves_on_when_time_is_up_is_not_decided(
     assert "not decided" in call(line).stdout
 
 
+@pytest.mark.parametrize("command", ["explore", "replay"])
+@pytest.mark.parametrize(("signal", "code"), [("SIGKILL", 3), ("SIGABRT", 1)])
+def test_a_mapper_whose_process_was_killed_is_run_again_as_in_a_search(
+    results: Results, command: str, signal: str, code: int
+) -> None:
+    Path("once.py").write_text(
+        "import os, pathlib, signal\n"
+        "from topo_verify import CATALOGUE\n"
+        "def once(robot):\n"
+        "    if not pathlib.Path('mark').exists():\n"
+        "        pathlib.Path('mark').touch()\n"
+        f"        os.kill(os.getpid(), signal.{signal})\n"
+        "    return CATALOGUE['basic'](robot)\n"
+    )
+    (entry,) = results(f"{command} m2/7 --target once.py:once", code=code)["results"]
+    ended = "the second try passed" if code == 3 else "at the second try it delivered one"
+    assert not entry["ok"]
+    assert f"was ended by {signal}" in entry["stopped"]
+    assert entry["stopped"].endswith(ended)
+    assert bool(entry["findings"]) == (code == 1)
+
+
 def test_what_a_mapper_does_not_declare_is_not_called_ok(results: Results, call: Call) -> None:
     line = "explore m3/14 --algorithm mappers.py:silent"
     (entry,) = results(line)["results"]

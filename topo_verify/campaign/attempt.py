@@ -53,6 +53,11 @@ class Attempt:
     lost: str | None = None
     choices: PolicyCosts | None = None
 
+    @property
+    def lost_why(self) -> str | None:
+        """Why an earlier try leaves the world undecided, if it does."""
+        return self.lost and f"its process was ended by {self.lost}, {OUTSIDE}"
+
 
 Look = Callable[[Attempt], Any]
 """What a study notes about a run, as JSON."""
@@ -68,6 +73,7 @@ def attempt(  # noqa: PLR0913  an argument an option
     witness: bool = True,
     known: Checks | None = None,
     beat: Callable[[], None] = lambda: None,
+    before_judging: Callable[[Exploration], Exploration] = lambda run: run,
 ) -> Attempt:
     """Run a mapper in a world, again if its process was killed, and judge the run.
 
@@ -76,6 +82,7 @@ def attempt(  # noqa: PLR0913  an argument an option
         witness: also run the mapper in the witness world of a wrong map.
         known: replaces `check`.
         beat: called before each run and each judgement.
+        before_judging: returns the run that is judged.
     """
 
     def once() -> Attempt:
@@ -83,7 +90,7 @@ def attempt(  # noqa: PLR0913  an argument an option
         if program is not None:
             program.start()
         begin = _processor_seconds(program)
-        run = explore(world, target, limits=limits)
+        run = before_judging(explore(world, target, limits=limits))
         seconds = max(0.0, _processor_seconds(program) - begin)
         lines = tuple(program.lines) if program is not None and program.record else None
         beat()
@@ -121,9 +128,7 @@ def _processor_seconds(program: Program | None) -> float:
 def row_of(judged: Attempt, where: str, place: int, turn: int = 0, look: Look | None = None) -> Row:
     """The row of a run; `place`, `turn` and `note` (by `look`) are as in `Row`."""
     run, report = judged.run, judged.report
-    why = None
-    if judged.lost is not None:
-        why = f"its process was ended by {judged.lost}, {OUTSIDE}"
+    why = judged.lost_why
     if undecided(run, report):
         open_claims = [name for name, status in report.claims.items() if status == "undecided"]
         why = run.stopped or f"undecided: {', '.join(open_claims)}"

@@ -40,7 +40,7 @@ from topo_verify.programs.loaded import Loaded, watch
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 
-GRACE = 10.0
+SILENCE_GRACE = 10.0
 """Seconds without a heartbeat, beyond all limits of a run, until a worker is given up."""
 
 COMPILING = 1200.0
@@ -204,7 +204,7 @@ def _work(job: CampaignJob, ours: Loaded | None = None) -> Work[c.Shard, c.Shard
             require_equal(ours, result.loaded, worker)
 
     # A failing mapper is run in a witness world, too, under the usual limits.
-    silence = GRACE + campaign.limits.world_timeout + Limits().world_timeout
+    silence = SILENCE_GRACE + campaign.limits.world_timeout + Limits().world_timeout
     return Work(
         serve=f"{__name__}:{serve.__name__}",
         job=job,

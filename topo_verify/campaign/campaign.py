@@ -54,6 +54,9 @@ BLOCK = 10_000
 ENGINE_SHARD = 500_000
 """Worlds in a shard of the compiled engine, about two seconds of work."""
 
+MAX_TIMEOUTS = 3
+"""Time-outs, and in some studies failing worlds, after which a mapper's other worlds are left."""
+
 AGAIN = 200
 """Least number of stored worlds that a resumed campaign examines again."""
 
@@ -218,11 +221,13 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
         worlds = known.pop("worlds")
         chosen = {"target": ",".join(known.pop("mappers")), "hash": sources}
         if isinstance(self.worlds, Ranks):
-            chosen |= {"class": worlds["kind"], "shard": str(worlds["shard"])}
+            chosen["class"] = worlds["kind"]
         for name in ("drawn", "keep", "record"):  # they change which rows come when, not the rows
             del known[name]
         if not any(":" in text and not text.startswith(OPTIONS) for text in self.mappers):
             del known["in_process"]  # it is about a user's mapper in Python alone
+        if isinstance(self.worlds, Ranks):
+            known["shard"] = worlds["shard"]  # the last, since options decide it
         return chosen | {
             name.replace("_", "-"): value
             if isinstance(value, str)

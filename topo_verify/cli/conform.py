@@ -373,9 +373,8 @@ def _failing_run(study: Conform, levels: Sequence[LevelResult]) -> Report | None
     campaign = study.campaign
     world = next(at.world for at in study.corpus if at.name == finding.world)
     for target in campaign.load():
-        run = explore(world, target, limits=campaign.limits)
         named = runs.NamedWorld(world, finding.world)
-        report, _ = runs.judged(run, named, campaign.limits, strict=campaign.strict)
+        _, report, _ = runs.judged(target, named, campaign.limits, strict=campaign.strict)
         if any(other.claim == finding.claim for other in report.findings):
             return report
     return None

@@ -17,7 +17,6 @@ import msgspec
 
 from topo_verify.campaign.judge import Report, is_for_compiled_judge
 from topo_verify.campaign.run import Engine, Exploration, on_engine
-from topo_verify.campaign.run import explore as run_mapper
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.checkers.claims import LARGE
 from topo_verify.checkers.findings import Verdict
@@ -270,13 +269,14 @@ def _explored(
     asked: _ExploreOptions,
     played: list[PlayedRun],
 ) -> Result[ExploreEntry]:
-    run = run_mapper(at.world, target, limits=asked.limits)
-    # Before judging: the trace is kept even if a checker fails.
-    if asked.trace is not None:
-        files.write(asked.trace, write_trace(run.kept_trace).decode())
-    if asked.choices is not None:
-        run = asked.choices.checked(run)
-    report, incomplete = runs.judged(run, at, asked.limits, strict=asked.strict)
+    def kept(run: Exploration) -> Exploration:
+        if asked.trace is not None:
+            files.write(asked.trace, write_trace(run.kept_trace).decode())
+        return run if asked.choices is None else asked.choices.checked(run)
+
+    run, report, incomplete = runs.judged(
+        target, at, asked.limits, strict=asked.strict, before_judging=kept
+    )
     if asked.choices is not None:
         report = asked.choices.named(report, asked.limits)
     output.found.keep(report)

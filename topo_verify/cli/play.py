@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 import click
 import msgspec
 
-from topo_verify.campaign.run import explore as run_mapper
 from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result
 from topo_verify.errors import plural
@@ -69,8 +68,7 @@ def play(
         recorded: list[PlayedRun] = []
         for number, mapper in enumerate(targets):
             output.progress(f"{mapper.text} in {at.name}", number, len(targets))
-            run = run_mapper(at.world, mapper, limits=limits)
-            report, _ = runs.judged(run, at, limits, strict=strict)
+            run, report, _ = runs.judged(mapper, at, limits, strict=strict)
             recorded.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
         runs.write_page(file, at.world, at.name, recorded)
         findings = sum(len(j.findings) for run in recorded for j in run.judgements)

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import click
 
+from topo_verify.campaign.campaign import MAX_TIMEOUTS
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.cli import options
@@ -99,5 +100,5 @@ def _show(entries: Sequence[study.RecordEntry]) -> Iterator[Block]:
         if entry.file is not None:
             yield Text(f"written: {entry.file}")
         else:
-            times = f"{study.MAX_TIMEOUTS} time-outs"
+            times = f"{MAX_TIMEOUTS} time-outs"
             yield Text(f"No baseline was written: the mapper was stopped after {times}.")

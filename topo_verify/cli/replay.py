@@ -11,7 +11,6 @@ import click
 import msgspec
 
 from topo_verify.campaign.judge import Report, in_words, judge_trace, strict_option
-from topo_verify.campaign.run import explore as run_mapper
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result, entry_of
@@ -218,8 +217,7 @@ def _ran(
     output: Output, at: runs.NamedWorld, mapper: Target, limits: Limits, *, strict: bool
 ) -> tuple[Report, str | None, bool]:
     output.progress(f"{mapper.text} in {at.name}", 0, 1)
-    run = run_mapper(at.world, mapper, limits=limits)
-    report, incomplete = runs.judged(run, at, limits, strict=strict)
+    run, report, incomplete = runs.judged(mapper, at, limits, strict=strict)
     return msgspec.structs.replace(report, world=at.name).of(report.run), run.stopped, incomplete
 
 

@@ -16,15 +16,9 @@ from pathlib import Path
 
 import msgspec
 
-from topo_verify.campaign.judge import (
-    Report,
-    in_words,
-    judge,
-    replay_line,
-    strict_option,
-    undecided,
-)
-from topo_verify.campaign.run import Exploration, explore
+from topo_verify.campaign.attempt import attempt
+from topo_verify.campaign.judge import Report, in_words, replay_line, strict_option, undecided
+from topo_verify.campaign.run import Exploration
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.checkers.claims import LARGE
 from topo_verify.errors import InputError, plural
@@ -125,22 +119,30 @@ def _is_saved(path: Path, text: str) -> bool:
 
 
 def judged(
-    run: Exploration, at: NamedWorld, limits: Limits, *, strict: bool = False
-) -> tuple[Report, bool]:
-    """The report on a run, and whether it is undecided: out of time, or declined."""
-    report = judge(run, where=at.text, strict=strict)
+    target: Target,
+    at: NamedWorld,
+    limits: Limits,
+    *,
+    strict: bool = False,
+    before_judging: Callable[[Exploration], Exploration] = lambda run: run,
+) -> tuple[Exploration, Report, bool]:
+    """A run, its report, and whether it is undecided; made again as in a campaign (`attempt`)."""
+    tried = attempt(
+        at.world, target, limits, where=at.text, strict=strict, before_judging=before_judging
+    )
+    run, report = replace(tried.run, stopped=tried.lost_why or tried.run.stopped), tried.report
     # Its findings would only say that it has no map.
-    if undecided(run, report):
-        return report.with_findings(()), True
+    if tried.lost is not None or undecided(run, report):
+        return run, report.with_findings(()), True
     if not report.findings:
-        return report, False
+        return run, report, False
     words = (*at.options, *limits.options, *strict_option(at.world, strict=strict))
     replay_command = replay_line(at.argument, run.algorithm, run.policies, words)
     findings = tuple(
         msgspec.structs.replace(finding, world=at.argument, replay=replay_command)
         for finding in report.findings
     )
-    return report.with_findings(findings), False
+    return run, report.with_findings(findings), False
 
 
 # ---------------------------------------------------------------- showing
@@ -319,9 +321,8 @@ class FoundRuns:
             return
 
         def once(target: Target, _there: World) -> Iterator[Report]:
-            run = explore(there, target, limits=limits)
+            run, report, _ = judged(target, NamedWorld(there, world), limits)
             self._late = run.limit in ("move-timeout", "world-timeout")
-            report, _ = judged(run, NamedWorld(there, world), limits)
             yield report
 
         if len(self._exhibits) < self._most and not self._late:

@@ -15,6 +15,7 @@ from tests.programs.programs import deadly, served
 from tests.studies.baseline.recording import recording
 from topo_verify import CATALOGUE, Robot
 from topo_verify.campaign.attempt import Attempt, row_of
+from topo_verify.campaign.campaign import MAX_TIMEOUTS
 from topo_verify.campaign.judge import examine
 from topo_verify.campaign.run import explore
 from topo_verify.campaign.targets import one_target
@@ -136,7 +137,7 @@ def test_a_mapper_that_hangs_is_given_up_after_a_few_time_outs() -> None:
 
     limits = Limits(move_timeout=0.06)
     made = recording(one_target(hang), "edges<=2", limits=limits)
-    assert len(made.entries) == study.MAX_TIMEOUTS < made.header.total == 12
+    assert len(made.entries) == MAX_TIMEOUTS < made.header.total == 12
     assert {entry.failed for entry in made.entries} == {("map-isomorphic",)}
 
 

@@ -14,7 +14,7 @@ from topo_verify.errors import InputError
 from topo_verify.robot.events import Start, read_trace
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.conform.batch import batched
-from topo_verify.studies.conform.conform import MAX_TIMEOUTS, LevelResult
+from topo_verify.studies.conform.conform import MOST_TIMEOUTS, LevelResult
 from topo_verify.studies.corpus import corpus_from
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -111,9 +111,9 @@ def test_a_python_mapper_that_ends_its_worker_is_a_finding(tmp_path: Path) -> No
 
 def test_after_many_time_outs_the_rest_is_not_tried() -> None:
     limits = Limits(move_timeout=0.06)
-    texts = ["m1/1"] * (MAX_TIMEOUTS + 5)
+    texts = ["m1/1"] * (MOST_TIMEOUTS + 5)
     found = standings(misbehaving("hangs"), *texts, limits=limits)
-    assert found["result"].failed == MAX_TIMEOUTS
+    assert found["result"].failed == MOST_TIMEOUTS
     assert found["result"].not_tried == 5
 
 

@@ -14,7 +14,7 @@ from topo_verify.programs import protocol as ms
 from topo_verify.programs.misbehaviour import MISBEHAVIOURS
 from topo_verify.programs.program import IN_A_ROW, Program
 from topo_verify.robot.limits import Limit
-from topo_verify.studies.conform.conform import MAX_TIMEOUTS
+from topo_verify.studies.conform.conform import MOST_TIMEOUTS
 from topo_verify.studies.corpus import corpus_from
 from topo_verify.world.formats import world_json
 
@@ -48,6 +48,6 @@ def test_every_kind_of_finding_is_explained() -> None:
 
 
 def test_the_figures_are_those_of_the_code() -> None:
-    assert f"After {MAX_TIMEOUTS} time-outs" in PAGE
+    assert f"After {MOST_TIMEOUTS} time-outs" in PAGE
     assert f"at most {IN_A_ROW:,} between two moves" in PROGRAMS
     assert f"the {corpus_from([]).total} worlds of the default corpus" in PAGE

@@ -11,6 +11,7 @@ from unittest.mock import Mock
 import pytest
 
 from topo_verify import CATALOGUE, Percept, Robot, World, examine
+from topo_verify.campaign.campaign import MAX_TIMEOUTS
 from topo_verify.campaign.targets import targets
 from topo_verify.compiled import available
 from topo_verify.programs.loader import Target
@@ -18,7 +19,7 @@ from topo_verify.proofs.catalogue import QUICK, choose
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.verify import verify as campaign
 from topo_verify.studies.verify.parts import Part, Proofs, WorldCounts
-from topo_verify.studies.verify.trials import MAX_TIMEOUTS, Trials, with_ids
+from topo_verify.studies.verify.trials import Trials, with_ids
 from topo_verify.studies.verify.verify import verify
 from topo_verify.world.enumeration import rank_order
 

@@ -25,11 +25,12 @@ from typing import Literal, NamedTuple, get_args
 
 import msgspec
 
+from topo_verify.campaign.campaign import MAX_TIMEOUTS
 from topo_verify.campaign.row import Row
 from topo_verify.programs.loader import Target
 from topo_verify.robot.events import Policies
 from topo_verify.studies.baseline.file import Baseline, BaselineEntry, world_of
-from topo_verify.studies.baseline.record import MAX_TIMEOUTS, entry_of, replay_command
+from topo_verify.studies.baseline.record import entry_of, replay_command
 from topo_verify.studies.corpus import NETWORKS
 from topo_verify.world.rooted_map import World
 

@@ -27,9 +27,6 @@ from topo_verify.studies.baseline.file import Baseline, BaselineEntry, Header
 from topo_verify.studies.corpus import Corpus
 from topo_verify.world.rooted_map import World
 
-MAX_TIMEOUTS = 3
-"""Time-outs after which the remaining worlds are not tried."""
-
 
 def baseline_runs(
     target: Target,
@@ -50,7 +47,7 @@ def baseline_runs(
         engine=engine,
         limits=limits or Limits(),
         in_process=runs_here(target),
-        stop=c.Stop(timeouts=MAX_TIMEOUTS),
+        stop=c.Stop(timeouts=c.MAX_TIMEOUTS),
     )
     kept = None if store is None else store.resumed(campaign, [target], all_rows=True)
     return MapperCampaign(campaign, worlds, kept, target)

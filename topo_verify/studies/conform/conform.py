@@ -250,7 +250,7 @@ def file_name(world: str) -> str:
 
 # ---------------------------------------------------------------- many worlds
 
-MAX_TIMEOUTS = 20
+MOST_TIMEOUTS = 20
 """Time-outs after which the rest of the corpus is not tried."""
 
 
@@ -334,7 +334,7 @@ class Conform:
             campaign,
             worlds=c.ListedWorlds(corpus.total),
             record=bool(asked.transcript),
-            stop=c.Stop(timeouts=MAX_TIMEOUTS),
+            stop=c.Stop(timeouts=MOST_TIMEOUTS),
             look=f"{__name__}:{look.__name__}",
             asked=tuple(asked),
         )

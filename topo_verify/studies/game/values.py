@@ -21,8 +21,8 @@ from typing import Any, Literal
 import msgspec
 
 from topo_verify.algorithms import NAMED
-from topo_verify.campaign.judge import judge
-from topo_verify.campaign.run import explore
+from topo_verify.campaign import campaign as c
+from topo_verify.campaign.backend import here
 from topo_verify.errors import InternalError
 from topo_verify.studies.game.drawn import DrawnWorld
 from topo_verify.studies.game.folds import is_closed, is_single_of_vertices, is_single_planar
@@ -223,9 +223,11 @@ def mapper_costs(mapper: str, edges: int, values: Iterable[GameValue] = ()) -> M
     drawn: DrawnClass = "planar" if planar else "any"
     knows: Knowledge = "planar" if planar else "nothing"
     best = next((v.value for v in values if (v.knows, v.drawn) == (knows, drawn)), None)
-    runs = [explore(world, mapper) for world in drawn_worlds(edges, drawn)]
-    failing = next((run.world.id for run in runs if not judge(run).ok), None)
-    costs = [run.cost for run in runs]
+    worlds = [(world.id, world) for world in drawn_worlds(edges, drawn)]
+    campaign = c.Campaign(worlds=c.ListedWorlds(len(worlds)), mappers=(mapper,))
+    rows = [row for _, result in c.results(campaign, here(), worlds) for row in result.rows]
+    failing = next((row.world for row in rows if row.failed), None)
+    costs = [row.cost for row in rows]
     worst, mean = max(costs), sum(costs) / len(costs)
     if failing is None and best and (worst < best.worst or mean < best.mean):
         raise InternalError(
@@ -237,7 +239,7 @@ def mapper_costs(mapper: str, edges: int, values: Iterable[GameValue] = ()) -> M
         mapper=mapper,
         knows=knows,
         drawn=drawn,
-        worlds=len(runs),
+        worlds=len(rows),
         worst=worst if failing is None else None,
         mean=mean if failing is None else None,
         value=best,

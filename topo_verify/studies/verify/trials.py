@@ -35,9 +35,6 @@ from topo_verify.robot.limits import Limits
 from topo_verify.studies.verify.parts import MapperCost, Part
 from topo_verify.world.rooted_map import World
 
-MAX_TIMEOUTS = 3
-"""Time-outs, and for some parts failing worlds, after which a part stops."""
-
 
 @dataclass
 class Trials:
@@ -68,7 +65,7 @@ class Trials:
     @property
     def stop(self) -> c.Stop:
         """When the part ends before its last world."""
-        return c.Stop(self.max_failing, MAX_TIMEOUTS)
+        return c.Stop(self.max_failing, c.MAX_TIMEOUTS)
 
     def work(self, tell: Progress) -> None:
         """Run the mappers until too many worlds time out or fail."""
@@ -134,7 +131,7 @@ class Trials:
         words += self._cut_off()
         if interrupted:
             words += "; interrupted"
-        elif tally.timeouts >= MAX_TIMEOUTS and tally.worlds < self.total:
+        elif tally.timeouts >= c.MAX_TIMEOUTS and tally.worlds < self.total:
             words += f"; stopped after {tally.timeouts} time-outs"
         elif tally.worlds < self.total:
             words += f"; stopped after {tally.failing} failing worlds"
@@ -271,7 +268,7 @@ class SmallWorlds(Trials):
 
     def work(self, tell: Progress) -> None:
         """Search every world of each size; InternalError if the compiled engine differs."""
-        stop = c.Stop(timeouts=MAX_TIMEOUTS)
+        stop = c.Stop(timeouts=c.MAX_TIMEOUTS)
         campaign = _campaign(c.Ranks(self._edges), self.targets, self.limits, stop)
         campaign = msgspec.structs.replace(campaign, keep="notable")
         backend = pooled(self._workers) if self._workers else here(self.targets)

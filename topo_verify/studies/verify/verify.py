@@ -23,7 +23,7 @@ from random import Random
 import msgspec
 
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.campaign.campaign import Progress, no_progress
+from topo_verify.campaign.campaign import MAX_TIMEOUTS, Progress, no_progress
 from topo_verify.campaign.targets import targets as targets_of
 from topo_verify.campaign.work import processors
 from topo_verify.compiled import available
@@ -33,7 +33,6 @@ from topo_verify.studies.beside import Beside
 from topo_verify.studies.corpus import STRATEGIES, drawn
 from topo_verify.studies.verify.parts import Part, PartJob, Proofs, WorldCounts
 from topo_verify.studies.verify.trials import (
-    MAX_TIMEOUTS,
     CostTrial,
     EngineCounts,
     SmallWorlds,
