@@ -16,6 +16,10 @@ LIMIT = 300.0
 """Seconds for each call of a program, on a machine that has other things to do."""
 
 
+RARE = (pytest.mark.slow, pytest.mark.rare)
+"""For tests that only `make nightly` runs."""
+
+
 def nowhere(_program: str) -> None:
     """In place of `shutil.which`: nothing is installed."""
 

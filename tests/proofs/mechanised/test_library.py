@@ -184,6 +184,7 @@ def test_an_axiom_is_named_by_coqchk(place: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.rare
 def test_no_proof_relies_on_a_name_that_coq_chose(library: Path, tmp_path: Path) -> None:
     del library
     toolchain.copy_library(tmp_path, toolchain.files())

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.proofs.mechanised.conftest import LIMIT
+from tests.proofs.mechanised.conftest import LIMIT, RARE
 from topo_verify.proofs.mechanised import toolchain
 
 CARELESS = ("Syntax error", "was not found", "Cannot find a physical path", "Cannot infer")
@@ -476,9 +476,6 @@ QUICK = {
     "half-as-many-moves-again", "rejected-and-not-posed", "ways-home-too-short",
 }  # fmt: skip
 """Those of `make coq`: one for each way to be wrong. `make nightly` tries all."""
-
-
-RARE = (pytest.mark.slow, pytest.mark.rare)
 
 
 def patched(mutant: Mutant) -> str:
