@@ -234,8 +234,8 @@ def test_the_standings_come_first_then_where_each_lost(call: Call) -> None:
     assert -1 not in places
     assert places == sorted(places)
     (command,) = (line for line in text.splitlines() if "side by side: topo-verify" in line)
-    done = call(f"{command.partition(' topo-verify ')[2]} -o two.html")
-    assert (done.exit_code, done.stdout[:25]) == (0, "two.html: folding, basic ")
+    done = call(command.partition(" topo-verify ")[2])
+    assert (done.exit_code, done.stdout[:35]) == (0, "basic-small-1.html: folding, basic ")
 
 
 def test_another_seed_draws_other_worlds(results: Results) -> None:
@@ -297,3 +297,34 @@ def test_an_interrupted_league_says_how_many_runs_are_done(call: Call) -> None:
 @pytest.mark.usefixtures("cut_off")
 def test_the_same_bytes_however_many_workers_and_however_often_interrupted(call: Call) -> None:
     require_same_bytes(call, LINE[:-2], 8, files)
+
+
+def test_worlds_of_your_own_are_a_suite_in_which_nothing_is_drawn(
+    results: Results, call: Call
+) -> None:
+    line = "arena basic,folding --worlds family:wheel(4) --worlds edges<=2 --workers 0"
+    first, second = results(line)["results"]
+    assert (first["suite"], first["total"]) == ("own", 13)
+    assert [family["family"] for family in first["families"]] == ["family:wheel(4)", "edges<=2"]
+    assert first["ratio"]["low"] == first["ratio"]["mean"] < second["ratio"]["mean"]
+    assert "own: worlds of your own, 13 worlds\n" in call(line).stdout
+
+
+def test_drawn_worlds_without_a_name_are_no_suite(refused: Refused) -> None:
+    line = "arena basic --worlds generated:3:worlds(min_edges=40,max_edges=60)"
+    refused(line, "generated:3:worlds(min_edges=40,max_edges=60)#0 has no name")
+
+
+def test_a_run_that_fails_only_once_is_named(call: Call) -> None:
+    Path("once.py").write_text(
+        "from topo_verify import CATALOGUE\n"
+        "runs = []\n"
+        "def explore(robot):\n"
+        "    runs.append(robot)\n"
+        "    return CATALOGUE['basic'](robot) if len(runs) != 5 else None\n"
+    )
+    done = call("arena basic once.py:explore --suite tiny --workers 0 --in-process")
+    assert done.exit_code == 1
+    words = " ".join(done.stdout.split())
+    assert "once.py:explore in m2/2, run once more: map-isomorphic holds." in words
+    assert "map-isomorphic m2/2 tiny 4 of 792" in words or "5 of 792" in words

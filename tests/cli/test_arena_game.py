@@ -9,6 +9,7 @@ from unittest.mock import Mock
 import pytest
 
 from tests.cli.conftest import Call, Refused, Results
+from topo_verify.campaign import campaign
 from topo_verify.studies.game import values
 from topo_verify.studies.game.values import game_values
 
@@ -61,10 +62,16 @@ def test_a_search_that_is_cut_short_is_incomplete(
     assert "≥: the search was cut short" in text
 
 
+def rows(monkeypatch: pytest.MonkeyPatch, **fields: object) -> None:
+    """Let the mapper's campaign return one such row."""
+    result = Mock(rows=[Mock(**fields)])
+    monkeypatch.setattr(campaign, "results", Mock(return_value=[(None, result)]))
+
+
 def test_a_mapper_that_breaks_a_claim_has_no_costs(
     call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(values, "judge", Mock(return_value=Mock(ok=False)))
+    rows(monkeypatch, failed=("map-isomorphic",), world="m1/0", cost=1)
     text = played(call, 1, "basic", code=1)
     assert "| 1 | basic | any | fails in m1/0 | 1 | - | 1.00 | - |" in text
 
@@ -72,9 +79,7 @@ def test_a_mapper_that_breaks_a_claim_has_no_costs(
 def test_a_sound_mapper_below_the_value_contradicts_the_game(
     call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    free = Mock(return_value=Mock(cost=0))
-    monkeypatch.setattr(values, "explore", free)
-    monkeypatch.setattr(values, "judge", Mock(return_value=Mock(ok=True)))
+    rows(monkeypatch, failed=(), cost=0)
     done = call("arena --game 1 basic")
     assert done.exit_code == 70
     assert "basic costs less than the value of the game with 1 edges" in done.stderr

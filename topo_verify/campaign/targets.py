@@ -171,7 +171,7 @@ def target_text(target: str | None, command: str | None, default: str | None = N
     if command is not None or target is None:
         raise InputError(
             "name a TARGET, a program with --cmd 'program args', or a native mapper with --library"
-            " FILE: one of them, not two"
+            " FILE: one of them, not two; with another TARGET, give --target '--cmd PROGRAM'"
         )
     return target
 

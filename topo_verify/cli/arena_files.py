@@ -20,6 +20,7 @@ from pathlib import Path
 
 import msgspec
 
+from topo_verify.campaign.judge import replay_line
 from topo_verify.campaign.run import explore
 from topo_verify.checkers import check
 from topo_verify.cli import version
@@ -94,28 +95,31 @@ def suite_blocks(suite: Suite, table: Sequence[lg.LeagueEntry]) -> Iterator[Bloc
         yield _families(suite, ranked)
     for entry in table:
         if entry.suite == suite.name and entry.place is None and entry.counterexample is None:
-            missing = entry.total - entry.worlds
-            unmade = f", {missing - entry.undecided} of them not run yet"
+            missing = entry.total - entry.worlds - entry.undecided
+            worlds = plural(entry.undecided, "world")
+            why = [
+                *([f"{missing} of {entry.total} worlds not played yet"] if missing else ()),
+                *([f"{worlds} of {entry.total} not decided"] if entry.undecided else ()),
+            ]
             yield Text("")
-            yield Text(
-                f"{entry.mapper} has no place in {suite.name}: {plural(missing, 'world')} of"
-                f" {entry.total} not decided{unmade if missing > entry.undecided else ''}; conform"
-                " looks for a mistake in smaller worlds"
-            )
+            yield Text(f"{entry.mapper} has no place in {suite.name}: {', '.join(why)}")
             if entry.why:
                 yield Bullets(entry.why)
 
 
 def _loss_blocks(suite: Suite, ranked: Sequence[lg.LeagueEntry]) -> Iterator[Block]:
     rows = [
-        (entry.mapper, lost.world, str(lost.edges), str(lost.cost), str(lost.other))
+        (
+            *(entry.mapper, lost.world, str(lost.edges), str(lost.cost), str(lost.other)),
+            f"+{lost.excess:.2f}",
+        )
         for entry in ranked
         for lost in entry.losses
     ]
     if rows:
         best = ranked[0].mapper
-        columns = ("mapper", "world", ">edges", ">cost", f">{best}")
-        title = f"{suite.name}: where each loses most against {best}, in edge traversals"
+        columns = ("mapper", "world", ">edges", ">cost", f">{best}", ">behind")
+        title = f"{suite.name}: where each loses most against {best}"
         yield Text("")
         yield TextTable(columns, rows, title)
         for entry in ranked:
@@ -171,12 +175,19 @@ def broken_blocks(entries: Sequence[lg.LeagueEntry]) -> Iterator[Block]:
     """The mappers that broke a claim, each with its counterexample."""
     broken = {e.mapper: e.counterexample for e in entries if e.counterexample is not None}
     if broken:
+        totals = Counter[str](), Counter[str]()
+        for entry in entries:
+            for total, worlds in zip(totals, (entry.worlds, entry.total), strict=True):
+                total[entry.mapper] += worlds
         rows = [
-            (mapper, Cell(example.claim, tone="failed"), example.world, example.suite)
+            (
+                *(mapper, Cell(example.claim, tone="failed"), example.world, example.suite),
+                " of ".join(str(total[mapper]) for total in totals),
+            )
             for mapper, example in broken.items()
         ]
         yield Text("")
-        columns = ("mapper", "claim that fails", "world", "suite")
+        columns = ("mapper", "claim that fails", "world", "suite", ">played to there")
         yield TextTable(columns, rows, title="No place, for a claim fails")
     for mapper, example in broken.items():
         yield Text("")
@@ -211,6 +222,7 @@ def dearest_exhibits(league: lg.League) -> Iterator[Exhibit]:
             name=worst.world,
             notes=(f"most expensive: {cost}",),
             runs=(PlayedRun(mapper.text, run.trace, tuple(judgements), run.stopped),),
+            again=replay_line(worst.world, mapper.text, None, league.limits.options),
             whole=True,
         )
 
@@ -292,7 +304,8 @@ def _table(
     if most_expensive:
         parts.append("## The most expensive worlds\n")
         for exhibit in most_expensive:
-            parts.append(markdown([Text(f"{exhibit.title}, {exhibit.notes[0]}")]))
+            words = Text(f"{exhibit.title}, {exhibit.notes[0]}")
+            parts.append(markdown([words, Command(exhibit.again, "again: ")]))
             parts.append(f"[The run, step by step](<players/{_stem(exhibit)}.html>)\n")
     if broken := list(broken_blocks(table)):
         parts.append("## No place\n")

@@ -112,10 +112,10 @@ def _table(table: bl.TextTable) -> str:
         for title, number in zip(titles, right, strict=True)
     )
     rows = "\n".join(f"<tr>{''.join(map(_cell, row, titles, right))}</tr>" for row in table.rows)
-    caption = f"<caption>{xml_text(bl.clean(table.title))}</caption>" if table.title else ""
+    title = f'<p class="title">{xml_text(bl.clean(table.title))}</p>\n' if table.title else ""
     prose = ' class="prose"' if 'class="say"' in rows else ""
     return (
-        f'<div class="wide" tabindex="0"><table{prose}>{caption}<thead><tr>{head}</tr></thead>\n'
+        f'{title}<div class="wide" tabindex="0"><table{prose}><thead><tr>{head}</tr></thead>\n'
         f"<tbody>{rows}</tbody></table></div>"
     )
 

@@ -84,9 +84,9 @@ def _header(account: Account, run: Ending) -> str:
     extent = account.extent
     tone = TONES[extent.verdict]
     unfinished = "" if run.finished else f"<p>The run was {xml_text(UNFINISHED.message)}.</p>\n"
-    links = {"counterexamples": "Counterexamples"} if account.exhibits else {}
-    middle = [("judged", "What was judged"), ("results", "Results")]
-    links |= dict(reversed(middle) if account.results_first else middle)
+    found = {"counterexamples": "Counterexamples"} if account.exhibits else {}
+    results, judged = {"results": "Results"}, {"judged": "What was judged"}
+    links = results | found | judged if account.results_first else found | judged | results
     links |= {"worlds": "Worlds"} if account.others else {}
     links |= {"versions": "Versions", "timing": "Timing"}
     menu = " ".join(f'<a href="#{name}">{title}</a>' for name, title in links.items())
@@ -108,13 +108,14 @@ def _sections(account: Account, run: Ending) -> Iterator[str]:
     if account.left_out:
         exhibits.append(f"<p>{account.left_out} more are not shown here.</p>")
     refuted = account.extent.verdict == "REFUTED"
+    results = _section("results", "Results", blocks_as_html(account.blocks))
+    if account.results_first:
+        yield results
     if exhibits and refuted:
         yield _section("counterexamples", "Counterexamples", exhibits)
-    sections = [
-        _section("judged", "What was judged", map(_suite, account.suites)),
-        _section("results", "Results", blocks_as_html(account.blocks)),
-    ]
-    yield from reversed(sections) if account.results_first else sections
+    yield _section("judged", "What was judged", map(_suite, account.suites))
+    if not account.results_first:
+        yield results
     if exhibits and not refuted:
         yield _section("counterexamples", "Counterexamples, as expected", exhibits)
     if account.others:

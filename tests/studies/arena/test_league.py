@@ -84,7 +84,8 @@ def test_the_worlds_in_which_a_mapper_lost_most_come_with_a_command() -> None:
         (worlds[4], 50, 20, 3.0), (worlds[2], 25, 20, 0.5), (worlds[6], 25, 20, 0.5),
     ]  # fmt: skip
     assert second.losses[0].show == (
-        f"topo-verify play {worlds[4]} --target folding --target basic --budget 90"
+        f"topo-verify play {worlds[4]} --target folding --target basic -o basic-small-1.html"
+        " --budget 90"
     )
 
 

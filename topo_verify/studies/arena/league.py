@@ -32,6 +32,7 @@ from topo_verify.checkers import Judgement, Status
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.arena.suites import Suite, SuiteFamily
+from topo_verify.studies.conform.conform import file_name
 
 T = TypeVar("T")
 
@@ -271,9 +272,11 @@ class League:
         pairs = zip(self.runs(mapper, suite), self.runs(best, suite), strict=True)
         lost = [(ours.ratio - theirs.ratio, ours, theirs) for ours, theirs in pairs]
         lost.sort(key=lambda pair: -pair[0])  # stable
-        for excess, ours, theirs in lost[:KEPT_LOSSES]:
+        page = f"{file_name(mapper).lstrip('-')}-{suite.name}"
+        for number, (excess, ours, theirs) in enumerate(lost[:KEPT_LOSSES], 1):
             if excess > 0:
                 words = ["topo-verify", "play", ours.world, "--target", best, "--target", mapper]
+                words += ["-o", f"{page}-{number}.html"]
                 show = shlex.join([*words, *self.limits.options])
                 costs = ours.least, ours.cost, theirs.cost
                 yield LostWorld(ours.world, ours.edges, *costs, round(excess, 6), show)

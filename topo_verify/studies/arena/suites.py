@@ -13,6 +13,7 @@ from hashlib import sha256
 
 from topo_verify.errors import InputError
 from topo_verify.programs.loader import close_name
+from topo_verify.studies.corpus import CorpusPart, corpus_from
 from topo_verify.world.enumeration import rank_order
 
 DEFAULT = "default"
@@ -138,8 +139,27 @@ def chosen_suites(text: str) -> list[Suite]:
         if name not in SUITES:
             raise InputError(
                 f"--suite {name!r}: no such suite{close_name(name, SUITES) or ':'} there are"
-                f" {', '.join(SUITES)} and all; several are given with commas"
+                f" {', '.join(SUITES)} and all; several are given with commas. Worlds of your own"
+                " are named with --worlds"
             )
     if len(set(names)) < len(names):
         raise InputError(f"--suite {text!r}: a suite is named twice: name each once")
     return [SUITES[name] for name in names]
+
+
+def own_suite(texts: Sequence[str]) -> Suite:
+    """The suite `own`: the worlds that these WORLDS name, a family each; nothing is drawn."""
+    return Suite("own", "worlds of your own", tuple(map(_own, corpus_from(texts).parts)))
+
+
+def _own(part: CorpusPart) -> SuiteFamily:
+    named = list(part.listed())
+    for at in named:
+        if at.replay_arguments != ("--worlds", at.name):
+            raise InputError(
+                f"--worlds {part.text}: {at.name} has no name that another command knows; name"
+                " files, ids, families or edges<=N"
+            )
+    names = [at.name for at in named]
+    planar = all(at.world.genus == 0 for at in named)
+    return SuiteFamily(part.text, len(names), lambda _seed: names, exact=True, planar=planar)
