@@ -311,8 +311,8 @@ def test_worlds_of_your_own_are_a_suite_in_which_nothing_is_drawn(
 
 
 def test_drawn_worlds_without_a_name_are_no_suite(refused: Refused) -> None:
-    line = "arena basic --worlds generated:3:worlds(min_edges=40,max_edges=60)"
-    refused(line, "generated:3:worlds(min_edges=40,max_edges=60)#0 has no name")
+    line = "arena basic --worlds generated:1:lattices(min_edges=220,max_edges=240)"
+    refused(line, "generated:1:lattices(min_edges=220,max_edges=240)#0 has no name")
 
 
 def test_a_run_that_fails_only_once_is_named(call: Call) -> None:
