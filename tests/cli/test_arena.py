@@ -328,3 +328,12 @@ def test_a_run_that_fails_only_once_is_named(call: Call) -> None:
     words = " ".join(done.stdout.split())
     assert "once.py:explore in m2/2, run once more: map-isomorphic holds." in words
     assert "map-isomorphic m2/2 tiny 4 of 792" in words or "5 of 792" in words
+
+
+def test_after_three_time_outs_a_mapper_plays_no_further(results: Results, call: Call) -> None:
+    line = "arena mappers.py:strolls --suite tiny --world-timeout 0.02 --workers 0"
+    (entry,) = results(line, code=3)["results"]
+    assert (entry["worlds"], entry["undecided"], entry["total"]) == (0, 3, 792)
+    assert "789 of 792 worlds not played, 3 worlds of 792 not decided" in " ".join(
+        call(line).stdout.split()
+    )

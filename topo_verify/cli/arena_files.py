@@ -98,7 +98,7 @@ def suite_blocks(suite: Suite, table: Sequence[lg.LeagueEntry]) -> Iterator[Bloc
             missing = entry.total - entry.worlds - entry.undecided
             worlds = plural(entry.undecided, "world")
             why = [
-                *([f"{missing} of {entry.total} worlds not played yet"] if missing else ()),
+                *([f"{missing} of {entry.total} worlds not played"] if missing else ()),
                 *([f"{worlds} of {entry.total} not decided"] if entry.undecided else ()),
             ]
             yield Text("")

@@ -1,4 +1,6 @@
-"""The runs of a league: one campaign for each mapper, which ends at its first failing world.
+"""The runs of a league: one campaign for each mapper.
+
+It ends at its first failing world, or after `MAX_TIMEOUTS` time-outs.
 
 **Memory** is the peak resident set of a fresh process in which the mapper plays one world.
 
@@ -60,7 +62,7 @@ def matches(league: League, store: Store | None, tell: Tell = _silent) -> list[M
             mappers=(mapper.text,),
             limits=league.limits,
             in_process=runs_here(mapper),
-            stop=c.Stop(failing=1),
+            stop=c.Stop(failing=1, timeouts=c.MAX_TIMEOUTS),
         )
         kept = _kept(league, store, campaign, mapper, tell)
         campaigns.append(MapperCampaign(campaign, [(name, worlds[name]) for name in names], kept))
