@@ -64,8 +64,6 @@ ENDLESS = "nobody, it comes to no end"
 
 BY_SIZE = "whichever of two vertices stands for both, the classes are the same; sizes save time"
 AT_A_ROOT = "the offset of a node is read only while it has a parent, and is set when it gets one"
-EITHER_END = "an edge is met at both its ends, which are two darts, and is noted at one of them"
-
 BOTH_TWO = "both are pairs"
 ONLY_QUICKER = "what was rejected need not be tried again, and would be rejected again"
 ONLY_ROOM = "it changes how much memory a node takes, and no answer"
@@ -73,24 +71,29 @@ BELOW_0 = "every number below 0 says that there is no other end"
 NO_TRY_LEFT = "where no try is left for a pair, none is left for the pairs behind it"
 NO_OTHER_ORDER = "one event is not both an augmentation and a rejection"
 BOTH_FALSE = "None is false, too"
-BACKWARDS = "each face is then walked backwards, past the same unexplored darts"
-ODD_MANY = "a path has an odd number of darts, so its last but one is at an odd place anyway"
 AS_MANY = "both have as many"
-NO_DART = "a world without a dart has no marked dart, whatever its place"
+FOR_GOOD = "once no world shows the history, none does"
+FOLDED_LATER = "what looks different contradicts when it is folded"
+NOT_POSED = "before the first pose no word is asked for"
+SAME_PLACE = "a new place is identified with the known one"
+UNCHANGED = "no line changes it"
+PLACEHOLDER = "the next round puts another number there"
 
 SAME = {
     "claims.py _unmet: True -> False": BOTH_TWO,
     "entailment.py decision_conclusions: refuted.add((event.edge, event.hypothesis)) -> pass": (
         ONLY_QUICKER
     ),
+    "entailment.py decision_conclusions: break -> continue": FOR_GOOD,
+    "entailment.py _may_lead_to: differs or end not in face or any(fold.contradictions(*places,"
+    " apart)) -> end not in face or any(fold.contradictions(*places, apart))": FOLDED_LATER,
     "entailment.py _planar_folding: break -> continue": NO_TRY_LEFT,
+    "excursions.py Excursion.__init__: False -> True": NOT_POSED,
     "excursions.py Records.behind: since < when -> since <= when": NO_OTHER_ORDER,
     "folding.py : 64 -> 65": ONLY_ROOM,
     "folding.py Ends.add: degree > NARROW -> degree >= NARROW": ONLY_ROOM,
     "folding.py Ends.add: 0 -> 1": ONLY_ROOM,
     "folding.py Ends.add: 1 -> 2": BELOW_0,
-    "folding.py Ends.put: 1 -> 2": BELOW_0,
-    "folding.py Fold.__init__: 0 -> 1": ONLY_ROOM,
     "entailment.py _doubt:  for h in on_fold.others(e) if (e, h) not in refuted"
     " ->  for h in on_fold.others(e)": ONLY_QUICKER,
     "folding.py Fold._visit: 0 -> 1": AT_A_ROOT,
@@ -100,9 +103,19 @@ SAME = {
     "folding.py Fold._merged: self._size[a] > self._size[b] -> self._size[a] >="
     " self._size[b]": BY_SIZE,
     "folding.py Fold._merged: self._size[b] += self._size[a] -> pass": BY_SIZE,
+    "folding.py Fold.move: known or (self._visit(percept), 0) -> (self._visit(percept), 0)": (
+        SAME_PLACE
+    ),
+    "folding.py Fold.table: True -> False": AS_MANY,
+    "folding.py Fold.table: 1 -> 2 (2)": BELOW_0,
+    "folding.py Fold.table: -1 -> 1 (2)": PLACEHOLDER,
+    "folding.py Fold.table: 1 -> 2 (5)": PLACEHOLDER,
+    "map_in_world.py MapInWorld._add_vertex: True -> False": AS_MANY,
+    "map_in_world.py MapInWorld._add_vertex: True -> False (2)": AS_MANY,
     "map_in_world.py MapInWorld.grow: return False -> return None": BOTH_FALSE,
     "map_in_world.py MapInWorld.grow: return False -> return None (2)": BOTH_FALSE,
-    "replayed_trace.py ReplayedTrace._walk: self.world.root or 0 -> self.world.root": NO_DART,
+    "replayed_trace.py Round: True -> False": UNCHANGED,
+    "replayed_trace.py Fate: True -> False": UNCHANGED,
 }
 """Equivalent mutants by their text, with the reason."""
 

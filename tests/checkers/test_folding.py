@@ -59,6 +59,7 @@ def test_wandering_proves_the_world_or_leaves_two(world: World, doors: list[int]
         percept = robot.move(door % robot.percept.degree)
         history.append(robot.events[-1])
         fold.move(door % history_degree(history), percept)
+    assert World.from_code(fold.table()) == fold.world()
     assert shows(fold.world(1), history)
     assert shows(fold.world(2), history)
     assert (fold.open_darts() == 0) == fold.world(1).is_isomorphic(fold.world(2))

@@ -12,8 +12,10 @@ from tests.helpers import edited, of_type, place, statuses, trace_of, worlds
 from topo_verify import World, certify
 from topo_verify.checkers import check, claims, decision_conclusions
 from topo_verify.checkers.entailment import Conclusion, FoldedTrace, map_conclusion
+from topo_verify.checkers.folding import Fold
 from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.errors import plural
+from topo_verify.faults import FAULTS
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import first_percept
@@ -27,6 +29,15 @@ def delivering(history: Sequence[ev.Event], world: World) -> ev.Trace:
 def unproved(trace: ev.Trace) -> list[Conclusion]:
     """The conclusions that do not follow."""
     return [conclusion for conclusion in decision_conclusions(FoldedTrace(trace)) if conclusion.why]
+
+
+def test_a_trace_is_folded_into_the_fold_that_is_given() -> None:
+    world = World.from_id("m3/14")
+    fold = Fold(first_percept(world))
+    folded = FoldedTrace(trace_of(world), fold)
+    assert folded.read_to(len(folded.trace)) is None
+    assert folded.fold is fold
+    assert fold.open_darts() == 0
 
 
 # ---------------------------------------------------------------- claim 9
@@ -58,6 +69,30 @@ def test_the_witness_against_another_map_than_the_proved_one_is_the_proved_one()
     assert witness is not None
     assert witness.is_isomorphic(world)
     assert map_conclusion(FoldedTrace(delivering(history, world))) == Conclusion(len(history), "")
+
+
+@pytest.mark.parametrize("name", ["concludes-by-elimination", "confirms-what-is-alone"])
+def test_a_decision_is_judged_by_the_history_before_it_even_after_the_whole_is_read(
+    name: str,
+) -> None:
+    doubted = 0
+    for world in worlds(range(1, 4)):
+        trace = trace_of(world, FAULTS[name])
+        run = ReplayedTrace(world, trace)
+        list(claims.map_entailed(run))
+        assert run.conclusions == ReplayedTrace(world, trace).conclusions
+        doubted += any(conclusion.why for conclusion in run.conclusions.values())
+    assert doubted
+
+
+def test_a_finding_says_whether_a_map_or_a_decision_is_not_proved() -> None:
+    doubt = Conclusion(7, "an edge is open")
+    (of_map,) = claims.unproved("map-entailed", [doubt])
+    (of_decision,) = claims.unproved("decisions-entailed", [doubt])
+    assert of_map.message == "the history proves no such map: an edge is open"
+    assert of_map.expected == "a map that is proved"
+    assert of_decision.message == "the decision does not follow: an edge is open"
+    assert of_decision.expected == "a proved decision"
 
 
 def test_what_is_no_map_and_a_history_of_no_world_are_named_at_their_event() -> None:
