@@ -66,6 +66,7 @@ SAME: dict[str, str] = {
     ),
     "exploration.py localise: pilot.back(0) -> pass": NEVER_AWAY,
     "exploration.py localise: 0 -> 1 (2)": NEVER_AWAY,
+    "motion.py on_demand: not TYPE_CHECKING -> TYPE_CHECKING": "the base keeps the same value",
     "motion.py Pilot.__init__: 0 -> 1 (2)": "it is set when the robot crosses e, before it is read",
     "motion.py Pilot.forward: return percept -> return None": "its callers do not use it",
 }

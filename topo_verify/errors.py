@@ -66,6 +66,11 @@ def plural(number: int, thing: str, things: str = "") -> str:
     return f"{number} {thing if number == 1 else things or thing + 's'}"
 
 
+def map_size(vertices: int, edges: int) -> str:
+    """How large a map is: `1 vertex, 2 edges`."""
+    return f"{plural(vertices, 'vertex', 'vertices')}, {plural(edges, 'edge')}"
+
+
 _LONG_ID = re.compile(r"\b(m[0-9]+/[0-9]{5})[0-9]{5,}([0-9]{5})\b")
 
 

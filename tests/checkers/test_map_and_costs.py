@@ -160,7 +160,7 @@ def test_the_bound_is_m_for_one_vertex_and_0_without_edges() -> None:
         (
             {"map": MapData(((0,), (1,)), ((0, 1),), 0)},
             "4 vertices, 5 edges",
-            "2 vertices, 1 edges",
+            "2 vertices, 1 edge",
         ),
         ({"map": MapData((), (), None)}, "a map", None),
     ],

@@ -18,6 +18,7 @@ from topo_verify.checkers.entailment import UNDECIDED, Conclusion, delivered_cod
 from topo_verify.checkers.excursions import Word
 from topo_verify.checkers.findings import Finding, Judgement, Status
 from topo_verify.checkers.replayed_trace import ReplayedTrace, Round
+from topo_verify.errors import map_size
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import World
@@ -151,8 +152,7 @@ def _wrong_map(run: ReplayedTrace, finish: ev.Finish) -> Iterator[Finding]:
     if isinstance(code, str):
         yield Wrong(last, "a map", None, code)
     elif code != run.world.code:
-        codes = run.world.code, code
-        ours, theirs = (f"{len(v)} vertices, {len(a) // 2} edges" for v, a in codes)
+        ours, theirs = (map_size(len(v), len(a) // 2) for v, a in (run.world.code, code))
         message = f"the map ({theirs}) is not isomorphic to the world ({ours})"
         yield Wrong(last, ours, theirs, message)
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from html import escape
 
 from topo_verify.checkers.findings import Finding, Judgement, Status
-from topo_verify.errors import LINE, InputError, plural, shown
+from topo_verify.errors import LINE, InputError, map_size, shown
 from topo_verify.player import walk
 from topo_verify.player.scenes import Playback
 from topo_verify.world.rooted_map import World
@@ -95,9 +95,7 @@ def _claims(judgements: Sequence[Judgement]) -> str:
 
 def _picture(world: World, label: str) -> str:
     name = f" {world.name}" if world.name else ""
-    size = (
-        f"{plural(len(world.vertices), 'vertex', 'vertices')}, {plural(len(world.edges), 'edge')}"
-    )
+    size = f"{map_size(len(world.vertices), len(world.edges))}"
     caption = _text(f"{label}{name}: {size}")
     if len(world.edges) > MOST_DRAWN:
         return f"<p>{caption}</p>"

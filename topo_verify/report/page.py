@@ -13,7 +13,7 @@ from importlib import resources
 from itertools import count
 from typing import Any, cast
 
-from topo_verify.errors import plural
+from topo_verify.errors import map_size
 from topo_verify.player.page import (
     PageShell,
     json_in_page,
@@ -192,10 +192,7 @@ def _exhibit(number: int, exhibit: Exhibit) -> str:
 
 def _picture(exhibit: Exhibit) -> str:
     world = exhibit.world
-    size = (
-        f"{plural(len(world.vertices), 'vertex', 'vertices')}, {plural(len(world.edges), 'edge')},"
-        f" genus {world.genus}"
-    )
+    size = f"{map_size(len(world.vertices), len(world.edges))}, genus {world.genus}"
     caption = xml_text(f"{clean(exhibit.name)}: {size}")
     if not _is_drawn(exhibit):
         return f'<p class="soft">{caption}; too large to be drawn here.</p>'

@@ -20,7 +20,7 @@ from functools import cached_property
 from os import PathLike
 from typing import Any, ClassVar, Literal, Protocol, Self, TypeVar
 
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, map_size
 from topo_verify.world import validation
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.least_cost import least_cost, proof_tour
@@ -358,7 +358,7 @@ class World:
     def __repr__(self) -> str:
         if len(self.edges) <= 30:
             return f"tv.World.from_id({self.id!r})"
-        size = f"{len(self.vertices)} vertices, {len(self.edges)} edges, genus {self.genus}"
+        size = f"{map_size(len(self.vertices), len(self.edges))}, genus {self.genus}"
         return f"<World {self.name!r}: {size}>"
 
     def draw(self, path: str | PathLike[str] | None = None, **marks: bool) -> str:

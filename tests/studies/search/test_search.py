@@ -80,7 +80,7 @@ def test_the_search_stops_at_the_smallest_counterexample() -> None:
     first = found.counterexample
     assert first is not None
     assert (first.world, first.edges, first.claim) == ("m1/1", 1, "map-isomorphic")
-    assert first.message.startswith("the map (2 vertices, 1 edges) is not isomorphic")
+    assert first.message.startswith("the map (2 vertices, 1 edge) is not isomorphic")
     assert first.replay.startswith("topo-verify replay m1/1 --target ")
 
 

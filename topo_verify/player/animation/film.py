@@ -16,7 +16,7 @@ from itertools import accumulate
 from textwrap import wrap
 from typing import TypeVar
 
-from topo_verify.errors import InputError, plural, shown
+from topo_verify.errors import InputError, map_size, plural, shown
 from topo_verify.player.animation.tracks import Tracks, timed
 from topo_verify.player.narrator import Narrator, Saying
 from topo_verify.player.scenes import Moment, Playback
@@ -169,9 +169,7 @@ def _seconds(moment: Moment) -> float:
 
 def _head(playback: Playback, name: str, height: str, stage: Stage) -> Iterator[str]:
     world = playback.world
-    size = (
-        f"{plural(len(world.vertices), 'vertex', 'vertices')}, {plural(len(world.edges), 'edge')}"
-    )
+    size = f"{map_size(len(world.vertices), len(world.edges))}"
     mapper = f"{name} in " if name else ""
     title = text(f"{mapper}{shown(world.name or 'a world')} ({size}): {playback.cost} moves")
     timing = f".t{{animation:{number(stage.begins[-1])}s step-end infinite}}"

@@ -29,7 +29,7 @@ from topo_verify.campaign.tally import KEPT_FAILING, Tally, joint_status, notabl
 from topo_verify.campaign.work import processors
 from topo_verify.checkers import CLAIMS, Finding
 from topo_verify.checkers.findings import Status, Verdict
-from topo_verify.errors import InternalError, plural
+from topo_verify.errors import InternalError, map_size, plural
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.verify.parts import MapperCost, Part
@@ -321,7 +321,7 @@ class CostTrial(Trials):
     def __init__(
         self, name: str, where: str, world: World, targets: Sequence[Target], limits: Limits
     ) -> None:
-        size = f", {where} ({len(world.vertices)} vertices, {len(world.edges)} edges)"
+        size = f", {where} ({map_size(len(world.vertices), len(world.edges))})"
         super().__init__(name, size, 1, [(where, world)], targets, limits)
         self.world, self.basic = world, 0
         foreign = any(not isinstance(target.mapper, Algorithm) for target in targets)

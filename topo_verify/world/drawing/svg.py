@@ -11,7 +11,7 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from topo_verify.errors import plural, shown
+from topo_verify.errors import map_size, shown
 from topo_verify.world.drawing import curves
 from topo_verify.world.drawing.arrays import Floats
 from topo_verify.world.drawing.curves import number
@@ -57,10 +57,7 @@ def text(words: str, *, limit: int = 200) -> str:
 
 def caption(world: World, layout: Layout) -> str:
     """The picture's content in words."""
-    size = (
-        f"{plural(len(world.vertices), 'vertex', 'vertices')}, {plural(len(world.edges), 'edge')},"
-        f" genus {world.genus}"
-    )
+    size = f"{map_size(len(world.vertices), len(world.edges))}, genus {world.genus}"
     part = ""
     if layout.hidden:
         visible = len(world.vertices) - len(layout.hidden)
