@@ -70,8 +70,8 @@ def alike(_: MapDart) -> float:
 def most_telling_door(history: History, e: MapDart, prior: Prior = alike) -> NodeDart:
     """The dart by which the robot leaves for the open dart with the best score.
 
-    Ghosts are weighed nearest first. No percept tells more bits than it takes to say which
-    hypothesis is true, so most open darts cannot have the best score and are not weighed in full.
+    Ghosts are weighed nearest first. No percept tells more bits than it takes to identify the true
+    hypothesis, so most open darts cannot have the best score and are not weighed in full.
     """
     outlook = history.notes.get(e) or Outlook(history, e, prior)
     history.notes[e] = outlook

@@ -1,7 +1,7 @@
 """Which edge a steered mapper settles next: the one behind which the robot can be soonest.
 
 If all vertices look alike, doors tell nothing before v0, and short closed trips are worth most. The
-shortest lead round a face, so the next edge is then nearest to the newest vertex of S, ties
+shortest lead round a face, so the next edge is then nearest to the newest vertex of S; ties go
 clockwise from its dart of entry.
 
 Source: docs/homing.md.

@@ -1,9 +1,9 @@
 """The planar prior: in a planar world, only darts on e's own face of S can be its other end.
 
 An edge between two faces of a plane map needs a handle. An open dart counts as a dead end of its
-face. The prior comes as a rule in front of another rule, and as a `History`, which raises if an
-edge leads to another face or two vertices of S are at one place. Refutations last: two darts on
-different faces stay so while S grows.
+face. The prior is a rule in front of another rule, and a `History` that raises if an edge leads to
+another face or two vertices of S are at one place. Darts on different faces stay so while S grows,
+so refutations last.
 
 Source: docs/semantics.md, section 8.
 """

@@ -1,8 +1,7 @@
-"""The claims of docs/semantics.md, section 9, one named function each, over a world and a trace.
+"""The claims of docs/semantics.md, section 9: one function each, which yields what is wrong.
 
-Trusted. A claim takes a `ReplayedTrace` and yields what is wrong. What these do not show: claims
-1-8 ask whether the mapper was right in THIS world, so a lucky guess passes them. Claims 9 and 10
-ask about every world with the same history.
+Trusted. What these do not show: claims 1-8 ask whether the mapper was right in THIS world, so a
+lucky guess passes them. Claims 9 and 10 ask about every world with the same history.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """How much of a run each claim judged: `judged` of `of`, counted from the moves and the decisions.
 
-Trusted. What a mapper owes follows from where it walked: of each crossed edge of the world, a
-decision where it leads. An edge is **settled** once it was posed and S grew along it; each crossed
-edge that is not settled adds to `of` alone in claims 3, 4 and 8.
+Trusted. For each crossed edge of the world a mapper owes a decision where it leads. An edge is
+**settled** once it was posed and S grew along it; each crossed edge that is not settled adds to
+`of` alone in claims 3, 4 and 8.
 
 Source: docs/semantics.md, section 9, "Coverage", with the table.
 """

@@ -1,8 +1,7 @@
 """Claims 9 and 10: what a mapper concluded must follow from its history, not from luck.
 
-Trusted. A mapper that guesses right passes every check that looks at one world. Here its history is
-folded, and each conclusion must hold in EVERY world that shows this history. If it does not, the
-answer carries a **witness**: such a world in which the conclusion is false.
+Trusted. The history is folded, and each conclusion must hold in EVERY world that shows it. If not,
+the answer carries a **witness**: such a world in which the conclusion is false.
 
 For a mapper that declares the planar prior (it rejects by rule `planar`), only planar witnesses
 count. They are looked for among the fold and its further foldings; any planar world with this
@@ -152,7 +151,7 @@ Doubt = tuple[str, World | None]
 
 FOLLOWS: Doubt = ("", None)
 
-UNDECIDED: Doubt = ("no planar world was found in which it is false, nor that there is none", None)
+UNDECIDED: Doubt = ("no planar world was found in which it is false, nor that none exists", None)
 
 
 def _is_met(on_fold: MapOnFold, event: Event) -> bool:

@@ -1,8 +1,7 @@
 """The map S beside the fold of a history: which place of the fold each dart of S is.
 
-Trusted; no world is needed. Declared augmentations are believed here: the caller knows that they
-are right. The fold identifies places as it grows, so S is kept as one place for each vertex, from
-which its darts are found by turning.
+Trusted. The caller knows that the declared augmentations are right. The fold identifies places as
+it grows, so S keeps one place for each vertex, from which its darts are found by turning.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """A trace replayed in its world: where the robot stood, what its map S was, what it had walked.
 
-Trusted. Nothing that a mapper said is believed: positions follow from the doors, and S is drawn
-from the declared augmentations as far as they are true. Decisions after the first move through a
-door that is not there (`illegal`) or the first false augmentation (`spoiled`) are not judged.
+Trusted. Positions follow from the doors alone; S is drawn from the declared augmentations as far as
+they are true. Decisions after `illegal` or `spoiled` are not judged.
 """
 
 from __future__ import annotations

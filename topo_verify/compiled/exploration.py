@@ -1,12 +1,8 @@
 """The exploration loop, which listings 1, 2 and 3 of the paper share.
 
-    the paper's name   here
-    e = (vk, vu)       e: the dart that leaves vk
-    e', e''            h: a hypothesis, the dart by which vu would have been entered
-    H                  `remaining.dart`, in the order of the order policy, and how many there are
-
-Twin of algorithms/exploration.py, line by line. Differs: H is a row of darts; only `folding` and
-`planar` are asked before the first motion. Where the reference may raise, this looks at `stop`.
+Twin of algorithms/exploration.py, line by line, with its letters. Differs: H is a row of darts,
+`remaining.dart`, with their number; only `folding` and `planar` are asked before the first motion.
+Where the reference may raise, this looks at `stop`.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """One run of a compiled algorithm in one world: its cost and map, and its trace.
 
 Worlds of up to 12 edges run in the small layout, others in the large one, whose words of trace
-become events between rounds. A round that fills the trace is made again with four times the room,
-up to half of the free memory; a run that needs more of anything else, in the large layout.
+become events between rounds. A round that fills the trace is repeated with four times the room, up
+to half of the free memory; no other buffer of the large layout grows.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Folding, the complete rule: it keeps a hypothesis exactly if some world that fits makes it true.
+"""The complete rule, `folding`.
 
 Twin of algorithms/folding.py, `SeenPlaces`, `PartialFold` and `FoldingRule`, with the same dart
 numbers and the same order of identifications, which decides the first contradiction. Differs: there

@@ -1,4 +1,4 @@
-"""The robot: moves through the world of the workspace, counts, and records.
+"""The robot in the world of the workspace.
 
 Twin of robot/simulator.py, `SimulatedRobot`. Differs: the world's darts are numbered in order of
 discovery, so a vertex is an interval, sigma the next dart of it, and the marker dart 0. Where the

@@ -4,7 +4,7 @@
 (/proc/PID/mem, /proc/PID/fd, ptrace, pidfd_getfd). Files opened by then stay open, and a process
 traced by then obeys its tracer, so no key closes this gap. But a *fork inherits* undumpability. So
 the launcher is started and shielded before any foreign program, and workers are its forks. It has
-one thread and has loaded next to nothing, so it can always fork.
+one thread and few modules, so it can always fork.
 
 **Why not a library?** `multiprocessing.forkserver` listens on a named socket, to which any process
 of the user can connect, and it shields nothing.
@@ -15,8 +15,8 @@ of the user can connect, and it shields nothing.
 The launcher ends with its parent, and its forks with the launcher. If it is killed after a foreign
 program was started, it is not replaced: a new one would have an unshielded first moment.
 
-What this does not show: a process left over by an *earlier* command runs beside that first moment.
-On other systems than Linux nothing is hidden.
+What this does not show: a process of an *earlier* command runs beside that first moment. On other
+systems than Linux nothing is hidden.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""A native mapper: a function of machine code, which is given a robot by `topo_verify.h`.
+"""A native mapper: a function of machine code, called with the robot of `topo_verify.h`.
 
-The header's robot is a row of callbacks to a robot in Python. After a refusal they do nothing;
-when the function returns, the exception that stopped the robot is raised.
+That robot is a row of callbacks into Python. After a refusal they do nothing; when the function
+returns, the exception that stopped the robot is raised.
 
 What this does not show: that the function keeps to its own memory.
 """

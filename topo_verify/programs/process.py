@@ -2,8 +2,8 @@
 
 **Processor.** Program and harness thread take turns. On one processor the kernel switches between
 them in a few microseconds; on two, each message wakes an idle processor, which takes tens of them.
-So a program with a single thread is kept on the processor of the thread that talks to it, for a
-world. Programs with several threads or children, or with processors of their choice, are released.
+So a program with a single thread is kept on the harness thread's processor during a world. Programs
+with several threads or children, or with processors of their choice, are released.
 
 **Exit status.** It is read without reaping, so the process keeps its number until `Child.end` has
 ended its group.

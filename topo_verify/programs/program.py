@@ -3,9 +3,9 @@
     with Program("./mapper --fast") as program:
         report = examine(program.target, world)
 
-The program receives percepts and answers with doors, never the world. The simulated robot makes,
-checks and counts every move. One process plays many worlds. If the program misbehaves, or a limit
-stops it, its process and all descendants are ended, and the next world starts a fresh one.
+The program receives percepts and answers with doors; the simulated robot checks and counts every
+move. One process plays many worlds. If the program misbehaves, or a limit stops it, its process and
+all descendants are ended, and the next world starts a fresh one.
 
 Source: docs/semantics.md, section 15.
 """

@@ -1,8 +1,8 @@
 """Limits for untrusted mappers: moves, seconds between two moves, seconds in all.
 
 A mapper that exceeds one is stopped by a BaseException, which its own `except Exception` does not
-swallow. What this does not do: stop a mapper that catches BaseException in a loop, or sits in C
-code that never returns, from inside its own process.
+swallow. From inside its process nothing stops a mapper that catches BaseException in a loop, or
+sits in C code that never returns.
 
 Seconds are those of robot/stopwatch.py. A clock ticks while the mapper runs and asks the robot for
 its cost. In the main thread the tick is SIGALRM, which also interrupts a sleep. In other threads,

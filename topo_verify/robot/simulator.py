@@ -1,8 +1,8 @@
 """The robot in a simulated world: hides the world, meters the cost, records what happens.
 
-Trusted. A mapper holds a `RobotHandle`. Python hides nothing from a determined mapper in the same
-process: it can reach the simulator through a method of its handle. So moves are counted apart from
-the trace, and a mapper in another process finds nothing.
+Trusted. A mapper holds a `RobotHandle`. A determined mapper in the same process can reach the
+simulator through a method of its handle, so moves are counted apart from the trace. In another
+process it finds nothing.
 
 Source: docs/semantics.md, section 2.
 """

@@ -1,8 +1,9 @@
 """Seconds that a mapper has used, however busy the machine is.
 
-The stopwatch is a wall clock that stands still while the mapper waits in the kernel's queue for a
-processor (second field of /proc/…/schedstat; the first is its running time). Processor time alone
-would let a mapper sleep for ever; the wall clock alone convicts a correct one on a busy machine.
+The stopwatch is a wall clock that stops while the mapper waits in the kernel's queue for a
+processor (second field of /proc/…/schedstat; the first is its running time). Rejected: processor
+time alone, since a mapper could sleep for ever; wall time alone, which convicts a correct mapper on
+a busy machine.
 
 A thread that waits for an answer wakes up now and then to look for it, and queues each time. Only
 the last of these waits delays the answer; the earlier ones count as used. If a look at the

@@ -1,8 +1,8 @@
 """Draws what a world is grown from: one byte an edge, and the place of the marker.
 
 Drawing costs more than growing, by the number of choices, so all edges are one string of bytes.
-Hypothesis draws short strings unless it must draw long ones, so the first choice raises the least
-length. No two choices share a strategy: Hypothesis would copy values.
+Hypothesis prefers short strings, so the first choice raises the least length. No two choices share
+a strategy: Hypothesis would copy values.
 """
 
 from __future__ import annotations

@@ -43,7 +43,7 @@ def test_world_json_says_how_a_file_of_node_link_json_is_called() -> None:
         ('"graph":{', '"graphs":{', "missing required field `graph`"),
         ('"marker":0', '"marker":true', r"`int \| null`, got `bool` - at `\$.graph.marker`"),
         ('"marker":0', '"marker":0,"marker":1', "has the field 'marker' twice"),
-        ('"id":0', '"id":1', "two nodes have one id: give each an id of its own"),
+        ('"id":0', '"id":1', "two nodes have one id: give each a distinct id"),
         ('"id":0', '"id":null', r"`\$.nodes\[0\].id`"),
         ('"target":1', '"target":"1"', "edge 0 has the end '1', expected the id of a node"),
         ('"source":0', '"source":9', "edge 0 has the end 9, expected the id of a node"),

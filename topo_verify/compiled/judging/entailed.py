@@ -2,9 +2,7 @@
 
 Twin of checkers/entailment.py and map_on_fold.py. Differs: there is no witness; under the planar
 prior a rejection that only some further folding could refute leaves the verdict open (`full`).
-
-With `level` 10, or where a rejection rests on a contradiction (claim 8), S is drawn on the fold and
-each decision is judged on the way.
+Decisions are judged only with `level` 10, or where a rejection rests on a contradiction (claim 8).
 """
 
 from __future__ import annotations

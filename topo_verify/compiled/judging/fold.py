@@ -1,4 +1,4 @@
-"""The fold of a history, with rollback: what percepts and doors alone prove.
+"""The fold of a history, with rollback.
 
 Twin of checkers/folding.py. Differs: a contradiction is a value: with `met` = -1 the first one ends
 the folding, otherwise all are collected there as a mask. A place is a node and a dart of it;

@@ -1,9 +1,8 @@
 """Claims 1 to 8 are judged while the trace is replayed in its world.
 
 Twin of checkers/replayed_trace.py, map_in_world.py and claims.py. Differs: a claim is asked at the
-event; a finding is a bit in `wrong`, bit k for claim k + 1. Positions follow from the doors alone.
-After the first door that does not exist (`legal`) no event is judged; after the first false
-augmentation (`spoiled`) no decision.
+event; a finding is a bit in `wrong`, bit k for claim k + 1. No event is judged after the first door
+that does not exist (`legal`), no decision after the first false augmentation (`spoiled`).
 """
 
 from __future__ import annotations

@@ -57,7 +57,7 @@ def checker() -> str:
 
 
 def certify(formula: Formula, *, seconds: float = 60.0) -> RefutationCertificate | str:
-    """A certificate of unsatisfiability, or why there is none.
+    """A certificate of unsatisfiability, or the reason why none was made.
 
     If the checker refuses the proof, `checked` is false: a bug, not a limit.
 
@@ -83,7 +83,7 @@ def certify(formula: Formula, *, seconds: float = 60.0) -> RefutationCertificate
 
 
 def refute(formula: Formula, *, most_steps: int = 1_000_000) -> DrupRefutation | str:
-    """A short refutation, or why there is none: satisfiable, or too many steps."""
+    """A short refutation, or the reason against one: satisfiable, or too many steps."""
     clauses = formula.clauses
     # Keep only used clauses, until a round drops less than 3 %.
     for _ in range(_ROUNDS):

@@ -1,8 +1,8 @@
 """Theorems that a world must refute: negatives, and rules with one mistake (`RuleFault`).
 
-**Negatives.** Behind e a mapper walks a shortest way on S from hypothesis h to v0. It compares only
-the marker's presence (`undirected`), or nothing of it (`none`). In some worlds every percept is as
-expected although h is false. The smallest have this many edges, for any policy:
+**Negatives.** Behind e a mapper walks a shortest way on S from hypothesis h to v0, and compares
+only the marker's presence (`undirected`), or nothing of it (`none`). In some world every percept is
+as expected although h is false. The smallest such worlds have this many edges, for any policy:
 
     class       undirected   none
     any         2            2

@@ -136,14 +136,11 @@ class EncodedExcursion:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EncodedCounterexample:
-    """A formula, and the rows that describe a counterexample.
+    """A formula, and the rows that describe a `BoundedCounterexample`.
 
     Attributes:
         executed: the doors taken behind e.
         made: per door, is it taken? None: all are.
-        own: for `prefix`, the hypothesis' own way home.
-        turned: for that fault, the door of an earlier excursion.
-        earlier, levels: for `records`, the recorded excursion, and the depth compared.
     """
 
     world: enc.Worlds

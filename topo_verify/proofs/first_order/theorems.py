@@ -1,9 +1,8 @@
 """The obligations as theorems, and for each a mutant that lacks one of its premises.
 
-**Theorem**: premises and negated goal have no model. A tiny structure (`finite_models.py`)
-satisfies the premises; without one the theorem is vacuous. **Mutant**: without one needed premise a
-structure, evaluated without a solver, refutes the goal. **Mutant of a rule**: a scene refutes it
-(`mutants/`), which the simulator replays.
+**Theorem**: premises and negated goal have no model, but a tiny structure (`finite_models.py`)
+satisfies the premises. **Mutant**: without one needed premise a structure, evaluated without a
+solver, refutes the goal. **Mutant of a rule**: a scene refutes it, which the simulator replays.
 """
 
 from __future__ import annotations

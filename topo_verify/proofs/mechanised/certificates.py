@@ -3,10 +3,10 @@
 Python folds the log (`evidence.py`) and is not trusted; Coq runs a checker that is proved correct
 (coq/Certificate.v, coq/Checked.v). A certificate states that decisions follow (claim 10), and
 
-    map            every world that shows these percepts to these doors is isomorphic to this map,
-                   and to the delivered map if that is right
-    undetermined   two worlds that differ show them
-    impossible     no world shows them
+    map            every world that shows this log is isomorphic to this map, and to the delivered
+                   map if that is right
+    undetermined   two worlds that differ show it
+    impossible     no world shows it
 
 Long certificates go to the same checker, extracted to OCaml, which trusts Coq's extraction and the
 OCaml compiler as well.

@@ -52,7 +52,7 @@ class ProvedOpinion:
     Attributes:
         by: what judged; "" if Coq or OCaml is not installed.
         judgements: of the claims that Coq defines.
-        why: the reason why the run was not judged; "" if it was.
+        why: why the run was not judged, or "".
     """
 
     by: str

@@ -1,8 +1,8 @@
 """Theorems proved in Coq for worlds of any size, without axioms; `prove` checks them again.
 
 One check of the library serves all: no source holds a word that assumes without proof; coqc
-compiles them in a temporary folder; Coq and coqchk find no axiom. Else the verdict is UNKNOWN,
-never REFUTED: a failed proof is no counterexample.
+compiles them in a temporary folder; Coq and coqchk find no axiom. Else the verdict is UNKNOWN: a
+failed proof is no counterexample.
 
 What this does not show: that the statements mean what they should (docs/proofs.md names the lines
 to read), nor anything about the Python code.

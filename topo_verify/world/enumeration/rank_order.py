@@ -54,7 +54,7 @@ _rows: list[tuple[int, ...]] = [(1,)]
 
 
 def _next_row(before: tuple[int, ...]) -> tuple[int, ...]:
-    # joins come from before[r], with u - 2 open darts; if u = 1 there is none
+    # joins come from before[r], with u - 2 open darts; none if u = 1
     total = len(before) + 1
     attached = [0, *accumulate(before)]  # Σ_d F(u+d-2, r-d) = before[0] + … + before[r-1]
     joined = [(total - r - 1) * ways for r, ways in enumerate(before)]
@@ -122,7 +122,7 @@ def rank(table: Table) -> int:
 
 
 def unrank(edges: int, rank: int) -> Table:
-    """The map of this rank; InputError if there is none."""
+    """The map of this rank; InputError if it is out of range."""
     total = count(edges)
     if not 0 <= rank < total:
         raise InputError(

@@ -6,7 +6,7 @@ point, are such a word and a last down, all equally likely.
 
 **Planar maps.** Steps -1, 0 or 1 along the edges of a random tree label its vertices. In the order
 of a walk around the tree, each corner is joined with the next corner whose label is less by one, or
-with one new vertex if there is none. In this quadrangulation the vertices of even labels (or of odd
+with one new vertex if none follows. In this quadrangulation the vertices of even labels (or of odd
 ones: a coin decides), joined across each face, are the map. Each planar map with m edges arises
 from m+2 triples (tree, steps, coin), so the draw is **exactly uniform**.
 

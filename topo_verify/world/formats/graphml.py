@@ -176,7 +176,7 @@ class _Reader:
         name = self.attributes.get("id")
         if name is None or name in self.nodes:
             why = "has no id" if name is None else "stands there twice"
-            raise InputError(f"{self._open('node')} {why}: each node has an id of its own")
+            raise InputError(f"{self._open('node')} {why}: each node needs a distinct id")
         self.nodes[name] = {**self.defaults["node"], **self.element}
         self._require_size(len(self.edges))
 

@@ -73,7 +73,7 @@ def decode(cls: type[W], text: str | bytes, *, name: str = "node-link JSON", ste
     data = _parse(text, name)
     number = {node.id: place for place, node in enumerate(data.nodes)}
     if len(number) < len(data.nodes):
-        raise InputError(f"{name}: two nodes have one id: give each an id of its own")
+        raise InputError(f"{name}: two nodes have one id: give each a distinct id")
     vertices = [
         RotatedVertex(
             str(node.id),

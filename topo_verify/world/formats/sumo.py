@@ -40,7 +40,7 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
             subject = f"{name}: {path[1]} '{shown(key, limit=60)}'"
             if not key or key in known:
                 why = "stands there twice" if key else "has no id"
-                raise InputError(f"{subject} {why}: each has an id of its own")
+                raise InputError(f"{subject} {why}: each needs a distinct id")
             if key.startswith(":"):
                 return
             if path[1] == "edge":

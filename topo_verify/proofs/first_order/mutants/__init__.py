@@ -1,6 +1,4 @@
-"""Rules with one mistake, each refuted by a scene.
-
-A scene is an exact world, a reachable map S, an edge e with a hypothesis h, and the moves behind e.
+"""Rules with one mistake, each refuted by a scene (scenes.py) and the moves behind its edge.
 
 What this does not show: that the reference policies make these moves. Claims hold for every
 history.
