@@ -241,8 +241,8 @@ def ranked_tables(
     walk, space = prepare(edges, kind, start, stop), np.zeros(layout.at("SIZE"), np.int64)
     rows = np.zeros((1024, 2 + edges + 1 + 2 * edges), np.int64)
     following = compiled(list_worlds, layout)
-    while found := following(space, walk, rows, len(rows)):
-        for rank, vertices, *table in rows[:found].tolist():
+    while listed := following(space, walk, rows, len(rows)):
+        for rank, vertices, *table in rows[:listed].tolist():
             degrees, alpha = table[:vertices], table[vertices : vertices + 2 * edges]
             yield rank, (tuple(degrees), tuple(alpha))
 

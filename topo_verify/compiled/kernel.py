@@ -116,9 +116,9 @@ def address_of(function: Callable[..., int], layout: WordLayout) -> int:
     words = [types.int64] * function.__code__.co_argcount
     options: dict[str, Any] = {"cache": True, "_nrt": False, "error_model": "numpy"}
     mark = cfunc(types.int64(*words), **options)
-    made = _make(module, name, lambda: mark(getattr(module, name)))
-    _lasting.append(made)
-    address: int = made.address
+    code = _make(module, name, lambda: mark(getattr(module, name)))
+    _lasting.append(code)
+    address: int = code.address
     return address
 
 

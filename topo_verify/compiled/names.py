@@ -250,8 +250,8 @@ class Flat(ast.NodeTransformer):
 
     def visit_Call(self, node: ast.Call) -> ast.expr:
         """`chart.place_of("first")` is an offset; a cursor is its place."""
-        made = self._view(node)
-        if made is not None:
+        cursor_view = self._view(node)
+        if cursor_view is not None:
             place: ast.expr = self.visit(node.args[1])
             return place
         if isinstance(node.func, ast.Attribute) and node.func.attr == "place_of":
@@ -269,9 +269,9 @@ class Flat(ast.NodeTransformer):
             view = self._view(node.value)
             return None if view is None else _named_in(view, node).part
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-            made = self._namespace.get(node.func.id)
-            if isinstance(made, type) and issubclass(made, WordView):
-                return made
+            called = self._namespace.get(node.func.id)
+            if isinstance(called, type) and issubclass(called, WordView):
+                return called
         return None
 
     def _word(

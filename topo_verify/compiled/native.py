@@ -315,15 +315,15 @@ def is_in_order(run: RunWords, A: Any, darts: int) -> bool:
 @kernel
 def rename_darts(run: RunWords, vertices: int, D: Any, A: Any, darts: int, marker: int) -> None:
     named = name_vertex(run, D, marker, 0)
-    found = 1
+    reached = 1
     d = 0
     while d < named:
         other = A[run.chart.alpha[d]]
         if run.native.named[other] < 0:
             named = name_vertex(run, D, other, named)
-            found += 1
+            reached += 1
         d += 1
-    if named < darts or found < vertices:
+    if named < darts or reached < vertices:
         return
     v = -1
     last = -1

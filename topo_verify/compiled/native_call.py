@@ -35,15 +35,15 @@ def row_at(_typing: Any, _address: Any, _size: Any) -> Any:
     row = types.Array(types.int64, 1, "C")
 
     def generate(context: Any, builder: Any, _signature: Signature, values: Any) -> Any:
-        made = _arrays.make_array(row)(context, builder)
+        array = _arrays.make_array(row)(context, builder)
         _arrays.populate_array(
-            made,
+            array,
             data=builder.inttoptr(values[0], _WORD.as_pointer()),
             shape=[values[1]],
             strides=[ir.Constant(_WORD, 8)],
             itemsize=ir.Constant(_WORD, 8),
             meminfo=None,
         )
-        return made._getvalue()  # noqa: SLF001  as numba's own code does
+        return array._getvalue()  # noqa: SLF001  as numba's own code does
 
     return row(types.int64, types.int64), generate

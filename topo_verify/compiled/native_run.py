@@ -115,9 +115,9 @@ class NativeCalls:
         if (use, room) not in self._spaces:
             import numpy as np
 
-            made = self.guarded.row(f"space {use}", np.zeros(_at("trace.word") + room, np.int64))
-            self._prepare(made, f"robot {use} {room}")
-            self._spaces[use, room] = made
+            row = self.guarded.row(f"space {use}", np.zeros(_at("trace.word") + room, np.int64))
+            self._prepare(row, f"robot {use} {room}")
+            self._spaces[use, room] = row
         return self._spaces[use, room]
 
     def _prepare(self, space: Row, robot_name: str) -> None:
@@ -172,13 +172,15 @@ def made_by(space: Row, world: World) -> CompiledRun:
         why = STOPPED.get(stop, "the mapper delivered no map")
         if stop == ws.STOP_BUDGET:
             why = f"the mapper asked for more than {world.cost_bound} moves"
-    found = None
+    delivered = None
     if is_map:
-        found = map_of(space, ws.SMALL) if space[_at("chart.darts")] >= 0 else MapData((), (), None)
+        delivered = (
+            map_of(space, ws.SMALL) if space[_at("chart.darts")] >= 0 else MapData((), (), None)
+        )
     words = space[_at("trace.word") : _at("trace.word") + int(space[_at("trace.size")])]
     return CompiledRun(
         int(space[_at("robot.cost")]),
-        found,
+        delivered,
         why,
         tuple(decoded(words.tolist())),
         None if reported < 0 else reported,

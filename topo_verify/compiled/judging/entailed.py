@@ -237,15 +237,15 @@ def is_met(run: RunWords, case: CaseWords, rejection: RejectionWords) -> bool:  
     mark = fold.undos
     fold.met = 0
     join_ends(fold, drawn.node[e], drawn.dart[e], drawn.node[h], drawn.dart[h])
-    found = fold.met
+    contradictions = fold.met
     fold.met = -1
     if cited == TWO_OF_S:
         for v in range(drawn.vertices):
             fold.number[find_node(fold, drawn.node[drawn.entry[v]])] = v
         for v in range(drawn.vertices):
             if fold.number[find_node(fold, drawn.node[drawn.entry[v]])] != v:
-                found |= 1 << TWO_OF_S
+                contradictions |= 1 << TWO_OF_S
     roll_back(fold, mark)
-    if (found >> cited) & 1 == 0 and found != 0:
-        found = all_that_follow(case, e, h)
-    return (found >> cited) & 1 != 0
+    if (contradictions >> cited) & 1 == 0 and contradictions != 0:
+        contradictions = all_that_follow(case, e, h)
+    return (contradictions >> cited) & 1 != 0

@@ -298,18 +298,18 @@ def lay_out(fold: FoldWords) -> int:
             size += fold.degree[node]
             vertices += 1
     fold.size = size
-    left = 0
+    open_darts = 0
     for dart in range(size):
         node = fold.vertex[dart]
         slot = fold.base[node] + dart - fold.number[node]
         if fold.end_node[slot] < 0:
             fold.alpha[dart] = -1
-            left += 1
+            open_darts += 1
         else:
             end = find_node(fold, fold.end_node[slot])
             end_dart = find_dart(fold, fold.end_node[slot], fold.end_dart[slot])
             fold.alpha[dart] = fold.number[end] + end_dart
-    return left
+    return open_darts
 
 
 @kernel

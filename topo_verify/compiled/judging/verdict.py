@@ -84,11 +84,11 @@ def judge_delivery(run: RunWords, case: CaseWords) -> None:
     if case.spoiled != 0 or not delivered:
         case.wrong |= 1 << 4
     else:
-        left = 0
+        unexplored = 0
         for d in range(case.size):
             if case.alpha[d] < 0:
-                left += 1
-        if (case.legal != 0 and 0 < left < case.size) or not is_world(run, case):
+                unexplored += 1
+        if (case.legal != 0 and 0 < unexplored < case.size) or not is_world(run, case):
             case.wrong |= 1 << 4
     if delivered and case.reported not in (-1, cost):
         case.wrong |= 1 << 5
@@ -226,7 +226,7 @@ def share_out(case: CaseWords) -> None:
     posed = 0
     grown = 0
     unsettled = 0
-    left = 0
+    undecided = 0
     missing = 0
     loops = 0
     for d in range(case.darts):
@@ -241,7 +241,7 @@ def share_out(case: CaseWords) -> None:
         for word in range(d * JUDGE_SET, d * JUDGE_SET + JUDGE_SET):
             if case.left[word] != 0:
                 rest += bit_count(case.left[word]) + bit_count(case.left[word] >> 32)
-        left += rest
+        undecided += rest
         posed += was_crossed
         if fate in (FATE_LOOP, FATE_NEW):
             missing += rest
@@ -255,7 +255,7 @@ def share_out(case: CaseWords) -> None:
     reported = 1 if ended != 0 and case.reported >= 0 else 0
     share(case, 1, case.followed, 1 + case.cost)
     share(case, 2, posed, edges)
-    share(case, 3, case.posed - left, case.posed + unsettled)
+    share(case, 3, case.posed - undecided, case.posed + unsettled)
     share(case, 4, confirmations, max(confirmations, loops) + unsettled)
     share(case, 5, ended, 1)
     share(case, 6, reported, reported)
