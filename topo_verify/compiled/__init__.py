@@ -3,7 +3,7 @@
 It is not trusted: tests compare every event of every run with `topo_verify/algorithms/`. A function
 has the name of the one that it mirrors, whose docstring holds for both.
 
-    kernel.py       what a kernel is; from sources to cached machine code
+    kernel.py       from sources to cached machine code
     names.py        names for words: `chart.first[v]`, and their offsets
     workspace.py    the fields of a run, and of an enumeration
     events.py       words of a trace, from and to events
@@ -13,8 +13,8 @@ has the name of the one that it mirrors, whose docstring holds for both.
     folding.py      folding.py                exploration.py  exploration.py
     pruning.py, enumeration.py                world/enumeration/
     judging/        the ten claims                checkers/
-    tally.py        a range of worlds in one kernel; campaign/compiled_shard.py for use from Python
-    explore.py      one run in one world of any size, for use from Python
+    tally.py        a range of worlds in one kernel
+    explore.py      one run in one world of any size
     native.py       a native mapper in the place of `explore`: native_call.py, native_run.py
 
 Kernels become one module, so they import vocabularies whole:

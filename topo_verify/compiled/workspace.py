@@ -229,7 +229,7 @@ class NativeWords(EndWords):
 
 
 class TraceWords(EndWords):
-    """Last, since it may be longer."""
+    """The trace; the last field, since it may be longer."""
 
     size: int
     word: PerTraceWord

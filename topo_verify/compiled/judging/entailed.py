@@ -177,7 +177,7 @@ def may_be_apart(case: CaseWords, e: int, h: int) -> bool:
 
 @inlined
 def may_be_known(case: CaseWords, e: int, degree: int) -> bool:
-    """e was not crossed, or leads to another degree, or to a vertex of S."""
+    """Whether e was not crossed, or leads to another degree or to a vertex of S."""
     fold, drawn = case.fold, case.drawn
     slot = slot_of(case, e)
     node = fold.end_node[slot]
@@ -194,7 +194,7 @@ def may_be_known(case: CaseWords, e: int, degree: int) -> bool:
 
 @inlined
 def may_lead_anywhere(case: CaseWords, e: int) -> bool:
-    """Some unexplored dart may be the other end of e."""
+    """Whether some unexplored dart may be the other end of e."""
     drawn = case.drawn
     for h in range(drawn.darts):
         if drawn.open[h] != 0 and h != e and drawn.refuted[h] != e and may_lead_to(case, e, h):
@@ -204,7 +204,7 @@ def may_lead_anywhere(case: CaseWords, e: int) -> bool:
 
 @kernel
 def may_lead_to(case: CaseWords, e: int, h: int) -> bool:
-    """Joining e to h does not contradict; under the prior: in a planar world."""
+    """Whether joining e to h does not contradict; under the prior: in a planar world."""
     fold, drawn = case.fold, case.drawn
     if case.saw_planar != 0 and not on_face(drawn, e, h) and h != e:
         return False

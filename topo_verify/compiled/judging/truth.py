@@ -40,7 +40,7 @@ def replay(run: RunWords, case: CaseWords) -> None:
 
 @kernel
 def start_replay(world: WorldWords, case: CaseWords) -> None:
-    """Let S be v0, and forget the run before."""
+    """Let S be v0, and forget the earlier run."""
     case.full = 0
     case.wrong = 0
     for at in range(case.place_of("cost"), case.place_of("phi")):
@@ -166,7 +166,7 @@ def decide(run: RunWords, case: CaseWords, event: DecisionWords) -> None:
 
 @inlined
 def pose(run: RunWords, case: CaseWords, posed: PoseWords, edge: int, truth: int) -> None:
-    """A set of hypotheses: claim 2."""
+    """Judge a set of hypotheses by claim 2."""
     e = posed.edge
     number = posed.number
     case.posed += number
@@ -210,7 +210,7 @@ def settle_hypothesis(case: CaseWords, edge: int, h: int) -> None:
 def augment(
     run: RunWords, case: CaseWords, event: AugmentationWords, edge: int, truth: int
 ) -> None:
-    """S grows: claims 2, 3 and 5."""
+    """Grow S; judge by claims 2, 3 and 5."""
     world = run.world
     e = event.edge
     is_new = event.growth == NEW

@@ -78,7 +78,7 @@ def settle_verdict(run: RunWords, case: CaseWords) -> int:
 
 @inlined
 def judge_delivery(run: RunWords, case: CaseWords) -> None:
-    """Claims 5, 6 and 7, at the end."""
+    """Judge the end of a run by claims 5, 6 and 7."""
     cost = case.cost
     delivered = case.delivered != 0
     if case.spoiled != 0 or not delivered:
@@ -221,7 +221,7 @@ def share(case: CaseWords, claim: int, judged: int, of: int) -> None:
 
 @kernel
 def share_out(case: CaseWords) -> None:
-    """What `coverage` says of each claim."""
+    """Write the coverage of each claim."""
     edges = 0
     posed = 0
     grown = 0

@@ -125,7 +125,7 @@ PerceptPairs = Iterator[tuple[int, Percept, Percept]]
 
 
 class Disagreement(InternalError):
-    """A solver's model does not replay in the simulator. This is our bug: please report it."""
+    """A solver's model does not replay in the simulator: a bug of ours, please report it."""
 
 
 @dataclass(frozen=True, slots=True)

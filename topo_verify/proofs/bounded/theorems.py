@@ -81,7 +81,7 @@ def another_world(edges: int) -> Worlds:
 
 @cache
 def worlds_encoded(edges: int, world_class: str = "any") -> int | None:
-    """None: the solver gave up."""
+    """The number of encoded worlds; None: the solver gave up."""
     if edges > LISTED_EDGES:
         return WorldClass.parse(world_class).count(edges)
     try:
@@ -249,7 +249,7 @@ def _questions(
 
 
 def worlds_theorem(name: str, sizes: range, *, deep: bool = False) -> th.Theorem:
-    """The models of the encoding are the canonical codes, and there is no other."""
+    """The models of the encoding are exactly the canonical codes, each once."""
 
     def prove(budget: th.Budget) -> th.TheoremResult:
         if budget.certify:

@@ -66,7 +66,7 @@ def version() -> str:
 
 
 def files() -> tuple[str, ...]:
-    """In an order of compilation."""
+    """The names of the sources, in an order of compilation."""
     lines = (SOURCES / "_CoqProject").read_text(encoding="utf-8").splitlines()
     return tuple(line.removesuffix(".v") for line in lines if line.endswith(".v"))
 
@@ -84,7 +84,7 @@ def required(name: str) -> tuple[str, ...]:
 
 
 def without_comments(text: str) -> str:
-    """Comments must not be nested."""
+    """The source without comments, which must not be nested."""
     return re.sub(r"\(\*.*?\*\)", " ", text, flags=re.DOTALL)
 
 
