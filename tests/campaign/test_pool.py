@@ -392,6 +392,9 @@ def serve(job):
     job = msgspec.json.decode(job)
     if job == "dies":
         os._exit(4)
+    if job == "is killed" and not os.path.exists("killed"):
+        open("killed", "w").close()
+        os.kill(os.getpid(), 9)
     if job == "fails":
         raise ZeroDivisionError
     def handle(task, beat):
@@ -441,6 +444,11 @@ def results(work: Work[Numbers, Numbers], *tasks: Numbers, size: int = 2) -> lis
     with Pool(work, size) as pool:
         done = {id(task): result for task, result in pool.run(tasks)}
     return [done[id(task)] for task in tasks]
+
+
+@pytest.mark.usefixtures("toy")
+def test_a_worker_that_is_killed_while_it_loads_is_replaced() -> None:
+    assert results(toy_work(job="is killed"), [1, 2], [3], size=1) == [[1, 2], [3]]
 
 
 @pytest.mark.usefixtures("toy")

@@ -443,6 +443,7 @@ def test_a_file_that_is_no_database_is_refused_and_left_alone(here: Path) -> Non
         # One bit makes a text bytes.
         ("UPDATE meta SET value = CAST(value AS BLOB) WHERE key = 'version'", "its table meta is"),
         ("UPDATE meta SET key = CAST(key AS BLOB) WHERE key = 'sum'", "its table meta is not what"),
+        ("UPDATE shards SET name = CAST(name AS BLOB) WHERE edges = 3", "the shard 3 is not what"),
         ("DELETE FROM meta WHERE key = 'sum'", "its table meta is not what"),
     ],
 )

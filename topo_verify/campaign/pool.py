@@ -24,7 +24,7 @@ from typing import Generic, Self
 
 import msgspec
 
-from topo_verify.campaign.work import Loss, Piece, Pieces, ResultT, TaskT, Work
+from topo_verify.campaign.work import KILLED, Loss, Piece, Pieces, ResultT, TaskT, Work
 from topo_verify.campaign.worker import TaskDone, WorkerFailed, WorkerProcess, WorkerReady
 from topo_verify.errors import InputError, InternalError
 
@@ -136,12 +136,15 @@ class Pool(Generic[TaskT, ResultT]):
         if piece is None:  # it was idle, so no task is to blame
             return
         loss = Loss(status, silence, loading=not worker.ready, items=worker.items)
-        if worker.ready:  # one that dies while it loads would die with any piece
+        piece.deaths += 1
+        if worker.ready:
             piece.whole.losses.append((piece.task, loss))
-            piece.deaths += 1
-            if piece.deaths < self._work.attempts:
-                self._pieces.queue.appendleft(piece)
-                return
+        # one that dies while it loads would die with any piece, unless something else killed it
+        was_killed = status == KILLED and silence is None
+        if (worker.ready or was_killed) and piece.deaths < self._work.attempts:
+            self._pieces.queue.appendleft(piece)
+            return
+        if worker.ready:
             division = self._work.division
             if division is not None and self._pieces.replace(
                 piece, division.cut(piece.task, worker.items)

@@ -22,6 +22,10 @@ def processors() -> int:
     return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
 
 
+KILLED = f"signal {signal.SIGKILL.value}"
+"""The exit status in words of a process that SIGKILL ended."""
+
+
 @dataclass(frozen=True)
 class Loss:
     """How a worker was lost.
@@ -41,7 +45,7 @@ class Loss:
     @property
     def maybe_external(self) -> bool:
         """Whether something else may have ended it, e.g. the out-of-memory killer."""
-        return self.silence is not None or self.status == f"signal {signal.SIGKILL.value}"
+        return self.silence is not None or self.status == KILLED
 
     @property
     def cause(self) -> str:
