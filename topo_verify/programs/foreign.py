@@ -3,8 +3,8 @@
     with Foreign("my_mapper.py:explore") as mapper:
         report = examine(mapper.target, world)
 
-When a limit stops the robot, the mapper's next move raises, so its process (serve.py) can play the
-next world, unless the mapper does not end in time.
+When a limit stops the robot, the mapper's next move raises. If the mapper then ends in time, its
+process (serve.py) plays the next world.
 
 What this does not show: that exceptions, prints and `loaded`, the child's own words, are true.
 """

@@ -1,7 +1,7 @@
 """Keeps a mapper in another process away from the worlds.
 
 On Linux a process may read the memory of another one of the same user, unless that one is not
-dumpable. Root may all the same, with the capability to trace, so our children lose it.
+dumpable. Root may do so with the capability to trace, so our children lose it.
 
 What this does not show: on other systems nothing is hidden. A mapper of root may load a kernel
 module or read the disk; one of the user may read the user's files. The command line of the shell

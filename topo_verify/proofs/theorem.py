@@ -193,7 +193,7 @@ class Theorem:
         return ""
 
     def status(self, outcome: TheoremResult) -> ResultStatus:
-        """See `ResultStatus`."""
+        """The status of this outcome."""
         if self.ok(outcome):
             return "ok"
         return "open" if outcome.verdict in ("UNKNOWN", self.expected) else "failed"

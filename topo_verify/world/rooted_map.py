@@ -365,7 +365,7 @@ class World:
         """The picture as SVG, with the true order of the darts at every vertex.
 
         Args:
-            path: also write it to this file: .svg, .png, .pdf or .html.
+            path: also write it to this .svg, .png, .pdf or .html file.
             marks: `doors=True` numbers the doors of each vertex, `darts=True` the darts.
         Raises:
             InputError: the file cannot be written, or the renderer is missing.

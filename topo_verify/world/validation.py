@@ -1,6 +1,6 @@
 """Refuses what is not a world, and names the dart.
 
-Nothing is repaired: results about another world than the one meant are worthless.
+Nothing is repaired: results about another world are worthless.
 """
 
 from __future__ import annotations

@@ -118,7 +118,7 @@ def distances(points: Floats, line: Floats) -> Floats:
 
 
 class Crossing(NamedTuple):
-    """Two curves cross."""
+    """A crossing of two curves."""
 
     first: int
     second: int

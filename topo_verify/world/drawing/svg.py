@@ -41,12 +41,7 @@ FONT = "system-ui,-apple-system,'Segoe UI',Helvetica,Arial,sans-serif"
 
 
 def to_svg(world: World, layout: Layout, *, doors: bool = False, darts: bool = False) -> str:
-    """The picture of the world, the same bytes for the same arguments.
-
-    Args:
-        doors: write each dart's place in its rotation beside it.
-        darts: write each dart's number beside it.
-    """
+    """The picture of the world, the same bytes for the same arguments; marks as in `World.draw`."""
     return "\n".join([*_head(world, layout), *_body(world, layout, doors, darts), "</svg>\n"])
 
 

@@ -150,7 +150,7 @@ class DegreePruner(NamedTuple):
     most: int
 
     def join(self, dart: int, partner: int, to_create: int) -> DegreePruner | None:  # noqa: ARG002
-        """This pruner."""
+        """This pruner, since a join changes no degree."""
         return self
 
     def hang(self, dart: int, first: int, degree: int, to_create: int) -> DegreePruner | None:  # noqa: ARG002

@@ -31,9 +31,9 @@ def lattice(
 def king(
     rows: int, columns: int, *, holes: float = 0.0, seed: int = 0, marker: Dart | None = None
 ) -> World:
-    """A grid, each node joined with its eight neighbours, as a king moves in chess.
+    """A grid, each node joined with its eight neighbours. Arguments as for `lattice`.
 
-    Diagonals cross: a map of high genus. Arguments as for `lattice`.
+    Diagonals cross: a map of high genus.
     """
     return _drawn("king", _KING, (rows, columns), holes, seed, marker)
 

@@ -3,8 +3,8 @@
     {"format": "topo-verify/world", "version": 1, "name": "triangle",
      "vertices": [[0, 5], [1, 2], [3, 4]], "edges": [[0, 1], [2, 3], [4, 5]], "marker": 0}
 
-Reading is strict (no unknown or repeated field), because results about a misread world are
-worthless. What this does not show: that rotations were meant clockwise.
+Unknown and repeated fields are refused, because results about a misread world are worthless. What
+this does not show: that rotations were meant clockwise.
 
 Source: docs/semantics.md, section 14.
 """
