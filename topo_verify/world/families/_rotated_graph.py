@@ -34,7 +34,7 @@ def with_holes(name: str, graph: Graph, holes: float, random: Random) -> Graph:
     """The largest component without `round(holes·nodes)` random nodes."""
     removed = set(random.sample(range(len(graph)), round(holes * len(graph))))
     if len(removed) == len(graph):
-        raise InputError(f"{name}: the holes remove every node: ask for fewer holes")
+        raise InputError(f"{name}: no node is left: ask for fewer holes")
     return largest_component(
         {
             node: [end for end in exits if end.to not in removed]
