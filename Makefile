@@ -38,7 +38,7 @@ CREATE := "$(PYTHON)" -m venv $(VENV)
 INSTALL := PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python -m pip install --quiet --disable-pip-version-check
 endif
 
-.PHONY: help verify test long nightly coq docs lint types bench mutants torture constraints oldest clean
+.PHONY: help verify test long nightly coq docs lint types mypy pyright bench mutants torture constraints oldest clean
 
 help:
 	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 15
@@ -74,8 +74,12 @@ lint: $(VENV)/.dev
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 
-types: $(VENV)/.dev
+types: mypy pyright
+
+mypy: $(VENV)/.dev
 	$(BIN)/mypy
+
+pyright: $(VENV)/.dev
 	$(BIN)/pyright --pythonpath $(BIN)/python
 
 bench: $(VENV)/.bench
