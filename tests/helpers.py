@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import fcntl
+import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache
+from pathlib import Path
 from typing import Any, TypeVar
 
 import msgspec
+import pytest
 from hypothesis import strategies as st
 
 from topo_verify import World
@@ -145,3 +149,21 @@ def with_darts(delivered: MapData, name: Callable[[int], int]) -> MapData:
     vertices = tuple(tuple(map(name, vertex)) for vertex in delivered.vertices)
     edges = tuple(tuple(map(name, edge)) for edge in delivered.edges)
     return MapData(vertices, edges, None if delivered.marker is None else name(delivered.marker))
+
+
+# ---------------------------------------------------------------- made once
+
+
+def made_once(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], object]) -> Path:
+    """A folder of a session, made by the first of pytest's workers that asks for it."""
+    base = factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        base = base.parent  # that of all workers
+    folder, unfinished = base / name, base / f"{name}.part"
+    with (base / f"{name}.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not folder.exists():
+            unfinished.mkdir()
+            make(unfinished)
+            unfinished.rename(folder)
+    return folder

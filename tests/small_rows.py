@@ -5,13 +5,12 @@ They are made once for all workers of pytest, by the first one that asks; ten se
 
 from __future__ import annotations
 
-import fcntl
-import os
 from pathlib import Path
 
 import msgspec
 import pytest
 
+from tests.helpers import made_once
 from topo_verify.algorithms import NAMED
 from topo_verify.campaign.backend import here
 from topo_verify.campaign.campaign import Campaign, Ranks, results
@@ -21,25 +20,18 @@ SmallRows = dict[str, list[Row]]
 """The rows of each algorithm, in the order of the worlds."""
 
 
-def _made(file: Path) -> bytes:
-    """The rows of the file, as JSON; whoever comes first makes it."""
-    with file.with_suffix(".lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not file.exists():
-            campaign = Campaign(worlds=Ranks(4), mappers=tuple(NAMED))
-            rows = [row for _, result in results(campaign, here()) for row in result.rows]
-            file.write_bytes(msgspec.json.encode(rows))
-    return file.read_bytes()
+def _make(folder: Path) -> None:
+    campaign = Campaign(worlds=Ranks(4), mappers=tuple(NAMED))
+    rows = [row for _, result in results(campaign, here()) for row in result.rows]
+    (folder / "rows.json").write_bytes(msgspec.json.encode(rows))
 
 
 @pytest.fixture(scope="session")
 def small_rows(tmp_path_factory: pytest.TempPathFactory) -> SmallRows:
     """What every algorithm does in every world to four edges."""
-    folder = tmp_path_factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        folder = folder.parent  # that of all workers
+    folder = made_once(tmp_path_factory, "small_rows", _make)
     rows: SmallRows = {name: [] for name in NAMED}
-    for row in msgspec.json.decode(_made(folder / "small_rows.json"), type=list[Row]):
+    for row in msgspec.json.decode((folder / "rows.json").read_bytes(), type=list[Row]):
         rows[row.mapper].append(row)
     return rows
 

@@ -1,4 +1,4 @@
-"""The library in Coq, compiled once a session into a temporary folder."""
+"""The library in Coq, compiled once for all workers of pytest."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.helpers import made_once
 from topo_verify.proofs.mechanised import toolchain
 
 EXTRACTED = Path(__file__).parent / "extracted"
@@ -29,11 +30,13 @@ def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with all sources, compiled; skips where Coq is not installed."""
     if why := toolchain.missing():
         pytest.skip(why)
-    folder = tmp_path_factory.mktemp("library")
+    return made_once(tmp_path_factory, "library", _compile)
+
+
+def _compile(folder: Path) -> None:
     toolchain.copy_library(folder, toolchain.files())
     ran = toolchain.compile_all(folder, toolchain.files(), timeout=LIMIT)
     assert ran.accepted, ran.output
-    return folder
 
 
 @pytest.fixture

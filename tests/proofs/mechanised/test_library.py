@@ -198,6 +198,21 @@ def test_no_proof_relies_on_a_name_that_coq_chose(library: Path, tmp_path: Path)
     assert not toolchain.compile_one(tmp_path, "Chosen", timeout=LIMIT, flags=mangled).accepted
 
 
+@pytest.mark.skipif(bool(toolchain.missing()), reason="Coq is not installed")
+def test_a_source_waits_for_what_it_needs_and_nothing_is_compiled_after_a_refusal(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "Base.v").write_text("Definition base := I.\n")
+    (tmp_path / "Needs.v").write_text("From Topo Require Import Base.\nDefinition a := base.\n")
+    (tmp_path / "Wrong.v").write_text("From Topo Require Needs.\nDefinition b := base.\n")
+    (tmp_path / "Behind.v").write_text("From Topo Require Import Wrong.\n")
+    assert toolchain.compile_all(tmp_path, ["Needs", "Base"], timeout=LIMIT).accepted
+    refused = toolchain.compile_all(tmp_path, ["Behind", "Wrong", "Needs", "Base"], timeout=LIMIT)
+    assert not refused.accepted
+    assert "base" in refused.output
+    assert not (tmp_path / "Behind.vo").exists()
+
+
 def test_a_call_that_takes_too_long_is_no_refusal(place: Path) -> None:
     (place / "Long.v").write_text("Goal True. do 100000000 idtac. Abort.\n")
     with pytest.raises(toolchain.Unfinished, match=r"coqc took longer than 0\.5 seconds"):

@@ -8,12 +8,15 @@ What this does not show: that the installed coqc is the one its authors released
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 import subprocess
 from collections.abc import Iterable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from functools import cache
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 SOURCES = Path(__file__).parents[1] / "coq"
@@ -75,12 +78,16 @@ def required(name: str) -> tuple[str, ...]:
     """The files that one file needs, itself included, in order of compilation."""
     needed, todo = {name}, [name]
     while todo:
-        text = (SOURCES / f"{todo.pop()}.v").read_text(encoding="utf-8")
-        line = re.search(r"^From Topo Require Import ([\w\s]+)\.", text, re.MULTILINE)
-        new = set(line[1].split() if line else ()) - needed
+        new = _required_by(SOURCES, todo.pop()) - needed
         needed |= new
         todo += new
     return tuple(file for file in files() if file in needed)
+
+
+def _required_by(folder: Path, name: str) -> set[str]:
+    text = (folder / f"{name}.v").read_text(encoding="utf-8")
+    line = re.search(r"^From Topo Require (?:Import )?([\w\s]+)\.", text, re.MULTILINE)
+    return set(line[1].split() if line else ())
 
 
 def without_comments(text: str) -> str:
@@ -101,17 +108,30 @@ def copy_library(folder: Path, names: Iterable[str]) -> None:
 def compile_all(
     folder: Path, names: Iterable[str], *, timeout: float, flags: Sequence[str] = ()
 ) -> ProgramRun:
-    """Compile these sources in order, up to the first refused one.
+    """Compile these sources, on all processors, each after those that it needs; stop at a refusal.
 
+    Returns: the refusal, or what the last one printed.
     Raises:
         Unfinished: as `run`.
     """
-    ran = ProgramRun(accepted=True, output="")
-    for name in names:
-        ran = compile_one(folder, name, timeout=timeout, flags=flags)
-        if not ran.accepted:
-            break
-    return ran
+    names = tuple(names)
+    order = TopologicalSorter({name: _required_by(folder, name) & {*names} for name in names})
+    order.prepare()
+    outputs: dict[str, ProgramRun] = {}
+    pool = ThreadPoolExecutor(os.cpu_count())
+    try:
+        running: dict[Future[ProgramRun], str] = {}
+        while order.is_active():
+            for name in sorted(order.get_ready(), key=names.index):
+                running[pool.submit(compile_one, folder, name, timeout=timeout, flags=flags)] = name
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                ran = outputs[running[future]] = future.result()
+                if not ran.accepted:
+                    return ran
+                order.done(running.pop(future))
+    finally:  # also after a refusal or Ctrl-C
+        pool.shutdown(cancel_futures=True)
+    return outputs[names[-1]]
 
 
 def compile_one(
