@@ -31,6 +31,14 @@ def test_basic_needs_moves_of_the_order_of_the_bound(n: int, cost: int) -> None:
     assert 12 * cost >= (2 * n) ** 2 * n
 
 
+def test_other_policies_and_enhancement_i_grow_otherwise_in_this_family() -> None:
+    rows = [double_row(n) for n in (9, 17, 33)]
+    assert [row.genus for row in rows] == [5, 9, 17]
+    assert [explore(row, "basic", pick="last").cost for row in rows] == [762, 5746, 44770]
+    assert [explore(row, "basic", pick="first").cost for row in rows] == [234, 850, 3234]
+    assert [explore(row, "enhancement-i").cost for row in rows] == [218, 818, 3170]
+
+
 def test_rules_without_motion_save_nothing_where_all_places_look_alike() -> None:
     world = double_row(17)
     for algorithm in ("enhancement-ii", "enhancement-iii-one", "enhancement-iii-all"):
