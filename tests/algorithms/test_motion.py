@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.helpers import any_world, cited, of_type, sketch, trace_of, variant, worlds
+from tests.helpers import any_world, cited, doors, of_type, sketch, trace_of, variant, worlds
 from topo_verify import World, examine
 from topo_verify.algorithms import motion
 from topo_verify.algorithms.basic import NoRule
@@ -48,6 +48,21 @@ def test_overlap_breaks_ties_in_the_order_of_h() -> None:
     (reject,) = of_type(Reject, trace_of("m3/8", "enhancement-i"))
     assert reject.hypothesis == 3
     assert of_type(Confirm, trace_of("m3/8", "enhancement-i"))[0].hypothesis == 4
+
+
+def test_the_example_of_overlap_in_the_paper() -> None:
+    # Section III-A; the world is one vertex with eight loops, so no door leads out of it.
+    first, second = (2, 1, 3, 1, 2), (2, 1, 3, 3, 2, 4)
+    choice = motion.overlap([hypothesis_with(*second)], executed(*first))
+    loops = [(dart, dart + 1) for dart in range(0, 16, 2)]
+    robot = SimulatedRobot(World.from_rotations([range(16)], loops, 0), 100)
+    pilot = motion.Pilot(robot)
+    for door in first:
+        pilot.forward(door)
+    pilot.back(choice.shared)
+    for door in second[choice.shared :]:
+        pilot.forward(door)
+    assert doors(robot.events) == [2, 1, 3, 1, 2, 0, -2 % 16, (3 - 1) % 16, 2, 4]
 
 
 def test_overlap_with_nothing_executed_takes_the_first() -> None:

@@ -65,6 +65,18 @@ def test_history_traces_every_sequence_of_this_edge() -> None:
     assert reject.evidence.sequence == 1
 
 
+def test_the_example_of_history_in_the_paper() -> None:
+    # Section III-B, figure 5: h is dart 2 of a vertex with five; its doors 3 and then 2 are explored.
+    chart = Chart(Percept(1, 0))
+    for e, degree in ((0, 5), (5, 4), (8, 3)):
+        chart.join(e, chart.add_vertex(Percept(degree, None)))
+    seen = [Percept(degree, None) for degree in (5, 4, 2, 3, 5)]
+    hypothesis = Hypothesis(2, chart, chart.tree(0))
+    refutation = HistoryRule().refute(chart, hypothesis, [Executed((3, 2, 1, 4), tuple(seen))])
+    evidence = Evidence(2, Percept(3, None), Percept(2, None), sequence=0, at=10)
+    assert refutation == Refutation("history", evidence)
+
+
 def test_history_compares_the_direction_of_the_marker() -> None:
     (reject,) = free("m5/2103", "enhancement-ii")
     expected, observed = cited(reject)

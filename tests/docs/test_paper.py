@@ -97,6 +97,7 @@ def test_every_name_of_a_sentence_exists() -> None:
 
 
 STATEMENTS = [
+    ("I", "requires a marking aid"),
     ("I", "undirected is not enough"),
     ("I, II-C", "mapped deterministically"),
     ("I", "worst case is O(m²n)"),
@@ -118,9 +119,11 @@ STATEMENTS = [
     ("III", "do not improve O(m²n)"),
     ("III-A", "Stage 1"),
     ("III-A", "Stage 2"),
+    ("III-A", "after (2,1,3,1,2)"),
     ("III-A", "greedy"),
     ("III-A", "no movement"),
     ("III-B", "traced on S from the hypothesis"),
+    ("III-B", "(3,2,1,4) saw"),
     ("III-B", "stops at an unexplored edge"),
     ("III-B", "incorporates stage 1"),
     ("III-C", "is recorded"),
