@@ -52,8 +52,8 @@ def unexplained(text: str) -> list[str]:
 PAPER = Path(__file__).parents[3] / "docs" / "explanation" / "paper.md"
 """The page that goes through the paper sentence by sentence."""
 
-CITED = re.compile(r'\bPaper, ([^:"]+): "([^"]+)"$')
-"""The end of a comment that names a sentence of the paper, with its section."""
+CITED = re.compile(r"\bPaper, ([^:]+): (.+)$")
+"""The end of a comment that names a statement of the paper, with its section, in our words."""
 
 
 def sentences() -> set[tuple[str, str]]:
@@ -120,7 +120,7 @@ def test_every_theorem_of_the_catalogue_names_the_papers_sentence_or_says_that_t
     assert [one.name for one in STATEMENTS if sourceless(texts[one.file], one.theorem)] == []
 
 
-BOUND = 'Paper, I: "The worst case is O(m²n) edge traversals."'
+BOUND = "Paper, I: The worst case is O(m²n) edge traversals."
 
 
 @pytest.mark.parametrize(

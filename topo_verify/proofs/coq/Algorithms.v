@@ -31,7 +31,7 @@ Definition maps_all (A : algorithm) := forall pick path order W, good_pick pick 
   m <= length ms <= m * (vertices W + (2 * m - 1) * (2 * (vertices W - 1))).
 
 (** Claims 5 and 7 for every algorithm whose rule and motion fulfil their contracts.
-    Paper, I: "The worst case is O(m²n) edge traversals." *)
+    Paper, I: The worst case is O(m²n) edge traversals. *)
 Theorem cost_within_bound A true_of : good_rule (fst A) true_of -> good_motion (snd A) -> maps_all A.
 Proof.
   intros G Gm pick path order W Gp Gw Go HW.
@@ -41,7 +41,7 @@ Proof.
 Qed.
 
 (** The bound is of the order m m n, as the paper says: at most 4 m m n.
-    Paper, I: "The worst case is O(m²n) edge traversals." *)
+    Paper, I: The worst case is O(m²n) edge traversals. *)
 Theorem bound_order m n : m * (n + (2 * m - 1) * (2 * (n - 1))) <= 4 * (m * m * n).
 Proof.
   destruct m as [|m]; [lia|]. destruct n as [|n]; [nia|].
@@ -73,19 +73,19 @@ Definition enhancement_iii_all : algorithm := (rule_records None, retrace).
 Definition enhancement_iii_all_i : algorithm := (rule_records None, overlap).
 
 (** Listing 1: the basic algorithm maps every world within the bound.
-    Paper, I, II-C: "With a directional marker the world can be mapped deterministically." *)
+    Paper, I, II-C: With a directional marker the world can be mapped deterministically. *)
 Theorem basic_correct : maps_all basic.
 Proof. apply (cost_within_bound basic _ rule_none_good retrace_good). Qed.
 
 (** Listing 2: so does Enhancement I.
-    Paper, III-A: "Stage 2: the robot stays, takes the longest overlap, and walks only what is not
-    shared." *)
+    Paper, III-A: Stage 2: the robot stays, takes the longest overlap, and walks only what is not
+    shared. *)
 Theorem enhancement_i_correct : maps_all enhancement_i.
 Proof. apply (cost_within_bound enhancement_i _ rule_prefix_good overlap_good). Qed.
 
 (** Section III-B of the paper: so does Enhancement II, with both motions.
-    Paper, III-B: "Every sequence executed for e is traced on S from the hypothesis; a mismatch
-    rejects it." *)
+    Paper, III-B: Every sequence executed for e is traced on S from the hypothesis; a mismatch
+    rejects it. *)
 Theorem enhancement_ii_correct : maps_all enhancement_ii /\ maps_all enhancement_ii_i.
 Proof.
   split; [apply (cost_within_bound enhancement_ii _ rule_history_good retrace_good)|
@@ -93,7 +93,7 @@ Proof.
 Qed.
 
 (** Section III-C of the paper: so does Enhancement III, one-level, with both motions.
-    Paper, III-C: "One level: the neighbours of known vertices." *)
+    Paper, III-C: One level: the neighbours of known vertices. *)
 Theorem enhancement_iii_one_correct : maps_all enhancement_iii_one /\ maps_all enhancement_iii_one_i.
 Proof.
   split; [apply (cost_within_bound enhancement_iii_one _ (rule_records_good _) retrace_good)|
@@ -101,7 +101,7 @@ Proof.
 Qed.
 
 (** Listing 3: so does Enhancement III, all-level, with both motions.
-    Paper, III-C: "All levels: every unknown place, by relative doors from a known one." *)
+    Paper, III-C: All levels: every unknown place, by relative doors from a known one. *)
 Theorem enhancement_iii_all_correct : maps_all enhancement_iii_all /\ maps_all enhancement_iii_all_i.
 Proof.
   split; [apply (cost_within_bound enhancement_iii_all _ (rule_records_good _) retrace_good)|

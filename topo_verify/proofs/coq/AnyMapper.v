@@ -64,7 +64,7 @@ Proof.
 Qed.
 
 (** The eight algorithms of the paper map every world, with edges or not.
-    Paper, I, II-C: "With a directional marker the world can be mapped deterministically." *)
+    Paper, I, II-C: With a directional marker the world can be mapped deterministically. *)
 Theorem all_eight_mapped : Forall maps_any [basic; enhancement_i; enhancement_ii; enhancement_ii_i;
   enhancement_iii_one; enhancement_iii_one_i; enhancement_iii_all; enhancement_iii_all_i].
 Proof.

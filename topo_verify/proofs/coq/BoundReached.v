@@ -195,7 +195,7 @@ Qed.
 (** Claim 7: the bound O(m²n) is reached. For every n from 6 on there is a world of n vertices and
     m = 2 n edges in which basic, with the reference policies, makes between m m n / 12 and 4 m m n
     moves.
-    Paper, I: "The worst case is O(m²n) edge traversals." *)
+    Paper, I: The worst case is O(m²n) edge traversals. *)
 Theorem bound_reached n : 6 <= n -> exists W m M b ms, world W /\ vertices W = n /\
   darts W = 2 * m /\ m = 2 * n /\
   perform W (root W) (run_of basic nearest way_to shortest (darts W) (percept W (root W))) =

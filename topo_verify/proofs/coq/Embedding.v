@@ -59,7 +59,7 @@ Qed.
 
 (** Claim 3: as long as the walk stays on explored darts of the map, the robot senses exactly
     what the map predicts. So a true hypothesis is kept.
-    Paper, II-C: "The expected perception is the row of signatures on that way." *)
+    Paper, II-C: The expected perception is the row of signatures on that way. *)
 Theorem forward w : forall d ps, d < darts M ->
   percepts M d w = Some ps -> percepts W (phi d) w = Some ps.
 Proof.
@@ -72,7 +72,7 @@ Proof.
 Qed.
 
 (** Claim 3, by motion: if a percept differs from what M predicts for h, e does not lead to h.
-    Paper, II-C: "At the first mismatch the hypothesis is rejected, and the robot goes back to vu."
+    Paper, II-C: At the first mismatch the hypothesis is rejected, and the robot goes back to vu.
     *)
 Corollary mismatch_refutes e h a w ps : h < darts M ->
   alpha W (phi e) = Some a -> percepts M h w = Some ps -> percepts W a w <> Some ps ->
@@ -81,7 +81,7 @@ Proof. intros Hh Ha Hs Hw H. apply Hw. replace a with (phi h) by congruence. app
 
 (** Claim 4: a confirmed hypothesis is true. Of the percepts only the last one is used: it shows
     the marker in the predicted direction.
-    Paper, II-C: "If all match up to the marker's direction at v0, the hypothesis is confirmed." *)
+    Paper, II-C: If all match up to the marker's direction at v0, the hypothesis is confirmed. *)
 Theorem confirm a h w c r j : a < darts W -> h < darts M ->
   walk W a w = Some c -> walk M h w = Some r ->
   marker M r = Some j -> marker W c = Some j -> a = phi h.
@@ -97,7 +97,7 @@ Qed.
 
 (** Claim 2: if the true end h of the open dart e is known, h is open, differs from e, and shows
     the percept of the place where the robot arrived. So h is among the hypotheses.
-    Paper, II-C: "Each unexplored edge whose known end has the signature of vu is a hypothesis." *)
+    Paper, II-C: Each unexplored edge whose known end has the signature of vu is a hypothesis. *)
 Theorem posed e a h : e < darts M -> alpha M e = None -> alpha W (phi e) = Some a ->
   h < darts M -> phi h = a -> h <> e /\ alpha M h = None /\ percept M h = percept W a.
 Proof.
@@ -141,7 +141,7 @@ Qed.
 End Embedding.
 (** Claim 5: a connected map is embedded in a world in at most one way, since a rooted map has no
     automorphism but the identity.
-    Paper, II-C: "When U is empty, S is isomorphic to the world." *)
+    Paper, II-C: When U is empty, S is isomorphic to the world. *)
 Theorem embedded_unique M W phi psi : connected M -> is_map M -> embedded M W phi -> embedded M W psi ->
   forall d, d < darts M -> phi d = psi d.
 Proof.

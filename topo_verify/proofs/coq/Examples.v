@@ -76,7 +76,7 @@ Proof. reflexivity. Qed.
 
 (** The marker's direction is needed: if the last percept shows the marker without its direction,
     [confirm] fails already in the world of one vertex and two loops (0 1)(2 3).
-    Paper, I: "A single immovable marker that is undirected is not enough." *)
+    Paper, I: A single immovable marker that is undirected is not enough. *)
 Example undirected_fails : exists M W phi a h, world W /\ embedded M W phi /\ a < darts W /\ h <
   darts M /\
   degree M h = degree W a /\ marker M h <> None /\ marker W a <> None /\ a <> phi h.

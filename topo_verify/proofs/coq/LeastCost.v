@@ -217,7 +217,7 @@ Qed.
 End LeastCost.
 
 (** Section 11: a mapper that is right in every world makes at least LB moves in each.
-    Paper, I, II-B: "O(m) is a trivial lower bound." *)
+    Paper, I, II-B: O(m) is a trivial lower bound. *)
 Theorem sound_least_cost f depth up : sound f -> forall W L M, world W -> replays W L ->
   ends f L M -> breadth_first W depth up -> least_cost W depth up <= length (moves L).
 Proof.

@@ -156,7 +156,7 @@ Definition mapper fuel : Percept -> program Map :=
     contracts, exploration ends after at most as many rounds as the world has edges, with a map
     isomorphic to the world. It costs at least m moves and at most m (n + (2m - 1) 2(n - 1)), where
     the world has m edges and n vertices.
-    Paper, I, II-C: "With a directional marker the world can be mapped deterministically." *)
+    Paper, I, II-C: With a directional marker the world can be mapped deterministically. *)
 Theorem explore_correct fuel : darts W <= 2 * fuel ->
   does W (root W) (mapper fuel (percept W (root W))) (fun M _ cost =>
     isomorphic M W /\ exists m, darts W = 2 * m /\

@@ -74,7 +74,7 @@ Qed.
 
 (** Claims 5 and 7 with random policies: whatever the choices, an algorithm of the paper ends with
     the world, within the bound.
-    Paper, I, II-C: "With a directional marker the world can be mapped deterministically." *)
+    Paper, I, II-C: With a directional marker the world can be mapped deterministically. *)
 Theorem random_mapped A c ks W : maps_all A -> world W -> exists M b ms m,
   perform W (root W) (run_of A (chosen_dart c) way_to (shuffled ks) (darts W) (percept W (root W))) =
     Some (M, b, ms) /\

@@ -59,7 +59,7 @@ Proof.
 Qed.
 
 (** Claim 3: rules history and records, hence prefix, never reject the true hypothesis.
-    Paper, III-B: "Tracing stops at an unexplored edge." *)
+    Paper, III-B: Tracing stops at an unexplored edge. *)
 Theorem agrees_true w : forall h ps, h < darts M ->
   percepts W (phi h) w = Some ps -> agrees M T h w ps = true.
 Proof.
@@ -81,7 +81,7 @@ Qed.
 (** A record made after validation is true. The doors executed from a known dart n lead on the
     map to x and there through the open dart turn k x; what was seen at their end is a record of
     that dart.
-    Paper, III-C: "After e is validated, what was seen behind unexplored edges is recorded." *)
+    Paper, III-C: After e is validated, what was seen behind unexplored edges is recorded. *)
 Theorem record_true n u k v x c : n < darts M -> walk M n u = Some x ->
   walk W (phi n) (u ++ k :: v) = Some c ->
   exists b, alpha W (phi (turn M k x)) = Some b /\ walk W b v = Some c.

@@ -45,8 +45,8 @@ Proof.
 Qed.
 
 (** Motion overlap chooses a hypothesis, and the doors that it takes for shared are.
-    Paper, III-A: "Stage 2: the robot stays, takes the longest overlap, and walks only what is not
-    shared." *)
+    Paper, III-A: Stage 2: the robot stays, takes the longest overlap, and walks only what is not
+    shared. *)
 Theorem overlap_good : good_motion overlap.
 Proof.
   intros ds K. induction K as [|c K IH]; simpl; auto. destruct (common_spec (snd c) ds) as (A & B & C).
@@ -83,7 +83,7 @@ Definition rule_history := forgetful (fun M c s => agrees M (fun _ _ => None) (f
 
 (** Rule prefix rejects no more than rules history and records: what agrees with the whole map agrees
     on the common doors.
-    Paper, III-B: "It incorporates stage 1 of Enhancement I." *)
+    Paper, III-B: It incorporates stage 1 of Enhancement I. *)
 Theorem prefix_weaker M T own : forall h w ps,
   agrees M T h w ps = true -> agrees_on_way M h own w ps = true.
 Proof.
@@ -109,8 +109,8 @@ Theorem rule_none_good : good_rule rule_none (fun _ _ _ _ _ => True).
 Proof. apply forgetful_good. auto. Qed.
 
 (** Claim 3 for rule history: it rejects only false hypotheses.
-    Paper, III-B: "Every sequence executed for e is traced on S from the hypothesis; a mismatch
-    rejects it." *)
+    Paper, III-B: Every sequence executed for e is traced on S from the hypothesis; a mismatch
+    rejects it. *)
 Theorem rule_history_good : good_rule rule_history (fun _ _ _ _ _ => True).
 Proof.
   apply forgetful_good. intros M W phi h w u ps HW WM E Lh Hp.
@@ -118,8 +118,8 @@ Proof.
 Qed.
 
 (** Claim 3 for rule prefix: it rejects only false hypotheses.
-    Paper, III-A: "Stage 1: what was seen on shared first doors rejects other hypotheses without
-    motion." *)
+    Paper, III-A: Stage 1: what was seen on shared first doors rejects other hypotheses without
+    motion. *)
 Theorem rule_prefix_good : good_rule rule_prefix (fun _ _ _ _ _ => True).
 Proof.
   apply forgetful_good. intros M W phi h w u ps HW WM E Lh Hp.
@@ -240,7 +240,7 @@ Qed.
 
 (** Claim 3 for rule records, one-level and all-level: the records are true, and true records reject
     only false hypotheses.
-    Paper, III-C: "After e is validated, what was seen behind unexplored edges is recorded." *)
+    Paper, III-C: After e is validated, what was seen behind unexplored edges is recorded. *)
 Theorem rule_records_good levels :
   good_rule (rule_records levels) (fun M W phi _ => true_records M W phi).
 Proof.

@@ -55,8 +55,8 @@ Inductive run W : Map -> table -> Prop :=
 
 (** Everything built and recorded in a justified run is true: M is well formed, connected and
     embedded in the world, and its records are true.
-    Paper, II-C: "A known map S grows; U holds the unexplored edges; at first S is v0 with its
-    edges." *)
+    Paper, II-C: A known map S grows; U holds the unexplored edges; at first S is v0 with its
+    edges. *)
 Theorem run_true W M T : world W -> run W M T -> is_map M /\ connected M /\
   (forall x w, darts M <= x -> T x w = None) /\
   exists phi, embedded M W phi /\ true_table M W phi T.
@@ -116,7 +116,7 @@ Proof.
 Qed.
 
 (** Claim 5: a justified run that ends without open darts ends with the world.
-    Paper, II-C: "When U is empty, S is isomorphic to the world." *)
+    Paper, II-C: When U is empty, S is isomorphic to the world. *)
 Theorem run_isomorphic W M T : world W -> run W M T ->
   (forall d, d < darts M -> alpha M d <> None) -> isomorphic M W.
 Proof.

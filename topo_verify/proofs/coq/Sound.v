@@ -73,7 +73,7 @@ Qed.
 
 (** Claim 7, the lower bound for every mapper that is right in every world: it makes at least m
     moves, where the world has 2 m darts.
-    Paper, I, II-B: "O(m) is a trivial lower bound." *)
+    Paper, I, II-B: O(m) is a trivial lower bound. *)
 Theorem sound_cost f : sound f -> forall W L M, world W -> replays W L -> ends f L M ->
   darts W <= 2 * length (moves L).
 Proof. intros S W L M HW R E. apply closed_cost; auto. eapply sound_closed; eauto. Qed.

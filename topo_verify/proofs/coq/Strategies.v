@@ -145,7 +145,7 @@ Definition strategy (A : algorithm) pick path order := strategy_of (run_of A pic
 
 (** In every world the strategy ends, with a log that the world shows, the right map, and a cost
     within the bound.
-    Paper, I, II-C: "With a directional marker the world can be mapped deterministically." *)
+    Paper, I, II-C: With a directional marker the world can be mapped deterministically. *)
 Theorem strategy_ends A pick path order : maps_all A -> good_pick pick -> good_path path ->
   good_order order -> forall W, world W -> exists L M m,
   replays W L /\ ends (strategy A pick path order) L M /\ isomorphic M W /\ darts W = 2 * m /\
@@ -166,7 +166,7 @@ Proof.
 Qed.
 
 (** Claim 5 in the model of all mappers: the strategy is right in every world.
-    Paper, I, II-C: "With a directional marker the world can be mapped deterministically." *)
+    Paper, I, II-C: With a directional marker the world can be mapped deterministically. *)
 Theorem strategy_sound A pick path order : maps_all A -> good_pick pick -> good_path path ->
   good_order order -> sound (strategy A pick path order).
 Proof.
@@ -177,7 +177,7 @@ Qed.
 
 (** Claim 7 and section 11 in one model: LB <= cost <= bound, for every algorithm of the paper and
     whatever its policies, in every world. The log that it leaves is closed: it proves the map.
-    Paper, I, II-B: "O(m) is a trivial lower bound." *)
+    Paper, I, II-B: O(m) is a trivial lower bound. *)
 Theorem between_bounds A pick path order : maps_all A -> good_pick pick -> good_path path ->
   good_order order -> forall W depth up, world W -> breadth_first W depth up -> exists L M m,
   replays W L /\ ends (strategy A pick path order) L M /\ isomorphic M W /\ closed L /\

@@ -162,7 +162,7 @@ Proof.
 Qed.
 
 (** LB is the least number of moves of a log that proves the map; so it does not depend on the tree.
-    Paper, I, II-B: "O(m) is a trivial lower bound." *)
+    Paper, I, II-B: O(m) is a trivial lower bound. *)
 Theorem least_cost_exact W : world W -> exists lb, (forall depth up, breadth_first W depth up ->
     least_cost W depth up = lb) /\
   (exists L, replays W L /\ closed L /\ length (moves L) = lb) /\

@@ -192,7 +192,7 @@ Qed.
 
 (** No mapper for an undirected marker is right in all worlds, nor in all worlds of any one size from 2
     edges on.
-    Paper, I: "A single immovable marker that is undirected is not enough." *)
+    Paper, I: A single immovable marker that is undirected is not enough. *)
 Theorem undirected_not_enough f m : 2 <= m ->
   ~ forall W, world W -> darts W = 2 * m -> maps_it f W.
 Proof.
