@@ -66,7 +66,7 @@ def test_history_traces_every_sequence_of_this_edge() -> None:
 
 
 def test_the_example_of_history_in_the_paper() -> None:
-    # Section III-B, figure 5: h is dart 2 of a vertex with five; its doors 3 and then 2 are explored.
+    # Section III-B, figure 5: h is dart 2 of a vertex with five; its doors 3, then 2, are explored.
     chart = Chart(Percept(1, 0))
     for e, degree in ((0, 5), (5, 4), (8, 3)):
         chart.join(e, chart.add_vertex(Percept(degree, None)))

@@ -49,6 +49,11 @@ def test_a_name_is_chosen_once_and_in_the_order_given() -> None:
     assert names == ["trace-step", "percept"]
 
 
+def test_a_theorem_in_coq_is_also_found_by_its_place_there() -> None:
+    (theorem,) = choose(["Undirected.undirected_not_enough"])
+    assert theorem.name == "coq-undirected-mapper"
+
+
 def test_no_such_theorem_is_refused_with_what_comes_near() -> None:
     with pytest.raises(InputError, match="do you mean trace-step"):
         choose(["trace-stop"])

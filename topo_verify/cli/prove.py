@@ -164,7 +164,8 @@ def prove(
 ) -> int:
     """Prove the theorems that the claims rest on, and refute what must not be provable.
 
-    NAME is a theorem; by default all quick ones are proved. Inductive theorems hold in worlds of
+    NAME is a theorem, one in Coq also by its place there (Undirected.undirected_not_enough); by
+    default all quick ones are proved. Inductive theorems hold in worlds of
     any size, bounded ones in every world of a few edges; negatives and mutants must be REFUTED.
     A vacuous theorem is UNKNOWN, which does not pass (exit 3).
     """

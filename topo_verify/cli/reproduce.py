@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator, Sequence
+from importlib.util import find_spec
 from pathlib import Path
 
 import click
@@ -103,10 +104,13 @@ def reproduce(
                     "--policies with --engine compiled: that engine knows the reference policies"
                     " only; leave one of the two out"
                 )
+        pictures = find_spec("matplotlib") is not None
+        if not pictures:
+            output.note(MATPLOTLIB)
         folder = options.make_folder(out, "--out")
         runs = _runs(output, figures, extent, engine, folder, workers or processors())
         drawn = [(chosen, pts.figure_points(chosen, extent, runs)) for chosen in figures]
-        _write(output, folder, drawn, shlex.join([*words, "--out", out]))
+        _write(folder, drawn, shlex.join([*words, "--out", out]), pictures=pictures)
         for _, line in drawn:
             for point in line:
                 incomplete = point.undecided > 0
@@ -141,29 +145,23 @@ def _runs(
         return {run: row for row in rows for run in pts.runs_of(row)}
 
 
-def _write(output: Output, folder: Path, figures: _Found, command: str) -> None:
-    drawn = True
+def _write(folder: Path, figures: _Found, command: str, *, pictures: bool) -> None:
     for figure, points in figures:
         files.write(folder / f"{stem(figure)}.csv", pts.points_csv(points))
-        drawn = drawn and _draw(folder, figure, points)
-    if not drawn:
-        output.note(MATPLOTLIB)
+        if pictures:
+            _draw(folder, figure, points)
     every = [point for _, points in figures for point in points]
     settings = {figure.name: figure.setting.name for figure, _ in figures}
     files.write(folder / "growth.csv", pts.growth_csv(every, settings))
     judged = judged_sentence(every)
-    files.write(folder / PAGE, page(figures, command=command, judged=judged, pictures=drawn))
+    files.write(folder / PAGE, page(figures, command=command, judged=judged, pictures=pictures))
 
 
-def _draw(folder: Path, figure: fig.Figure, points: Sequence[pts.FigurePoint]) -> bool:
+def _draw(folder: Path, figure: fig.Figure, points: Sequence[pts.FigurePoint]) -> None:
     from topo_verify.report.figures.pictures import picture
 
-    try:
-        for kind in ("svg", "png"):
-            files.write(folder / f"{stem(figure)}.{kind}", picture(figure, points, kind))
-    except ImportError:
-        return False
-    return True
+    for kind in ("svg", "png"):
+        files.write(folder / f"{stem(figure)}.{kind}", picture(figure, points, kind))
 
 
 # ---------------------------------------------------------------- for people

@@ -22,7 +22,7 @@ from topo_verify.errors import InputError, InternalError
 from topo_verify.proofs.bounded import mutants as bounded_mutants
 from topo_verify.proofs.bounded.theorems import MOST_EDGES, bounded
 from topo_verify.proofs.first_order import theorems as first_order
-from topo_verify.proofs.mechanised.theorems import MECHANISED
+from topo_verify.proofs.mechanised.theorems import MECHANISED, STATEMENTS
 from topo_verify.proofs.theorem import Theorem, TheoremKind
 
 QUICK: tuple[TheoremKind, ...] = ("inductive", "negative", "mutant")
@@ -61,13 +61,15 @@ def choose(
     """The theorems with these names, of these kinds, with at most these edges.
 
     Args:
-        names: none: all that take seconds.
+        names: none: all that take seconds. One in Coq is also found as `File.theorem`.
         deep: also those that take minutes; named ones are always chosen, mechanised ones by kind.
     Raises:
         InputError: no such theorem, or too many edges.
     """
     everything = catalogue(edges)
     known = {theorem.name: theorem for theorem in everything}
+    in_coq = {f"{row.file}.{row.theorem}": row.name for row in STATEMENTS}
+    names = [in_coq.get(name, name) for name in names]
     for name in names:
         if name not in known:
             close = get_close_matches(name, known, n=3)
