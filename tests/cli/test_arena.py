@@ -202,7 +202,7 @@ def test_a_folder_has_the_page_a_player_and_the_counterexample(call: Call) -> No
     (picture,) = (name for name in made if name.endswith(".svg") and "counterexamples" in name)
     assert made >= {"report.html", "players/basic.html", picture.replace(".svg", ".html")}
     page = Path("here/report.html").read_text()
-    for words in ("REFUTED", "Worlds to look at", "cost / LB against the number", 'id="run-2"'):
+    for words in ("REFUTED", "Worlds to look at", "cost / LB by family", 'id="run-2"'):
         assert words in page
     assert "<svg" in Path("here", picture).read_text()
     entries = json.loads(Path("here/results.json").read_text())["results"]

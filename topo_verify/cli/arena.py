@@ -256,7 +256,7 @@ def _show(
     for suite in league.suites:
         yield from files.suite_blocks(suite, table)
         if pictures and (plot := files.plot_of(league, suite, table)):
-            alt = f"cost / LB against the number of edges in suite {suite.name}"
+            alt = f"cost / LB by family in suite {suite.name}"
             yield PictureBlock(plot, alt)
     ranked = {entry.mapper: entry for entry in table if entry.place is not None}
     for mapper, entry in ranked.items():

@@ -4,7 +4,7 @@
     runs.csv                 every run of the ranked mappers
     results.json             the entries
     timing.json              milliseconds a move, memory
-    ratio-SUITE.svg          cost / LB against the number of edges
+    ratio-SUITE.svg          cost / LB by family
     players/MAPPER.html      a ranked mapper in its most expensive world
     counterexamples/         of a mapper without a place: the world, drawn, and its run
 
@@ -164,11 +164,14 @@ def ranked_in(suite: Suite, table: Sequence[lg.LeagueEntry]) -> list[lg.LeagueEn
 def plot_of(league: lg.League, suite: Suite, table: Sequence[lg.LeagueEntry]) -> str:
     """The plot of a suite; "" if no mapper has a place in it."""
     ranked = ranked_in(suite, table)
-    points = {
-        entry.mapper: [(run.edges, run.ratio) for run in league.runs(entry.mapper, suite)]
+    ratios = {
+        entry.mapper: [
+            [run.ratio for run in runs]
+            for _, runs in lg.split(suite, league.runs(entry.mapper, suite))
+        ]
         for entry in ranked
     }
-    return ratio_plot(suite, ranked, points) if ranked else ""
+    return ratio_plot(suite, ranked, ratios) if ranked else ""
 
 
 def broken_blocks(entries: Sequence[lg.LeagueEntry]) -> Iterator[Block]:

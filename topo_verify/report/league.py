@@ -1,6 +1,6 @@
-"""The arena's plot as SVG: cost / LB against the number of edges, both logarithmic.
+"""The arena's plot as SVG: cost / LB (logarithmic) of each mapper, family by family.
 
-A small dot is a world; a large sign is a family at its mean size and ratio, with its confidence
+A small dot is a world; a large sign is the mean of a mapper in a family, with its confidence
 interval. Coordinates are rounded, so the same runs give the same bytes.
 """
 
@@ -12,11 +12,18 @@ from typing import NamedTuple
 
 from topo_verify.report.blocks import PALETTE
 from topo_verify.report.html import with_dark_colours, xml_text
-from topo_verify.studies.arena.league import LeagueEntry
+from topo_verify.studies.arena.league import LeagueEntry, MeanInterval
 from topo_verify.studies.arena.suites import Suite
 
-WIDTH, HEIGHT = 720, 430
-LEFT, RIGHT, TOP, BOTTOM = 62, 210, 64, 48
+LEFT, RIGHT, TOP, BOTTOM = 62, 210, 44, 96
+WIDE, HIGH = 448, 320
+"""Pixels of the frame, at least; and its margins."""
+
+BAND, STEP = 26.0, 26.0
+"""Least pixels of a family, and most between the signs of two mappers in it."""
+
+LINE = 20
+"""Pixels of a line of the legend."""
 
 COLOURS = (
     *("#0072b2", "#d55e00", "#00805f", "#9e4a86", "#946b00", "#22282e", "#3a8fb7", "#b3261e"),
@@ -28,14 +35,11 @@ CORNERS = (0, 4, 3, 5, 8, 6, 7)
 """The corners of the signs in the same order; 0: a circle."""
 
 NAME = 26
-"""Most characters of a legend's name."""
+"""Most characters of a name."""
 
 TICKS = (1, 2, 5)
 FEWEST = 3
 """Least number of values beside an axis, in steps of 0.1 or more."""
-
-SHIFT, SPREAD = 5.0, 16.0
-"""Pixels between the signs of two mappers at one family; and most between the outermost."""
 
 
 class Axis(NamedTuple):
@@ -64,30 +68,56 @@ class Axis(NamedTuple):
         return values
 
 
-Points = Sequence[tuple[int, float]]
-"""The edges of each world, and a mapper's ratio."""
+class Frame(NamedTuple):
+    """The frame: a band of pixels for each family, and in it a column for each mapper.
+
+    Attributes:
+        bottom: the pixel of its lower side.
+        step: pixels between two columns.
+    """
+
+    band: float
+    bottom: float
+    step: float
+    mappers: int
+
+    def column(self, family: int, mapper: int) -> float:
+        """The pixel of a mapper's column in a family."""
+        aside = self.step * (mapper - (self.mappers - 1) / 2)
+        return round(LEFT + self.band * (family + 0.5) + aside, 1)
 
 
-def ratio_plot(suite: Suite, ranked: Sequence[LeagueEntry], points: Mapping[str, Points]) -> str:
+Ratios = Sequence[Sequence[float]]
+"""A mapper's ratios in the worlds of each family."""
+
+
+def ratio_plot(suite: Suite, ranked: Sequence[LeagueEntry], ratios: Mapping[str, Ratios]) -> str:
     """The picture of a suite.
 
     Args:
         ranked: the entries with a place, at least one.
+        ratios: of each of these mappers.
     """
-    edges, ratios = zip(*(point for every in points.values() for point in every), strict=True)
-    x = Axis(min(edges) / 1.15, max(edges) * 1.15, LEFT, WIDTH - RIGHT)
-    y = Axis(min(1.0, *ratios) / 1.04, max(1.1, *ratios) * 1.08, HEIGHT - BOTTOM, TOP)
-    parts = [*_frame(suite, x, y), *_names(ranked[0], x)]
+    order = sorted(range(len(suite.families)), key=lambda at: ranked[0].families[at].edges)
+    band = max(BAND, WIDE / len(order))
+    bottom = TOP + max(HIGH, LINE * len(ranked))
+    frame = Frame(band, bottom, min(STEP, 0.8 * band / len(ranked)), len(ranked))
+    values = [ratio for families in ratios.values() for family in families for ratio in family]
+    y = Axis(min(1.0, *values) / 1.04, max(1.1, *values) * 1.08, bottom, TOP)
+    end = round(LEFT + band * len(order), 1)
+    width, height = round(end) + RIGHT, bottom + BOTTOM
+    card = PALETTE["card"].light
+    parts = [f'<rect width="{width}" height="{height}" fill="{card}"/>']
+    parts += [*_frame(suite, y, end), *_names(ranked[0], order, frame)]
     for number, entry in enumerate(ranked):
-        parts += _dots(points[entry.mapper], _colour(number), x, y)
-    middle = (len(ranked) - 1) / 2
-    step = min(SHIFT, SPREAD / (2 * middle)) if middle else 0.0
-    for number, entry in enumerate(ranked):
-        parts += _means(entry, number, step * (number - middle), x, y)
-        parts += _legend(entry, number)
+        for place, family in enumerate(order):
+            at = frame.column(place, number)
+            parts += _dots(ratios[entry.mapper][family], at, _colour(number), y)
+            parts += _mean(entry.families[family].ratio, at, number, y)
+        parts += _legend(entry, number, end)
     return with_dark_colours(
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}"'
-        f' width="{WIDTH}" height="{HEIGHT}" font-family="sans-serif" font-size="12">\n'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}"'
+        f' width="{width}" height="{height}" font-family="sans-serif" font-size="12">\n'
         + "\n".join(parts)
         + "\n</svg>\n"
     )
@@ -102,66 +132,58 @@ def _text(x: float, y: float, words: str, *, soft: bool = False, more: str = "")
     return f'<text x="{x}" y="{y}" fill="{ink}"{more}>{xml_text(words)}</text>'
 
 
-def _frame(suite: Suite, x: Axis, y: Axis) -> Iterator[str]:
-    card, line = PALETTE["card"].light, PALETTE["line"].light
-    yield f'<rect width="{WIDTH}" height="{HEIGHT}" fill="{card}"/>'
+def _frame(suite: Suite, y: Axis, end: float) -> Iterator[str]:
+    line = PALETTE["line"].light
     yield _text(LEFT, 22, f"{suite.name}: {suite.about}", more=' font-size="15"')
-    middle = ' text-anchor="middle"'
-    for value in x.ticks:
-        at = x.at(value)
-        yield f'<path d="M {at} {TOP} V {HEIGHT - BOTTOM}" stroke="{line}"/>'
-        yield _text(at, HEIGHT - BOTTOM + 17, f"{value:g}", soft=True, more=middle)
     for value in y.ticks:
         at = y.at(value)
-        yield f'<path d="M {LEFT} {at} H {WIDTH - RIGHT}" stroke="{line}"/>'
+        yield f'<path d="M {LEFT} {at} H {end}" stroke="{line}"/>'
         yield _text(LEFT - 8, at + 4, f"{value:g}", soft=True, more=' text-anchor="end"')
-    yield _text((LEFT + WIDTH - RIGHT) / 2, HEIGHT - 12, "edges", soft=True, more=middle)
-    height = (TOP + HEIGHT - BOTTOM) / 2
-    turn = f' transform="rotate(-90 18 {height})"'
-    yield _text(18, height, "cost / LB", soft=True, more=f"{middle}{turn}")
+    middle = (y.start + y.end) / 2
+    turn = f' text-anchor="middle" transform="rotate(-90 18 {middle})"'
+    yield _text(18, middle, "cost / LB", soft=True, more=turn)
 
 
-def _names(entry: LeagueEntry, x: Axis) -> Iterator[str]:
-    line = PALETTE["faint"].light
-    for number, family in enumerate(sorted(entry.families, key=lambda family: family.edges)):
-        at = min(max(x.at(family.edges), LEFT + 60), WIDTH - RIGHT - 20)
-        more = ' text-anchor="middle" font-size="10"'
-        yield (
-            f'<path d="M {x.at(family.edges)} {TOP} V {HEIGHT - BOTTOM}" stroke="{line}"'
-            ' stroke-dasharray="2 4"/>'
-        )
-        yield _text(at, TOP - 4 - 12 * (number % 3), family.family, soft=True, more=more)
+def _names(entry: LeagueEntry, order: Sequence[int], frame: Frame) -> Iterator[str]:
+    line, bottom = PALETTE["line"].light, frame.bottom
+    for place, number in enumerate(order):
+        if place:
+            at = round(LEFT + frame.band * place, 1)
+            yield f'<path d="M {at} {TOP} V {bottom}" stroke="{line}"/>'
+        family = entry.families[number]
+        at = round(LEFT + frame.band * (place + 0.5), 1)
+        turn = f' font-size="11" transform="rotate(20 {at} {bottom + 16})"'
+        words = f"{_short(family.family)}: {family.edges:.0f} edges"
+        yield _text(at, bottom + 16, words, soft=True, more=turn)
 
 
-def _dots(points: Points, colour: str, x: Axis, y: Axis) -> Iterator[str]:
-    places = dict.fromkeys((x.at(edges), y.at(ratio)) for edges, ratio in points)
-    for across, up in places:
-        yield f'<circle cx="{across}" cy="{up}" r="1.8" fill="{colour}" fill-opacity="0.35"/>'
+def _dots(ratios: Sequence[float], at: float, colour: str, y: Axis) -> Iterator[str]:
+    for up in dict.fromkeys(map(y.at, ratios)):
+        yield f'<circle cx="{at}" cy="{up}" r="1.8" fill="{colour}" fill-opacity="0.35"/>'
 
 
-def _means(entry: LeagueEntry, number: int, shift: float, x: Axis, y: Axis) -> Iterator[str]:
-    for family in entry.families:
-        at, ratio = round(x.at(family.edges) + shift, 1), family.ratio
-        if ratio.low is not None and ratio.high is not None and ratio.low < ratio.high:
-            low, high = y.at(max(ratio.low, y.low)), y.at(min(ratio.high, y.high))
-            yield f'<path d="M {at} {low} V {high}" stroke="{_colour(number)}" stroke-width="2"/>'
-        yield _sign(at, y.at(ratio.mean), number)
+def _mean(ratio: MeanInterval, at: float, number: int, y: Axis) -> Iterator[str]:
+    if ratio.low is not None and ratio.high is not None and ratio.low < ratio.high:
+        low, high = y.at(max(ratio.low, y.low)), y.at(min(ratio.high, y.high))
+        yield f'<path d="M {at} {low} V {high}" stroke="{_colour(number)}" stroke-width="2"/>'
+    yield _sign(at, y.at(ratio.mean), number)
 
 
 def _sign(x: float, y: float, number: int) -> str:
     corners = CORNERS[number % len(CORNERS)]
     style = f'fill="{_colour(number)}" stroke="{PALETTE["card"].light}"'
     if not corners:
-        return f'<circle cx="{x}" cy="{y}" r="5" {style}/>'
+        return f'<circle cx="{x}" cy="{y}" r="4.5" {style}/>'
     turns = (2 * pi * k / corners for k in range(corners))
-    points = " ".join(f"{x + 6 * sin(turn):.1f},{y - 6 * cos(turn):.1f}" for turn in turns)
+    points = " ".join(f"{x + 5.5 * sin(turn):.1f},{y - 5.5 * cos(turn):.1f}" for turn in turns)
     return f'<polygon points="{points}" {style}/>'
 
 
-def _legend(entry: LeagueEntry, number: int) -> Iterator[str]:
-    height = TOP + 10 + 20 * number
-    if height > HEIGHT - 10:
-        return
-    name = entry.mapper if len(entry.mapper) <= NAME else f"{entry.mapper[: NAME - 1]}…"
-    yield _sign(WIDTH - RIGHT + 18, height, number)
-    yield _text(WIDTH - RIGHT + 30, height + 4, name)
+def _legend(entry: LeagueEntry, number: int, end: float) -> Iterator[str]:
+    height = TOP + LINE // 2 + LINE * number
+    yield _sign(end + 18, height, number)
+    yield _text(end + 30, height + 4, _short(entry.mapper))
+
+
+def _short(name: str) -> str:
+    return name if len(name) <= NAME else f"{name[: NAME - 1]}…"

@@ -244,7 +244,7 @@ class League:
             place=None,
             ratio=_interval(suite, [run.ratio for run in decided]) if whole else None,
             behind=None,
-            families=tuple(_costs(*part) for part in _split(suite, decided)) if whole else (),
+            families=tuple(_costs(*part) for part in split(suite, decided)) if whole else (),
             rejected_free=sum(run.free for run in decided),
             rejected_moving=sum(run.moving for run in decided),
             ms_per_move=round(1000 * seconds / moves, 4) if moves else None,
@@ -289,7 +289,8 @@ class League:
         )
 
 
-def _split(suite: Suite, values: Sequence[T]) -> Iterator[tuple[SuiteFamily, Sequence[T]]]:
+def split(suite: Suite, values: Sequence[T]) -> Iterator[tuple[SuiteFamily, Sequence[T]]]:
+    """The values of a suite's worlds, family by family."""
     start = 0
     for family in suite.families:
         yield family, values[start : start + family.size]
@@ -298,7 +299,7 @@ def _split(suite: Suite, values: Sequence[T]) -> Iterator[tuple[SuiteFamily, Seq
 
 def _interval(suite: Suite, values: Sequence[float]) -> MeanInterval:
     return mean_interval(
-        [FamilySample(part, family.exact) for family, part in _split(suite, values)]
+        [FamilySample(part, family.exact) for family, part in split(suite, values)]
     )
 
 
