@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from rich.console import Console, RenderableType
     from rich.text import Text as Line
 
-LONGEST_WORD = 24
+LONGEST_WORD = 20
 """Longer words may be broken."""
 
 GAP = 2
