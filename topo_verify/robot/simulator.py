@@ -16,6 +16,7 @@ from typing import NoReturn, SupportsIndex, cast
 
 import msgspec
 
+from topo_verify.errors import plural
 from topo_verify.robot import events as ev
 from topo_verify.robot.limits import BudgetExceeded, MapperStopped
 from topo_verify.robot.percept import PURPOSES, Door, Percept, Purpose
@@ -66,7 +67,8 @@ def door_number(door: object, degree: int) -> Door:
     except TypeError:
         number = -1
     if not 0 <= number < degree:
-        raise Misuse(f"the mapper asked for door {door!r} at a vertex with {degree} doors")
+        doors = plural(degree, "door")
+        raise Misuse(f"the mapper asked for door {door!r} at a vertex with {doors}")
     return number
 
 
