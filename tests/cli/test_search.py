@@ -32,7 +32,9 @@ def test_a_mapper_out_of_time_exits_3(results: Results, call: Call) -> None:
     line = "search mappers.py:strolls --edges 1 --workers 0 --world-timeout 0.02"
     (entry,) = results(line, code=3)["results"]
     assert (entry["verdict"], entry["checked"]) == ("UNKNOWN", 0)
-    assert "; 2 more not decided (out of time, or declined)" in " ".join(call(line).stdout.split())
+    assert entry["undecided"]["world"] == "m1/0"
+    words = "; 2 more not decided, first m1/0: the mapper was stopped after 0.02 s in this world"
+    assert words in " ".join(call(line).stdout.split())
 
 
 # ---------------------------------------------------------------- for people

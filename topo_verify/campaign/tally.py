@@ -232,9 +232,9 @@ class Counts:
 class Notable:
     """Chooses the rows to keep, among them a sample drawn by `seed`.
 
-    First and last of each size, failing, lost, most expensive, and more expensive than the other
-    mapper's. The choice depends only on the worlds of one size. Call `enter` in the order of the
-    worlds.
+    First and last of each size, failing, lost, undecided, most expensive, and more expensive than
+    the other mapper's. The choice depends only on the worlds of one size. Call `enter` in the order
+    of the worlds.
     """
 
     seed: int = 0
@@ -260,6 +260,8 @@ class Notable:
                     self._claims.setdefault((row.edges, claim), row)
             if row.lost:
                 self._keep("lost", row, SAMPLE)
+            elif row.undecided:
+                self._keep("undecided", row, 1)
             if not row.timed_out:  # it may be in time when it is run again
                 self._draw(row)
             if row.right:

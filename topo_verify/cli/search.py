@@ -366,7 +366,9 @@ def _conclusion(entry: study.SearchEntry) -> str:
         worlds += f" ({entry.from_ledger} from the ledger, {now} now)"
     failing = sum(size.failing for size in entry.by_edges)
     undecided = sum(size.undecided for size in entry.by_edges)
-    late = f"; {undecided} more not decided (out of time, or declined)" if undecided else ""
+    late = f"; {undecided} more not decided" if undecided else ""
+    if entry.undecided is not None:
+        late += f", first {entry.undecided.world}: {entry.undecided.why}"
     if entry.verdict == "REFUTED":
         return f"{worlds}, a claim fails in {failing}{late}"
     if entry.verdict == "UNKNOWN":

@@ -11,9 +11,9 @@
  *     topo-verify search --library ./mapper.so:map_world --edges 8
  *
  * The same function is called for millions of worlds in one process, one after the other, never
- * twice at a time, and from one thread. It may keep memory between calls (a buffer that has grown, say); what it decides
- * may depend on nothing but what it was shown since the call, or the same world can give another
- * run, and is then UNKNOWN.
+ * twice at a time, and from one thread. It may keep memory between calls (a buffer that has grown,
+ * say); what it decides may depend on nothing but what it was shown since the call, or the same
+ * world can give another run, and is then UNKNOWN.
  *
  * A world is a map: vertices, and around each vertex its doors, clockwise. The robot always has a
  * reference door, by which it came in; door k is the k-th clockwise from it, and door 0 goes back.

@@ -65,6 +65,13 @@ class LostWorker(msgspec.Struct, frozen=True):
     how: str
 
 
+class UndecidedWorld(msgspec.Struct, frozen=True):
+    """A world in which a run decides nothing, and why."""
+
+    world: str
+    why: str
+
+
 class CostPair(msgspec.Struct, frozen=True):
     """A world in which the first mapper costs more than the second."""
 
@@ -135,6 +142,7 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
         not_declared: the claims that no run declared anything about.
         from_ledger: number of worlds that the store has.
         lost: worlds in which a worker was lost, perhaps not by the mapper's fault.
+        undecided: the first of the other worlds that are not decided.
         run_again: the worlds that were run again, alone and in a row.
         engine: what ran and judged; judged_by: the same in words.
         decided_by: with --policies every, who decided the largest worlds: the `mapper`, or a
@@ -156,6 +164,7 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
     judgements: tuple[Judgement, ...]
     from_ledger: int
     lost: tuple[LostWorker, ...]
+    undecided: UndecidedWorld | None
     run_again: RunAgain | None
     engine: str
     decided_by: Decider | None
@@ -371,6 +380,14 @@ class Search:
             judgements=tally.judgements(),
             from_ledger=self.from_store,
             lost=tuple(LostWorker(row.world, row.lost) for row in self.rows if row.lost),
+            undecided=next(
+                (
+                    UndecidedWorld(row.world, row.undecided)
+                    for row in self.rows
+                    if row.undecided and not row.lost
+                ),
+                None,
+            ),
             run_again=self.again,
             engine=campaign.engine,
             decided_by=self._decided_by,
