@@ -243,6 +243,17 @@ def test_what_the_robot_does_not_know_is_faint_or_hidden(show: Open, lattice: st
     assert page.locator(".world .vertex:visible").count() == 12
 
 
+def test_a_cut_surface_has_sides_and_its_map_once_an_edge_leaves_by_one(show: Open) -> None:
+    page = show(page_of(World.from_id("m2/8"), "basic"), at="#step=0")
+    assert page.locator(".world .sides path").count() == 4
+    assert page.locator(".map .sides.off").count() == 1
+    page.keyboard.press("End")
+    assert page.locator(".map .sides.off").count() == 0
+    page = show(page_of(World.from_id("m4/629"), "basic"))
+    letters = page.locator(".world .sides text").all_text_contents()
+    assert sorted(letters) == sorted("abcdabcd")
+
+
 def test_both_panes_pan_and_zoom_together(show: Open, lattice: str) -> None:
     def boxes() -> list[Any]:
         boxes: list[Any] = page.eval_on_selector_all(

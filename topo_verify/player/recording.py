@@ -20,7 +20,7 @@ from __future__ import annotations
 import json
 import string
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, NamedTuple, assert_never, get_args
@@ -105,6 +105,9 @@ def pictured(world: World) -> dict[str, Any]:
     """A world and its picture, as data for JSON."""
     from topo_verify.world.drawing import lay_out
 
+    def rounded(points: Iterable[tuple[float, float]]) -> list[list[float]]:
+        return [[round(x, 1), round(y, 1)] for x, y in points]
+
     layout = lay_out(world)
     data: dict[str, Any] = {
         "vertices": world.vertices,
@@ -113,10 +116,13 @@ def pictured(world: World) -> dict[str, Any]:
         "width": layout.width,
         "height": layout.height,
         "radius": layout.radius,
-        "centres": [[round(x, 1), round(y, 1)] for x, y in layout.centres],
+        "centres": rounded(layout.centres),
         "paths": ["".join(parts) for parts in layout.paths],
         "bridges": [[bridge.path, bridge.over, bridge.under] for bridge in layout.bridges],
     }
+    if layout.cell is not None:
+        data["sides"] = layout.cell.sides
+        data["corners"] = rounded(layout.cell.corners)
     if world.vertex_names:
         data["names"] = [shown(name) for name in world.vertex_names]
     return data

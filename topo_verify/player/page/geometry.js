@@ -134,7 +134,8 @@ const line = (points) => points.map(([x, y], k) => `${k ? 'L' : 'M'}${short(x)} 
 /** A world with its picture. */
 class Picture {
   constructor(world) {
-    Object.assign(this, world); // vertices, edges, root, width, height, radius, centres, paths, bridges
+    // vertices, edges, root, width, height, radius, centres, paths, bridges; of a cut surface sides, corners
+    Object.assign(this, { sides: '', corners: [] }, world);
     this.vertex = [];
     this.place = [];
     this.vertices.forEach((rotation, vertex) =>
@@ -157,7 +158,7 @@ class Picture {
 
   /** Leave out the blank margin of the layout, so that a small world fills its pane. */
   crop() {
-    const points = [...this.centres, ...this.paths.flatMap(flattened).flat()], pad = 1.8 * this.radius;
+    const points = [...this.centres, ...this.corners, ...this.paths.flatMap(flattened).flat()], pad = 1.8 * this.radius;
     [['left', 'width', 0], ['top', 'height', 1]].forEach(([from, size, k]) => {
       const all = points.map((point) => point[k]), least = Math.max(0, Math.min(...all) - pad);
       this[size] = Math.min(this[size], Math.max(...all) + pad) - least;
@@ -212,6 +213,25 @@ class Picture {
       this.trails.set(dart, new Trail(forward));
     }
     return this.trails.get(dart);
+  }
+
+  /** Whether the edge of a dart leaves the polygon by one side and comes back by another. */
+  crosses(dart) {
+    return flattened(this.paths[this.edgeOf[dart]]).length > 1;
+  }
+
+  /** The sides of the polygon: those with one colour and letter are one line of the surface. */
+  drawSides(parent) {
+    const group = draw('g', { class: 'sides' }, parent), { corners, sides } = this;
+    const [cx, cy] = [0, 1].map((k) => corners.reduce((sum, corner) => sum + corner[k], 0) / corners.length);
+    [...sides].forEach((letter, k) => {
+      const [from, to] = [corners[k], corners[(k + 1) % corners.length]];
+      draw('path', { d: `M${pair(from)}L${pair(to)}`, class: `side-${'abcd'[(letter.charCodeAt(0) - 97) % 4]}` }, group);
+      const [x, y] = [0, 1].map((k) => (from[k] + to[k]) / 2), out = 12 * this.unit / Math.hypot(x - cx, y - cy);
+      const at = { x: x + out * (x - cx), y: y + out * (y - cy) + 5 * this.unit };
+      if (sides.length > 4) draw('text', { ...at, 'font-size': 15 * this.unit }, group, letter);
+    });
+    return group;
   }
 
   /** The direction in which a dart leaves its vertex. */

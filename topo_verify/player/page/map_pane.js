@@ -11,15 +11,23 @@ class MapPane extends Pane {
       this.timeline.add(to, (on) => element.classList.toggle('off', on));
     };
     const roads = this.roads;
-    if (run.silent) run.walked.forEach((when, edge) => shown(this.path(picture.trail(picture.edges[edge][0]).data, 'road', roads), when));
+    let cut = Infinity; // the first edge that leaves the polygon of a cut surface
+    const crossed = (dart, when) => picture.crosses(dart) && (cut = Math.min(cut, when));
+    if (run.silent) {
+      run.walked.forEach((when, edge) => {
+        shown(this.path(picture.trail(picture.edges[edge][0]).data, 'road', roads), when);
+        crossed(picture.edges[edge][0], when);
+      });
+    }
     const joined = new Map();
     for (const { a, b, when, real } of map.edges) {
-      if (real) joined.set(picture.edgeOf[map.darts[a].image], when);
+      if (real) joined.set(picture.edgeOf[map.darts[a].image], when), crossed(map.darts[a].image, when);
       const data = real ? picture.trail(map.darts[a].image).data : this.arc(this.end(a), this.end(b));
       const road = this.path(data, real ? 'road' : 'road wrong', roads);
       if (!real) draw('title', {}, road, 'The map joins these two ends; in the world they belong to two edges');
       shown(road, when);
     }
+    shown(picture.drawSides(roads), cut);
     this.bridges((halo, road, over, under) => {
       const when = Math.max(joined.get(over) ?? Infinity, joined.get(under) ?? Infinity);
       shown(halo, when);

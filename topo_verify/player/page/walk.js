@@ -320,6 +320,7 @@ class WalkMode {
     drawn.fit(svg.clientWidth || 600, svg.clientHeight || 400);
     const inside = draw('g', {}, svg);
     inside.style.setProperty('--u', drawn.unit);
+    drawn.drawSides(inside);
     const road = ([a, b], d) => {
       const path = draw('path', { class: `road ${kinds.get(a) ?? kinds.get(b) ?? ''}`, d }, inside);
       path.style.strokeWidth = `${(kinds.has(a) || kinds.has(b) ? 5 : 3) * drawn.unit}px`;

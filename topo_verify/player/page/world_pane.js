@@ -7,6 +7,7 @@ class WorldPane extends Pane {
     const edges = new Array(picture.edges.length).fill(Infinity);
     const vertices = new Array(picture.centres.length).fill(Infinity);
     this.known(edges, vertices);
+    picture.drawSides(this.roads);
     const far = (element, when) => {
       element.classList.add('far');
       this.timeline.add(when, (on) => element.classList.toggle('far', !on));
