@@ -66,7 +66,7 @@ def test_who_guesses_right_is_told_that_it_was_luck(show: Open, text: str) -> No
     unproved = (event for event in trace[last + 1 :] if isinstance(event, Augment))
     follow(page, (*trace[: last + 1], *unproved))  # the last road is closed without a walk
     page.keyboard.press("Enter")
-    assert said(page) == "The map is right, but 1 of 8 declarations was luck"
+    assert said(page) == "The map is right, but 1 of 8 decisions was luck"
     (luck,) = page.locator("#walk .says li.luck").all_inner_texts()
     assert luck.startswith("A road between places known: luck, for ")
     assert "The history does not prove the world" in page.inner_text("#walk .says")
@@ -83,7 +83,7 @@ def test_a_wrong_declaration_is_shown_where_it_is_wrong(show: Open, text: str) -
     keys(page, "0 n 1 n 1 n 1 a 1")
     assert said(page) == "Your map contradicts what you see"
     keys(page, "Enter")
-    assert said(page) == "A declaration is wrong"
+    assert said(page) == "A decision is wrong"
     assert page.locator("#walk .says li.wrong").inner_text() == (
         "A road between places known: wrong, the place behind it was new."
     )
@@ -121,11 +121,11 @@ def test_it_may_be_said_at_once_and_taken_back(show: Open, text: str) -> None:
     page = show(text, at="#walk")
     page.check("#walk input[type=checkbox]")
     keys(page, "0 n 1 n 1 n 1 a")
-    assert "Your last declaration is wrong." in page.inner_text("#walk .says")
+    assert "Your last decision is wrong." in page.inner_text("#walk .says")
     keys(page, "u n")
-    assert "Your last declaration is true, but did not follow" in page.inner_text("#walk .says")
+    assert "Your last decision is true, but did not follow" in page.inner_text("#walk .says")
     keys(page, "u 1 0 n")
-    assert "Your last declaration followed." in page.inner_text("#walk .says")
+    assert "Your last decision followed." in page.inner_text("#walk .says")
     assert page.inner_text("#walk .says .end") == "6 moves"
 
 

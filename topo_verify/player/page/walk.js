@@ -220,7 +220,7 @@ class WalkMode {
     const row = html('div', 'bar', says);
     this.button(row, 'It is a new place', 'n', () => this.act(() => walk.declare(null))).disabled = !walk.mayBeNew();
     const declared = walk.events.some(({ type }) => type === 'augment');
-    const back = this.button(row, walk.contradiction ? 'Go back to the last decision' : 'Take back', 'u', () => this.act(() => walk.takeBack()));
+    const back = this.button(row, walk.contradiction ? 'Go back to the last decision' : 'Take back the last decision', 'u', () => this.act(() => walk.takeBack()));
     back.disabled = !declared;
     back.classList.toggle('main', Boolean(walk.contradiction));
     const done = this.button(row, walk.complete ? 'The map is complete' : 'Stop and judge', '↵', () => this.end());
@@ -233,9 +233,9 @@ class WalkMode {
 
   told() {
     const { walk } = this, { pending } = walk, last = this.atOnce.checked && walk.judged().found.at(-1);
-    const fate = !last ? '' : { followed: 'Your last declaration followed. ', luck: `Your last declaration is true, but did not follow: ${WHY[last.event.kind]}. `, wrong: 'Your last declaration is wrong. ' }[last.fate];
+    const fate = !last ? '' : { followed: 'Your last decision followed. ', luck: `Your last decision is true, but did not follow: ${WHY[last.event.kind]}. `, wrong: 'Your last decision is wrong. ' }[last.fate];
     if (walk.contradiction) return ['Your map contradicts what you see', `${walk.contradiction} One of your decisions is wrong: go back to it, or stop and see which one.`];
-    if (walk.complete) return ['Nothing on your map is unexplored', `${fate}Is every declaration certain? Walk on, or have it judged.`];
+    if (walk.complete) return ['Nothing on your map is unexplored', `${fate}Is every decision certain? Walk on, or have it judged.`];
     if (!pending) return ['You know where you are', `${fate}Choose a door, by click or by its number. Door 0 leads back; the others count clockwise.`];
     const guesses = walk.hypotheses().length, exits = guesses === 1 ? 'the exit with the letter' : `one of the ${guesses} exits with letters`;
     const places = !walk.mayBeNew() ? `You see the marker, so no place is new here: the road ends at ${exits}` : guesses ? `It may be a new place, or ${exits}` : 'No unexplored exit of your map looks like it, so it is a new place';
@@ -280,10 +280,10 @@ class WalkMode {
 
   headline(wrong, luck, good) {
     const { walk, ended } = this, left = walk.open().length;
-    if (wrong) return 'A declaration is wrong';
+    if (wrong) return 'A decision is wrong';
     if (good) return 'All of it followed: your walk proves this map';
     const part = walk.complete ? 'The map is right' : `So far it is right, and ${left} exit${left === 1 ? ' is' : 's are'} unexplored`;
-    if (luck.length) return `${part}, but ${luck.length} of ${ended.found.length} declarations ${luck.length === 1 ? 'was' : 'were'} luck`;
+    if (luck.length) return `${part}, but ${luck.length} of ${ended.found.length} decisions ${luck.length === 1 ? 'was' : 'were'} luck`;
     return walk.complete ? `${part}, but the walk does not prove it` : part;
   }
 
