@@ -26,17 +26,17 @@ def test_the_formula_counts_the_worlds_that_differ_wherever_the_marker_lies(edge
     assert sum(number or 0 for number in by_genus) == len(groups)
 
 
-def test_planar_worlds_are_listed() -> None:
-    """Unrooted planar maps: OEIS A006384."""
-    counts = [unrooted_count(m, WorldClass.parse("planar")) for m in range(6)]
-    assert counts == [1, 2, 4, 14, 57, 312]
+def test_planar_worlds_are_counted_by_a_formula() -> None:
+    """Unrooted planar maps: OEIS A006384; with 5 edges those of other genus are listed."""
+    counts = [unrooted_count(m, WorldClass.parse("planar")) for m in range(11)]
+    assert counts == [1, 2, 4, 14, 57, 312, 2071, 15030, 117735, 967850, 8268816]
     by_genus = [unrooted_count(5, WorldClass.parse(f"genus:{g}")) for g in range(3)]
     assert by_genus == [312, 452, 106]
     assert sum(filter(None, by_genus)) == unrooted_count(5, WorldClass())
 
 
 @pytest.mark.parametrize(
-    ("edges", "kind"), [(6, "planar"), (201, "any"), (60, "genus:1"), (17, "simple")]
+    ("edges", "kind"), [(6, "genus:1"), (201, "any"), (60, "genus:1"), (17, "simple")]
 )
 def test_what_would_take_too_long_is_not_counted(edges: int, kind: str) -> None:
     assert unrooted_count(edges, WorldClass.parse(kind)) is None

@@ -297,9 +297,9 @@ def _show_counted(entries: Sequence[CountEntry]) -> Iterator[Block]:
     )
     if any(entry.unrooted is None for entry in entries):
         yield Text(
-            "- not counted: without their marker, the worlds of a class other than `any` are"
-            f" listed, up to {unrooted.MOST_LISTED:,} of them; all worlds are counted to"
-            f" {unrooted.SIZES[-1]} edges."
+            "- not counted: without their marker, the worlds of a class other than `any` and"
+            f" `planar` are listed, up to {unrooted.MOST_LISTED:,} of them; all worlds are counted"
+            f" to {unrooted.SIZES[-1]} edges."
         )
 
 

@@ -9,22 +9,27 @@ centraliser. On j cycles of length k there are
 
 such involutions: i pairs of cycles, the others turned by half. The generating function is a product
 over k; the inverse Euler transform keeps the connected pairs.
+
+Planar maps: a rotation of the sphere has two fixed points, each a vertex, a face or the middle of
+an edge (V. A. Liskovets, "Enumeration of nonisomorphic planar maps", 1981).
 """
 
 from __future__ import annotations
 
 from functools import cache
-from math import factorial
+from math import comb, factorial, gcd
 
 from topo_verify.errors import InputError
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.pruned import worlds
 
 SIZES = (20, 60, 200)
-"""The formula is evaluated for all sizes up to one of these."""
+"""The first formula is evaluated for all sizes up to one of these."""
 
 MOST_LISTED = 5000
-"""Classes other than `any` are counted by listing at most this many worlds."""
+"""Classes other than `any` and `planar` are counted by listing at most this many worlds."""
+
+PLANAR = WorldClass(genus=0)
 
 
 def unrooted_count(edges: int, kind: WorldClass) -> int | None:
@@ -34,6 +39,8 @@ def unrooted_count(edges: int, kind: WorldClass) -> int | None:
     if kind == WorldClass():
         most = next((size for size in SIZES if edges <= size), None)
         return None if most is None else _connected(most)[edges]
+    if kind == PLANAR:
+        return _planar(edges)
     try:
         if kind.count(edges) > MOST_LISTED:
             return None
@@ -41,6 +48,18 @@ def unrooted_count(edges: int, kind: WorldClass) -> int | None:
         return None
     listed = worlds(edges, cls=str(kind))
     return len({min(w.with_marker(d).code for d in range(2 * edges)) for w in listed})
+
+
+def _planar(edges: int) -> int:
+    """The sum over the turns of the sphere, divided by their number for each rooted map."""
+    fixed = PLANAR.count(edges)
+    for part in range(1, edges):
+        if edges % part == 0:  # the turn's order is edges / part, without an edge in its middle
+            turns = sum(gcd(k, edges // part) == 1 for k in range(1, edges // part + 1))
+            fixed += turns * comb(part + 2, 2) * PLANAR.count(part)
+    half = (edges - 1) // 2  # half a turn about the middle of one edge, or of two
+    ways = edges * (edges + 3) if edges % 2 else edges * (edges - 1)
+    return (fixed + ways * PLANAR.count(half) // 2) // (2 * edges)
 
 
 @cache
