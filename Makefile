@@ -66,7 +66,7 @@ coq: $(VENV)/.dev
 # Into build/docs; a warning is an error. The examples in docstrings run; no network is used.
 SPHINX := $(BIN)/python -m sphinx --quiet --nitpicky --fail-on-warning --keep-going -d build/doctrees docs
 docs: $(VENV)/.dev
-	$(SPHINX) build/docs -b html
+	$(SPHINX) build/docs -b html || { rm -rf build/doctrees; exit 1; }  # or the next build would hide the warning
 	$(SPHINX) build/doctest -b doctest
 	@echo "The site is in build/docs: open build/docs/index.html"
 

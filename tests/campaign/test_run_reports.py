@@ -228,6 +228,15 @@ def test_where_the_map_is_wrong_there_is_no_word_of_luck() -> None:
     assert not any("by luck" in message for message in messages)
 
 
+def test_a_world_is_not_told_as_its_own_witness() -> None:
+    def single_edge(_robot: tv.Robot) -> object:
+        return {"vertices": [[0], [1]], "edges": [[0, 1]], "marker": 0}
+
+    told = {w: tv.examine(single_edge, w).findings for w in ("m1/0", "m2/0")}
+    assert any("witness m2/0" in finding.message for finding in told["m1/0"])
+    assert not any("witness" in finding.message for finding in told["m2/0"])
+
+
 @pytest.mark.parametrize(
     "wrong_order",
     [

@@ -133,8 +133,30 @@ def test_the_reader_sees_percepts_only(show: Open, text: str) -> None:
     page = show(text, at="#walk")
     assert page.locator("#walk .vertex").count() == 2  # the place where one is, and S
     labels = page.locator("#walk .door").evaluate_all("all => all.map((one) => one.ariaLabel)")
-    assert labels == ["Door 0, the way you came, at which the marker points", "Door 1"]
+    assert labels == ["Door 0, at which the marker points", "Door 1"]
+    assert "Door 0 is the one at which the marker points" in page.inner_text("#walk .says")
+    keys(page, "0 n")
+    assert (
+        page.locator("#walk .door").first.get_attribute("aria-label") == "Door 0, the way you came"
+    )
+    assert "Door 0 leads back" in page.inner_text("#walk .says")
     assert page.locator("main").evaluate("one => one.inert")
+
+
+def test_where_one_answer_is_left_the_game_does_not_advise_to_walk_on(show: Open) -> None:
+    page = show(page_of(World.from_id("m1/0"), "basic"), at="#walk")
+    keys(page, "0")
+    assert "so it is a new place. Say so: press n." in page.inner_text("#walk .says")
+    assert "Walk on" not in page.inner_text("#walk .says p")
+
+
+def test_help_opens_in_the_game_and_escape_closes_it_alone(show: Open, text: str) -> None:
+    page = show(text, at="#walk")
+    page.keyboard.press("?")
+    assert "press its number" in page.inner_text("#help")
+    page.keyboard.press("Escape")
+    assert not page.is_visible("#help")
+    assert page.is_visible("#walk")
 
 
 def test_no_key_reaches_the_player_and_escape_leads_back(show: Open, text: str) -> None:

@@ -185,7 +185,7 @@ class Narrator:
             text = "It finds no place on its map with an open exit that looks like this."
             return Saying("", "It takes the place for new", (text,))
         exits = plural(len(pose.hypotheses), "open exit")
-        text = f"{exits} on its map, numbered, could be the one that it came in by."
+        text = f"{exits} on its map could be the one that it came in by."
         return Saying("ask", "Was it here before?", (text, "Or the place is new."))
 
     def _rejected(self, moment: Moment, reject: ev.Reject, name: str) -> Saying:
@@ -216,10 +216,11 @@ class Narrator:
         known = there == expected if mismatch.leaves is None else recorded
         is_sure = known and is_seen and not moment.findings
         if is_sure and observed.signature == expected.signature:
-            yield "At the ring the marker would have to point another way."
+            yield "At the ring on its map the marker would have to point another way."
             return
         sees = "sees" if reject.rule == "motion" else "saw"
-        yield f"{'At' if is_sure else 'It says that at'} the ring it would see {_sight(expected)}."
+        at = "At" if is_sure else "It says that at"
+        yield f"{at} the ring on its map it would see {_sight(expected)}."
         yield f"It {sees if is_seen else 'says that it saw'} {_sight(observed)}."
 
     def _contradicted(self, number: int, contradiction: str, name: str) -> Saying:

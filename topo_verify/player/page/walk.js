@@ -29,7 +29,7 @@ class WalkMode {
   // ---------------------------------------------------------------- the frame
 
   open() {
-    this.outside = [...document.body.children].filter((one) => one.id !== 'walk' && !one.inert);
+    this.outside = [...document.body.children].filter((one) => !['walk', 'help'].includes(one.id) && !one.inert);
     for (const one of this.outside) one.inert = true;
     this.section ??= this.frame();
     document.body.append(this.section);
@@ -66,8 +66,9 @@ class WalkMode {
     const hint = html('label', 'end', bar);
     this.atOnce = html('input', '', hint);
     this.atOnce.type = 'checkbox';
-    hint.append(' say at once what follows');
+    hint.append(' judge each decision at once');
     this.atOnce.addEventListener('change', () => this.show());
+    this.button(bar, 'Help', '?', () => byId('help').showModal());
     this.button(bar, 'Back to the run', 'esc', () => this.close());
     const panes = html('div', 'panes', section);
     [this.left, this.right] = [0, 1].map(() => {
@@ -92,6 +93,7 @@ class WalkMode {
   key(event) {
     if (!this.section?.isConnected) return;
     event.stopPropagation();
+    if (byId('help').open) return; // Escape closes it
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest('select, input[type=number]')) {
       if (event.key === 'Escape') this.close();
       return;
@@ -152,14 +154,14 @@ class WalkMode {
   percept() {
     const { svg, title, note } = this.left, { degree, marker } = this.walk.percept;
     title.textContent = 'What you see';
-    note.textContent = degree ? `${seenAs(this.walk.percept)}; the way you came is below` : 'no exit';
+    note.textContent = degree ? `${seenAs(this.walk.percept)}${this.walk.moves ? '; the way you came is below' : ''}` : 'no exit';
     svg.replaceChildren();
     svg.setAttribute('viewBox', '-150 -125 300 250');
     const size = Math.min(14, 260 / Math.max(degree, 1));
     for (let door = 0; door < degree; door += 1) {
       const angle = Math.PI / 2 + (2 * Math.PI * door) / degree;
       const at = (far) => [far * Math.cos(angle), far * Math.sin(angle)];
-      const words = `Door ${door}${door ? '' : ', the way you came'}${door === marker ? ', at which the marker points' : ''}`;
+      const words = `Door ${door}${door || !this.walk.moves ? '' : ', the way you came'}${door === marker ? ', at which the marker points' : ''}`;
       const group = this.press(svg, `door ${door ? '' : 'in'}`, words, `${door}`, () => this.act(() => this.walk.move(door)));
       draw('path', { d: `M${pair(at(30))}L${pair(at(78))}` }, group);
       if (door === marker) drawMarker(group, at(30), at(58), at(74));
@@ -236,11 +238,12 @@ class WalkMode {
     const fate = !last ? '' : { followed: 'Your last decision followed. ', luck: `Your last decision is true, but did not follow: ${WHY[last.event.kind]}. `, wrong: 'Your last decision is wrong. ' }[last.fate];
     if (walk.contradiction) return ['Your map contradicts what you see', `${walk.contradiction} One of your decisions is wrong: go back to it, or stop and see which one.`];
     if (walk.complete) return ['Nothing on your map is unexplored', `${fate}Is every decision certain? Walk on, or have it judged.`];
-    if (!pending) return ['You know where you are', `${fate}Choose a door, by click or by its number. Door 0 leads back; the others count clockwise.`];
+    if (!pending) return ['You know where you are', `${fate}Choose a door, by click or by its number. Door 0 ${walk.moves ? 'leads back' : 'is the one at which the marker points'}; the others count clockwise.`];
     const guesses = walk.hypotheses().length, exits = guesses === 1 ? 'the exit with the letter' : `one of the ${guesses} exits with letters`;
+    const alone = guesses + walk.mayBeNew() === 1;
     const places = !walk.mayBeNew() ? `You see the marker, so no place is new here: the road ends at ${exits}` : guesses ? `It may be a new place, or ${exits}` : 'No unexplored exit of your map looks like it, so it is a new place';
     if (pending.word.length) return [`${pending.word.length} door${pending.word.length === 1 ? '' : 's'} behind the end of the new road`, `${fate}If you know now where the road (?) ends, say so: ${walk.mayBeNew() ? 'it is a new place, or an exit of your map' : 'it is an exit at the marker'}.`];
-    return ['A new road: where does it end?', `${fate}${places}. Walk on to find out, or say so.`];
+    return ['A new road: where does it end?', `${fate}${places}. ${alone ? 'Say so' : 'Walk on to find out, or say so'}: ${guesses ? 'click a letter or press its key' : 'press n'}${guesses && walk.mayBeNew() ? ', or n for a new place' : ''}.`];
   }
 
   // ---------------------------------------------------------------- the end
@@ -290,7 +293,7 @@ class WalkMode {
   cost() {
     const { walk } = this, least = walk.world.leastCost();
     const runs = walk.world !== this.page.world ? [] : this.recording.runs.map((run) => `${run.name} takes ${run.events.replace(/[^wcvtm]/g, '').length}`);
-    const proof = this.ended.proved ? 'The history proves the world.' : `The history does not prove the world: ${this.ended.open} exit${this.ended.open === 1 ? '' : 's'} of it may lead anywhere.`;
+    const proof = this.ended.proved ? 'The history proves the world.' : 'The history does not prove the world: exits are left that may lead anywhere.';
     return `You made ${walk.moves} move${walk.moves === 1 ? '' : 's'}. With the map in hand, a proof of this world takes ${least}${runs.length ? `; ${runs.join(', ')}` : ''}. ${proof}`;
   }
 

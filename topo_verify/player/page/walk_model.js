@@ -175,7 +175,7 @@ class Walk {
       const { why, witness } = map.doubt(event);
       if (truth !== (event.kind === 'new' ? null : event.dart)) {
         found.push({ when, event, fate: 'wrong', truth, witness: null });
-        return { found, phi, proved: false, open: fold.openDarts().length, witness: null };
+        return { found, phi, proved: false, witness: null };
       }
       const given = found.some(({ fate }) => fate === 'luck');
       found.push({ when, event, fate: why ? 'luck' : 'followed', why, witness, given });
@@ -186,7 +186,7 @@ class Walk {
     const open = fold.openDarts().length, code = JSON.stringify;
     const short = fold.world(1);
     const witness = !open ? null : code(sizes(short)) !== code(sizes(world)) ? short : fold.world(2);
-    return { found, phi, proved: !open, open, witness };
+    return { found, phi, proved: !open, witness };
   }
 
   /** Whether S has no unexplored dart: as far as the reader says, the map is complete. */
