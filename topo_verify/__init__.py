@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from topo_verify.robot.percept import Percept
     from topo_verify.studies.log_report import Certificate, certify
     from topo_verify.world import families
+    from topo_verify.world.enumeration.classes import WorldClass
     from topo_verify.world.enumeration.pruned import worlds
     from topo_verify.world.rooted_map import World
 
@@ -50,6 +51,7 @@ __all__ = [
     "Robot",
     "TopoVerifyError",
     "World",
+    "WorldClass",
     "__version__",
     "assert_maps",
     "certify",
@@ -76,6 +78,7 @@ _MODULES = {
     "studies.log_report": ("Certificate", "certify"),
     "campaign.run": ("Exploration", "explore"),
     "world": ("families",),
+    "world.enumeration.classes": ("WorldClass",),
     "world.enumeration.pruned": ("worlds",),
     "world.rooted_map": ("World",),
 }

@@ -202,8 +202,14 @@ def test_count_gives_the_known_numbers(
 
 
 def test_count_says_why_unrooted_worlds_are_not_counted(call: Call) -> None:
-    assert "not counted" not in call("world count --edges 60 --class planar").stdout
-    assert "- not counted: without" in call("world count --edges 6 --class genus:1").stdout
+    assert "too many" not in call("world count --edges 60 --class planar").stdout
+    assert "-: too many to count without" in call("world count --edges 6 --class genus:1").stdout
+
+
+def test_a_range_that_cannot_be_counted_to_its_end_is_refused_at_once(call: Call) -> None:
+    assert (
+        "with 12 edges there are" in call("world count --edges 1..12 --class simple,planar").stderr
+    )
 
 
 def test_count_is_exact_however_many_digits_it_takes(results: Results) -> None:

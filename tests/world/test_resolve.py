@@ -29,6 +29,17 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 # ---------------------------------------------------------------- every way
 
 
+def test_a_graph_of_a_file_is_named_by_its_number(tmp_path: Path) -> None:
+    cube = families.cube()
+    file = tmp_path / "all.pc"
+    cube.save(file)
+    graph = file.read_bytes().removeprefix(b">>planar_code<<")
+    file.write_bytes(file.read_bytes() + graph)
+    assert resolve_world(f"{file}:1").is_isomorphic(cube)
+    with pytest.raises(InputError, match="holds 2 graphs, and graph 2"):
+        resolve_world(f"{file}:2")
+
+
 def test_an_id_names_its_world() -> None:
     assert resolve_world("m5/17") == World.from_id("m5/17")
     assert resolve_world("m5/17").name == "m5/17"

@@ -280,6 +280,7 @@ def count(output: Output, *, edges: range, kind: str) -> int:
 
     def counted() -> Iterator[Result[CountEntry]]:
         worlds = WorldClass.parse(kind)
+        worlds.require_few_to_list(edges[-1])
         for number, m in enumerate(edges):
             output.progress(f"{m} edges, class {worlds}", number, len(edges))
             total, without_marker = worlds.count(m), unrooted.unrooted_count(m, worlds)
@@ -297,9 +298,9 @@ def _show_counted(entries: Sequence[CountEntry]) -> Iterator[Block]:
     )
     if any(entry.unrooted is None for entry in entries):
         yield Text(
-            "- not counted: without their marker, the worlds of a class other than `any` and"
-            f" `planar` are listed, up to {unrooted.MOST_LISTED:,} of them; all worlds are counted"
-            f" to {unrooted.SIZES[-1]} edges."
+            "-: too many to count without their marker. There are formulas for `any`, to"
+            f" {unrooted.SIZES[-1]} edges, and for `planar`; in other classes"
+            f" {unrooted.MOST_LISTED:,} worlds at most are compared."
         )
 
 
@@ -510,7 +511,8 @@ class DrawEntry(msgspec.Struct, frozen=True):
     "file",
     default="-",
     metavar="FILE",
-    help="Write to FILE: .svg, .png, .pdf or .html.  [default: SVG to standard output]",
+    help="Write to FILE: .svg, .html; with the extra `draw` .png, .pdf."
+    "  [default: SVG to standard output]",
 )
 @click.option("--doors", is_flag=True, help="Number the doors of each vertex, clockwise from 0.")
 @click.option("--darts", is_flag=True, help="Write the number of each dart beside it.")

@@ -136,6 +136,9 @@ def resolve_world(text: str, *, stdin: IO[bytes] | None = None) -> World:
         return World.from_id(text)
     if text.startswith("family:"):
         return call(text.removeprefix("family:"), FAMILIES, _FAMILY)
+    path, _, number = text.rpartition(":")
+    if not _exists(text) and number.isdecimal() and _exists(path):
+        return World.load(path, graph=int(number))
     if not _exists(text):
         raise InputError(
             f"no such world: '{shown(text)}' is not a file; give a path, an id (m5/17), a family"

@@ -359,7 +359,7 @@ class World:
         if len(self.edges) <= 30:
             return f"tv.World.from_id({self.id!r})"
         size = f"{map_size(len(self.vertices), len(self.edges))}, genus {self.genus}"
-        return f"<World {self.name!r}: {size}>"
+        return f"<World {self.name!r}: {size}>" if self.name else f"<World: {size}>"
 
     def draw(self, path: str | PathLike[str] | None = None, **marks: bool) -> str:
         """The picture as SVG, with the true order of the darts at every vertex.

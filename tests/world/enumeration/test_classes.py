@@ -162,7 +162,9 @@ def test_formulas_count_where_nobody_can_list() -> None:
 
 
 def test_a_class_without_a_formula_is_not_counted_where_listing_takes_too_long() -> None:
-    with pytest.raises(InputError, match=r"class planar,simple: there is no .* 7 edges or fewer"):
+    with pytest.raises(
+        InputError, match=r"class planar,simple: it is counted by looking .* 7 edges or fewer"
+    ):
         WorldClass.parse("planar,simple").count(8)
     with pytest.raises(InputError, match="expected at most 16 edges, got"):
         WorldClass.parse("simple").count(17)
@@ -196,8 +198,17 @@ def test_drawing_from_nothing_is_refused() -> None:
 
 
 def test_drawing_is_refused_at_once_where_it_would_take_ages() -> None:
-    with pytest.raises(InputError, match=r"class planar: too few .* with 30 edges .*3e-14 of all"):
-        WorldClass.parse("planar").sample(30, Random(0))
+    with pytest.raises(InputError, match=r"class genus:1: too few .* with 30 edges .* of all"):
+        WorldClass.parse("genus:1").sample(30, Random(0))
+
+
+def test_planar_worlds_are_drawn_among_planar_ones() -> None:
+    """As `random_planar` draws them, exactly uniform: no planar world is too rare."""
+    random = Random(1)
+    assert WorldClass.parse("planar").sample(1000, random).is_planar
+    world = WorldClass.parse("planar,max-degree:4").sample(12, random)
+    assert world.is_planar
+    assert max(world.degrees) <= 4
 
 
 def test_drawing_gives_up_with_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:

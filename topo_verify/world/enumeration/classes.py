@@ -15,6 +15,7 @@ from random import Random
 from topo_verify.errors import InputError, shown
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.counts import count_genus, count_graphs
+from topo_verify.world.families.random_maps import random_planar
 from topo_verify.world.rooted_map import World
 
 MAX_LISTED_EDGES = 7
@@ -111,24 +112,32 @@ class WorldClass:
             return count_graphs(
                 edges, most_degree=self.most_degree, loopless=self.loopless, simple=self.simple
             )
-        if edges > MAX_LISTED_EDGES:
-            raise InputError(
-                f"class {self}: there is no formula for how many worlds are in it, and with {edges}"
-                f" edges there are {rank_order.count(edges)} to be looked at: ask for"
-                f" {MAX_LISTED_EDGES} edges or fewer"
-            )
+        self.require_few_to_list(edges)
         return sum(map(self.admits, rank_order.tables(edges)))
+
+    def require_few_to_list(self, edges: int) -> None:
+        """Raise an InputError if the class is counted by listing, and that would take too long."""
+        listed = not self._has_formula and (self.genus is not None or self.most_genus is not None)
+        if listed and edges > MAX_LISTED_EDGES:
+            raise InputError(
+                f"class {self}: it is counted by looking at all worlds, and with {edges} edges"
+                f" there are {rank_order.count(edges)}: ask for {MAX_LISTED_EDGES} edges or fewer;"
+                f" in Python tv.worlds({edges}, cls={str(self)!r}) lists its worlds"
+            )
 
     def sample(self, edges: int, random: Random) -> World:
         """A world of the class, exactly uniform, by rejection; InputError if it is too rare."""
-        if self._has_formula:
+        if self._has_formula and self.genus != 0:
             inside, total = self._count_by_formula(edges), rank_order.count(edges)
             if not inside:
                 raise InputError(f"class {self}: there is no world with {edges} edges in it")
             if total > inside * MAX_TRIES:
                 raise InputError(self._too_rare(edges, f"{inside / total:.0e} of all"))
         for _ in range(MAX_TRIES):
-            table = rank_order.sample(edges, random)
+            if self.genus == 0:
+                table = random_planar(edges, seed=random.getrandbits(64)).code
+            else:
+                table = rank_order.sample(edges, random)
             if self.admits(table):
                 return World.from_code(table)
         raise InputError(self._too_rare(edges, f"none of {MAX_TRIES} that were drawn"))
@@ -148,7 +157,8 @@ class WorldClass:
     def _too_rare(self, edges: int, evidence: str) -> str:
         return (
             f"class {self}: too few of the worlds with {edges} edges are in it to draw one"
-            f" ({evidence}): ask for fewer edges or a wider class"
+            f" ({evidence}): ask for fewer edges or a wider class, or draw from a family such as"
+            " random_genus, whose worlds are not equally likely"
         )
 
 

@@ -48,8 +48,8 @@ def decode(
     for number, rows in enumerate(_graphs(data, name)):
         if number == 1 and graph is None:
             raise InputError(
-                f"{name} holds several graphs: say which, counted from 0, as in"
-                " World.load(path, graph=0), or give each a file"
+                f"{name} holds several graphs: say which, counted from 0, as in {name}:0 on the"
+                " command line or World.load(path, graph=0) in Python"
             )
         if number == (graph or 0):
             neighbours = rows
