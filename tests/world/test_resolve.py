@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from tests.world.formats.worlds import world_or_sentence
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
-from topo_verify.world.formats import files
+from topo_verify.world.formats import files, planar_code
 from topo_verify.world.resolve import resolve_world
 
 TRIANGLE = families.complete(3)
@@ -32,9 +32,8 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_graph_of_a_file_is_named_by_its_number(tmp_path: Path) -> None:
     cube = families.cube()
     file = tmp_path / "all.pc"
-    cube.save(file)
-    graph = file.read_bytes().removeprefix(b">>planar_code<<")
-    file.write_bytes(file.read_bytes() + graph)
+    one = planar_code.encode(cube)
+    file.write_bytes(one + one.removeprefix(b">>planar_code<<"))
     assert resolve_world(f"{file}:1").is_isomorphic(cube)
     with pytest.raises(InputError, match="holds 2 graphs, and graph 2"):
         resolve_world(f"{file}:2")
