@@ -60,6 +60,7 @@ def test_standard_input_is_a_log(results: Results) -> None:
     [
         "door,degree,marker\n,2,0\n0,2,\n1,2,1\n",
         "door,degree,marker\n-,2,0\n0,2,-\n1,2,1\n",
+        "door,degree,marker\nNaN,2,0.0\n0.0,2,None\n1.0,2,1.0\n",
         "\ufeffTime; Marker;Degree;Door\r\n;0;2;\r\n\r\n7;;2; 0\r\n8;1;2;1\r\n",
         'marker\tdoor\tdegree\n0\t\t2\n\t0\t"2"\n1\t1\t2',
     ],
@@ -78,9 +79,18 @@ def test_a_csv_table_is_a_log(results: Results, table: str) -> None:
         ("door,degree,marker\n", "t.csv: expected a row with the percept at the start"),
         ("door,degree,marker\n0,2,0\n", "row 2: expected no door: the robot starts, got '0'"),
         ("door,degree,marker\n,2,0\n,2,\n", "row 3: expected a door, as in every row but"),
-        ("door,degree,marker\n\n,2,0\n1,two,\n", "row 4: expected a number as degree, got 'two'"),
-        ("door,degree,marker\n,2,0\n1,2,-1\n", "row 3: expected a number as marker, got '-1'"),
-        ("door,degree,marker\n,2,0\n1,,\n", "row 3: expected a number as degree, got ''"),
+        (
+            "door,degree,marker\n\n,2,0\n1,two,\n",
+            "row 4: expected a whole number from 0 on as degree, got 'two'",
+        ),
+        (
+            "door,degree,marker\n,2,0\n1,2,-1\n",
+            "row 3: expected a whole number from 0 on as marker, got '-1'",
+        ),
+        (
+            "door,degree,marker\n,2,0\n1,,\n",
+            "row 3: expected a whole number from 0 on as degree, got ''",
+        ),
         ("door,degree,marker\n,2,0\n1,9000000,\n", "row 3: Expected `int` <= 1000000"),
     ],
 )
@@ -114,10 +124,10 @@ def test_the_open_doors_are_named_with_a_way_there_and_the_worlds_that_differ(
         {"event": 0, "door": 1, "walk": [0, 1]},
     ]
     text = " ".join(call("certify short.jsonl").stdout.split())
-    assert "incomplete, true of several worlds, with 2 doors never crossed" in text
+    assert "incomplete, true of several worlds, with 2 doors not known to have been crossed" in text
     assert "door 1 of the place reached at event 1: from where the log ends, take door 1" in text
     assert "door 1 of the first place: from where the log ends, take doors 0, 1" in text
-    assert "2 worlds that show this log and differ" in text
+    assert "Two of the worlds that show this log; infinitely many do" in text
     assert "vertices and edges above are of the smaller one, not of your map" in text
 
 

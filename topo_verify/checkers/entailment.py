@@ -90,7 +90,7 @@ class FoldedTrace:
 def _require_start(seen: Percept) -> None:
     """Raise Contradiction unless some world shows this to a robot on the marked dart."""
     if not seen.marker == 0 < seen.degree and seen != Percept(0, None):
-        raise Contradiction(f"the robot starts on the marked dart and cannot see {seen}")
+        raise Contradiction(f"at the start door 0 is the marked one, so {seen} cannot be seen")
 
 
 @lru_cache(maxsize=16)

@@ -31,6 +31,9 @@ from topo_verify.world.formats import files
 MOST_OPEN_DOORS = 100
 """Most open doors of a log that are listed."""
 
+LONGEST_WALK = 20
+"""Most doors of a walk that people are shown."""
+
 
 class DecisionCount(msgspec.Struct, frozen=True):
     """How many of the declared decisions follow from the log before them."""
@@ -145,6 +148,8 @@ def certify(
                     ) from error
                 if map_file is not None and certificate.map is not None:
                     certificate.map.save(map_file)
+                elif map_file is not None:
+                    output.note(f"-o {map_file}: not written, for the log proves no map")
                 proof = None
                 if proving:
                     file = f"{_stem(traces, number)}.cert"
@@ -225,6 +230,11 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield Bullets(tuple(map(finding_line, entry.findings[:5])))
             if entry.trace.endswith(".csv"):
                 yield Text("Of a CSV table, event 0 is the row below the titles.")
+            if not entry.decisions.total:
+                yield Text(
+                    "There it shows; the wrong reading may be an earlier one. If you have a map:"
+                    " topo-verify tour MAP --against LOG names the first reading that does not fit."
+                )
         if entry.least_cost is not None:
             yield Text(
                 f"{entry.trace}: {plural(entry.moves, 'move')}; a proof of this map takes at least"
@@ -234,8 +244,8 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield from _show_open(entry, entry.advice)
         if entry.witnesses:
             yield Text(
-                f"{plural(len(entry.witnesses), 'world')} that show this log and differ (vertices"
-                " and edges above are of the smaller one, not of your map):"
+                "Two of the worlds that show this log; infinitely many do (vertices and edges above"
+                " are of the smaller one, not of your map; --witness DIR writes both):"
             )
             yield Bullets(entry.witnesses)
         if entry.kernel is not None:
@@ -247,7 +257,7 @@ def _show_open(entry: CertifyEntry, advice: Advice) -> Iterator[Block]:
     nearest = ", the nearest five" if entry.open_darts > 5 else ""
     yield Text(
         f"{entry.trace}: incomplete, true of several worlds, with"
-        f" {plural(entry.open_darts, 'door')} never crossed{nearest}:"
+        f" {plural(entry.open_darts, 'door')} not known to have been crossed{nearest}:"
     )
     yield Bullets(
         tuple(
@@ -272,7 +282,10 @@ def _place(event: int) -> str:
 
 
 def _doors(walk: Sequence[int]) -> str:
-    return f"door{'s'[: len(walk) > 1]} {', '.join(map(str, walk))}"
+    more = len(walk) - LONGEST_WALK
+    shown = ", ".join(map(str, walk[:LONGEST_WALK]))
+    rest = f" and {more} more (--format json has all)" if more > 0 else ""
+    return f"door{'s'[: len(walk) > 1]} {shown}{rest}"
 
 
 def _decisions(entry: CertifyEntry) -> str:

@@ -116,7 +116,8 @@ def replay(
         else:
             if world_text is not None:
                 raise InputError(
-                    f"--world {world_text}: expected a trace, got {subject}; leave --world out"
+                    f"--world {world_text}: expected a trace in JSON Lines, got {subject}; leave"
+                    " --world out, or, for a log in a table, use topo-verify tour MAP --against LOG"
                 )
             mapper = mappers.load_one()
             trace, at = None, runs.named_world(subject, marker, data)

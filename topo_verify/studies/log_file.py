@@ -7,8 +7,8 @@
 | 1 | 2 | 1 |
 
 The first row is the percept at the start; each further row is a door and the percept behind it. An
-empty cell may hold `-`, as `tour` prints it. Commas, semicolons or tabs separate the columns; other
-columns and empty rows are ignored.
+empty cell may hold a word of `EMPTY`, and a number may end in `.0`, as tables of floats write them.
+Commas, semicolons or tabs separate the columns; other columns and empty rows are ignored.
 """
 
 from __future__ import annotations
@@ -26,6 +26,9 @@ from topo_verify.robot.percept import Percept
 from topo_verify.world.formats import files
 
 COLUMNS = ("door", "degree", "marker")
+
+EMPTY = ("-", "nan", "none", "null", "na")
+"""What may stand in an empty cell: `-` is what `tour` prints."""
 
 
 def read_log(path: str) -> Trace:
@@ -77,15 +80,17 @@ def table_events(lines: Iterable[bytes], name: str) -> Iterator[Event]:
 
 
 def _event(cells: dict[str, str], place: str, *, begun: bool) -> Event:
-    door, degree, marker = (cells.get(column, "") for column in COLUMNS)
-    door, marker = ("" if text == "-" else text for text in (door, marker))
+    door, degree, marker = (cells.get(column, "").removesuffix(".0") for column in COLUMNS)
+    door, marker = ("" if text.lower() in EMPTY else text for text in (door, marker))
     if bool(door) != begun:
         expected = "a door, as in every row but the first" if begun else "no door: the robot starts"
         raise InputError(f"{place}: expected {expected}, got {door!r}")
     for column, text in (("door", door), ("degree", degree), ("marker", marker)):
         is_number = text.isascii() and text.isdigit() and len(text) < 10
         if not is_number and (text or column == "degree"):
-            raise InputError(f"{place}: expected a number as {column}, got {text!r}")
+            raise InputError(
+                f"{place}: expected a whole number from 0 on as {column}, got {text!r}"
+            )
     data = {"degree": int(degree), "marker": int(marker) if marker else None}
     try:
         percept = msgspec.convert(data, Percept)
