@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import pytest
 
 from tests.cli.conftest import Call, Refused, Results
@@ -64,5 +66,5 @@ def test_without_numba_the_extra_is_named(
     monkeypatch.setattr("topo_verify.compiled.available", lambda: False)
     refused(
         f"{line} --engine compiled",
-        "--engine compiled needs numba: pip install 'topo-verify[fast]'",
+        f"--engine compiled needs numba: {sys.executable} -m pip install numba, or",
     )

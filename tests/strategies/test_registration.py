@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hypothesis import find, settings
+from hypothesis import Phase, find, settings
 from hypothesis import strategies as st
 
 from tests.python import python
@@ -94,6 +94,8 @@ def test_registering_twice_does_no_harm() -> None:
     registration.register()
     assert find(st.from_type(World), lambda world: world.genus == 1).id == "m2/8"
     assert settings.get_profile("topo-ci").print_blob
+    for name in ("topo", "topo-ci", "topo-nightly"):
+        assert Phase.explain not in settings.get_profile(name).phases
 
 
 def test_an_explanation_names_the_users_lines_and_none_of_ours() -> None:

@@ -51,8 +51,8 @@ from topo_verify.world.rooted_map import Code, World
 BLOCK = 10_000
 """Listed worlds that are shuffled together."""
 
-ENGINE_SHARD = 500_000
-"""Worlds in a shard of the compiled engine, about two seconds of work."""
+ENGINE_SHARD = 100_000
+"""Worlds in a shard of the compiled engine, about half a second of work."""
 
 MAX_TIMEOUTS = 3
 """Time-outs, and in some studies failing worlds, after which a mapper's other worlds are left."""

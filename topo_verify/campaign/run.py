@@ -178,7 +178,9 @@ def explore(
     if limit in ("move-timeout", "world-timeout"):
         robot.settle()
     if limit == "move-timeout" and target.text.startswith(PREFIX):
-        stopped = f"{stopped}; a program must flush its output after each line"
+        flush = "a program must flush its output after each line"
+        why = "it computes on, or waits for an answer" if robot.events else flush
+        stopped = f"{stopped}; {why}"
     misbehaved = None
     if isinstance(target.mapper, Program):
         misbehaved = target.mapper.misbehaved
@@ -364,5 +366,6 @@ def require_compiled(targets: Iterable[Target], limits: Limits, *, libraries: bo
     if replace(limits, budget=None) != Limits():
         raise InputError(
             "--engine compiled cannot stop a run after some seconds, and its runs are bounded by"
-            " the number of moves: leave out --move-timeout and --world-timeout, or --engine"
+            " the number of moves: leave out --move-timeout and --world-timeout, or add --engine"
+            " reference"
         )

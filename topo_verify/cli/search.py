@@ -215,7 +215,11 @@ def _opened(
         known = store.resumed(campaign, mappers, depends)
         if known.since is not None:
             output.timing["ledger"] = dict(zip(("first", "last"), known.since, strict=True))
-        yield known
+        try:
+            yield known
+        except KeyboardInterrupt:
+            output.note(f"{ledger} has the finished work: the same command goes on")
+            raise
         store.require_file()
 
 

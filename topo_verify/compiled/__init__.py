@@ -24,6 +24,7 @@ numpy.
 
 from __future__ import annotations
 
+import sys
 from importlib.util import find_spec
 
 from topo_verify.errors import InputError
@@ -36,4 +37,6 @@ def available() -> bool:
 def require(what: str) -> None:
     """Raise an InputError with the subject `what` unless numba is installed."""
     if not available():
-        raise InputError(f"{what} needs numba: pip install 'topo-verify[fast]'")
+        raise InputError(
+            f"{what} needs numba: {sys.executable} -m pip install numba, or --engine reference"
+        )

@@ -5,6 +5,8 @@
     topo-ci               the same examples everywhere, no deadline
     topo-nightly          new examples every time, fifty times as many
 
+They leave out the phase that explains: it traces the mapper, which makes long runs much slower.
+
 Hypothesis calls `register` at import, in every program, so it imports nothing that `import
 topo_verify` does not.
 """
@@ -12,8 +14,9 @@ topo_verify` does not.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
-from hypothesis import HealthCheck, settings
+from hypothesis import HealthCheck, Phase, settings
 from hypothesis import strategies as st
 from hypothesis.internal import scrutineer
 
@@ -35,14 +38,15 @@ def register() -> None:
     ours = [f"/topo_verify/{path.name}{'/**' * path.is_dir()}" for path in PACKAGE.iterdir()]
     known = scrutineer.UNHELPFUL_LOCATIONS
     scrutineer.__dict__["UNHELPFUL_LOCATIONS"] = (*known, *(n for n in ours if n not in known))
-    settings.register_profile("topo", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+    # speed depends on the machine and the world
+    calm: dict[str, Any] = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
+    calm["phases"] = [phase for phase in Phase if phase != Phase.explain]
+    settings.register_profile("topo", **calm)
     for name, examples in (("topo-ci", 100), ("topo-nightly", 5_000)):
         settings.register_profile(
             name,
             max_examples=examples,
             derandomize=name == "topo-ci",
-            deadline=None,
             print_blob=True,
-            # speed depends on the machine and the world
-            suppress_health_check=[HealthCheck.too_slow],
+            **calm,
         )

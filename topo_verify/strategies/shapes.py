@@ -214,7 +214,11 @@ def require_marker(strategy: str, marker: str, known: tuple[str, ...]) -> None:
 
 def _in_order(strategy: str, quantity: str, least: int, most: int) -> None:
     if least > most:
-        mend = "min_edges=0 draws m0/0, too" if (quantity, most) == ("edges", 0) else "swap them"
+        mend = (
+            "min_edges=0 draws m0/0, too"
+            if (quantity, most) == ("edges", 0)
+            else (f"lower the one, or raise max_{quantity}")
+        )
         raise InputError(
             f"{strategy}: min_{quantity}={least} is above max_{quantity}={most}: {mend}"
         )
