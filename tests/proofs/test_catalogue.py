@@ -50,7 +50,7 @@ def test_a_name_is_chosen_once_and_in_the_order_given() -> None:
 
 
 def test_a_theorem_in_coq_is_also_found_by_its_place_there() -> None:
-    (theorem,) = choose(["Undirected.undirected_not_enough"])
+    (theorem,) = choose(["Undirected.undirected_not_enough", "undirected_not_enough"])
     assert theorem.name == "coq-undirected-mapper"
 
 

@@ -182,7 +182,8 @@ def _show(entries: Sequence[pts.FigurePoint], out: str, seed: int) -> Iterator[B
     yield Text(judged_sentence(entries))
     for point in entries:
         yield from finding_blocks(point.findings, f"{point.algorithm} in figure {point.figure}")
-    yield Text(f"CSV, pictures and {PAGE} are in {out}; seed {seed}.")
+    drawn = "CSV, pictures" if find_spec("matplotlib") else "CSV"
+    yield Text(f"{drawn} and {PAGE} are in {out}; seed {seed}.")
 
 
 def _table(figure: fig.Figure, points: Sequence[pts.FigurePoint]) -> TextTable:

@@ -61,7 +61,7 @@ def choose(
     """The theorems with these names, of these kinds, with at most these edges.
 
     Args:
-        names: none: all that take seconds. One in Coq is also found as `File.theorem`.
+        names: none: all that take seconds. One in Coq is also found by its name there.
         deep: also those that take minutes; named ones are always chosen, mechanised ones by kind.
     Raises:
         InputError: no such theorem, or too many edges.
@@ -69,12 +69,16 @@ def choose(
     everything = catalogue(edges)
     known = {theorem.name: theorem for theorem in everything}
     in_coq = {f"{row.file}.{row.theorem}": row.name for row in STATEMENTS}
+    in_coq |= {row.theorem: row.name for row in STATEMENTS}
     names = [in_coq.get(name, name) for name in names]
     for name in names:
         if name not in known:
             close = get_close_matches(name, known, n=3)
             mend = f"do you mean {' or '.join(close)}? " if close else ""
-            raise InputError(f"no theorem {name!r}: {mend}topo-verify prove --list lists them")
+            raise InputError(
+                f"no theorem {name!r} in the catalogue: {mend}topo-verify prove --list lists them;"
+                " other lemmas of Coq are in topo_verify/proofs/coq"
+            )
     chosen = tuple(known[name] for name in dict.fromkeys(names)) or tuple(
         theorem
         for theorem in everything
