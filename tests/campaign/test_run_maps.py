@@ -65,6 +65,7 @@ class Endless(list[Any]):
     ("result", "reason"),
     [
         (None, "NoneType has no 'vertices'"),
+        ((door for door in (0, 1)), "returned a generator: it has a `yield`"),
         ("a map", "str has no 'vertices'"),
         ({"vertices": VERTICES, "edges": EDGES}, "dict has no 'marker'"),
         (Slotted, "type has no 'vertices'"),

@@ -100,7 +100,7 @@ def test_a_faulty_mapper_is_refuted_and_the_line_shows_it_again(
 
 def test_a_refuted_part_shows_its_smallest_counterexample(call: Call) -> None:
     text = call("verify mappers.py:guesses --quick").stdout
-    assert "smallest counterexample: m1/1:" in text
+    assert "smallest counterexample here: m1/1:" in text
     assert "again: topo-verify replay m1/1 --target mappers.py:guesses\n" in text
     assert "A claim fails" in text
     _, _, walk = text.partition("The walk of mappers.py:guesses in m1/1:")

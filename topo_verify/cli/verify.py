@@ -157,7 +157,7 @@ def _first(entry: Part) -> Iterator[Block]:
     smallest = [f for f in entry.findings if f.replay == entry.findings[0].replay]
     if smallest:
         yield from finding_blocks(
-            smallest, f"smallest counterexample: {smallest[0].world}", shown=2
+            smallest, f"smallest counterexample here: {smallest[0].world}", shown=2
         )
 
 

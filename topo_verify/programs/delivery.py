@@ -9,6 +9,7 @@ import os
 import traceback
 from collections.abc import Callable
 from contextlib import suppress
+from inspect import isgenerator
 from operator import index
 from pathlib import Path
 from typing import NamedTuple, TypeVar
@@ -104,6 +105,8 @@ def finish_of(result: object) -> Finish:
     Raises:
         InputError: the result is no map, or its cost is no integer.
     """
+    if isgenerator(result):
+        raise InputError("the mapper returned a generator: it has a `yield`; return the map")
     vertices, edges, marker = map_parts(result)
     cost = optional_part(result, "cost")
     if cost is not None and (isinstance(cost, bool) or not hasattr(cost, "__index__")):
