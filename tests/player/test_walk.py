@@ -190,7 +190,7 @@ def test_what_was_never_crossed_is_listed_where_the_map_is_not_proved() -> None:
     shown = text(played("m3/8", guesses))
     assert "Never crossed: w1:2 to w1:4, w1:3 to w1:5." in shown
     assert "vertex 1 has degree 5 in the world and 1 in the map" in shown
-    assert "The mapper has declared nothing of how its map S grows." in shown
+    assert "The mapper has declared nothing about its map S." in shown
 
 
 def test_a_confirmation_that_was_not_walked_says_what_the_way_home_is() -> None:

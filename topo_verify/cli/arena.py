@@ -107,6 +107,8 @@ def arena(
     if game is not None:
         return game_of_catalogue(output, game, [*texts, *named])
     own = [own_suite(worlds)] if worlds else []
+    if own and seed:
+        output.note("--seed draws the worlds of named suites; those of --worlds stay the same")
     suites = (*own, *(chosen_suites(suite or DEFAULT) if suite or not own else ()))
     asked = _asked(texts, named, commands, libraries)
     folder = None if out is None else options.make_folder(out, "--out")
@@ -247,6 +249,8 @@ def _show(
         if number:
             yield Text("")
         yield files.standings(suite, table, league.seed, memory)
+    if pictures:
+        yield Text(files.LEGEND)
     for remark in league.remarks:
         yield Text("")
         yield Text(remark)

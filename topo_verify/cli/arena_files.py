@@ -50,6 +50,12 @@ Memory = Callable[[lg.LeagueEntry], float | None]
 """The mebibytes of a mapper in its most expensive world of a suite, if known."""
 
 
+LEGEND = (
+    "LB: the least cost of a proof of the map. behind: the mean difference to the first of the"
+    " table, in the same worlds, in LB. ±: half of a 95 % confidence interval. =: a shared place,"
+    " for the difference is not significant. free: hypotheses rejected without motion."
+)
+
 VARYING = (
     "ms/move and MiB depend on the machine: processor time a move of mapper and robot, and the most"
     " memory in the mapper's most expensive world."
@@ -143,7 +149,7 @@ def _figure(figure: lg.MeanInterval | lg.LeagueBehind | None, sign: str = "") ->
     if figure.high is None:
         return mean
     reach = figure.high - figure.mean
-    return f"{mean} ± {reach:.2f}" if reach else f"{mean} exact"
+    return f"{mean} ±{reach:.2f}" if reach else f"{mean} exact"
 
 
 def _free(entry: lg.LeagueEntry) -> str:

@@ -227,7 +227,7 @@ class _View:
 
     def map(self) -> Iterator[str]:
         if not any(isinstance(event, ev.Augment) for event in self.playback.trace):
-            yield "The mapper has declared nothing of how its map S grows."
+            yield "The mapper has declared nothing about its map S."
             return
         head = f"S after event {self.focus}, vertex by vertex, clockwise; in brackets what is so"
         yield from self.wrapped(f"{head} in the world, where S does not say it:")
