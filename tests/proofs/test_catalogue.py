@@ -54,6 +54,11 @@ def test_a_theorem_in_coq_is_also_found_by_its_place_there() -> None:
     assert theorem.name == "coq-undirected-mapper"
 
 
+def test_a_name_of_the_catalogue_comes_before_one_in_coq() -> None:
+    chosen = [theorem.name for one in catalogue() for theorem in choose([one.name])]
+    assert chosen == [theorem.name for theorem in catalogue()]
+
+
 def test_no_such_theorem_is_refused_with_what_comes_near() -> None:
     with pytest.raises(InputError, match="do you mean trace-step"):
         choose(["trace-stop"])

@@ -37,6 +37,8 @@ def test_a_graph_of_a_file_is_named_by_its_number(tmp_path: Path) -> None:
     assert resolve_world(f"{file}:1").is_isomorphic(cube)
     with pytest.raises(InputError, match="holds 2 graphs, and graph 2"):
         resolve_world(f"{file}:2")
+    with pytest.raises(InputError, match="no such world"):
+        resolve_world(f"{file}:{'9' * 5000}")
 
 
 def test_an_id_names_its_world() -> None:

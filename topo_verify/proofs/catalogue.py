@@ -70,7 +70,7 @@ def choose(
     known = {theorem.name: theorem for theorem in everything}
     in_coq = {f"{row.file}.{row.theorem}": row.name for row in STATEMENTS}
     in_coq |= {row.theorem: row.name for row in STATEMENTS}
-    names = [in_coq.get(name, name) for name in names]
+    names = [name if name in known else in_coq.get(name, name) for name in names]
     for name in names:
         if name not in known:
             close = get_close_matches(name, known, n=3)

@@ -117,6 +117,7 @@ def _literal(node: ast.expr, text: str, syntax: CallSyntax) -> Argument:
 
 
 _ID = re.compile(r"m[0-9]+/[0-9]+")
+_NUMBERED = re.compile(r"(.+):([0-9]{1,9})")
 _FAMILY = CallSyntax("family of worlds", "family:", "family:lattice(3,4,seed=7)")
 
 
@@ -136,9 +137,9 @@ def resolve_world(text: str, *, stdin: IO[bytes] | None = None) -> World:
         return World.from_id(text)
     if text.startswith("family:"):
         return call(text.removeprefix("family:"), FAMILIES, _FAMILY)
-    path, _, number = text.rpartition(":")
-    if not _exists(text) and number.isdecimal() and _exists(path):
-        return World.load(path, graph=int(number))
+    numbered = _NUMBERED.fullmatch(text)
+    if numbered and not _exists(text) and _exists(numbered[1]):
+        return World.load(numbered[1], graph=int(numbered[2]))
     if not _exists(text):
         raise InputError(
             f"no such world: '{shown(text)}' is not a file; give a path, an id (m5/17), a family"
