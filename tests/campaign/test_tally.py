@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cache
 from itertools import chain, pairwise
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -58,3 +59,13 @@ def test_the_notable_rows_of_groups_have_the_notable_rows_of_all(mappers: tuple[
         assert notable(chain.from_iterable(kept)) == notable(every)
 
     have_all()
+
+
+def test_the_first_undecided_world_of_a_size_is_notable() -> None:
+    every = [row for (row,) in rows_by_world(("enhancement-i",))]
+    for at in (50, 51):  # neither the first nor the last world of its size
+        why = {"undecided": "out of time", "timed_out": True, "claims": ()}
+        every[at] = msgspec.structs.replace(every[at], **why)
+    assert every[50] in notable(every)
+    assert every[51] not in notable(every)
+    assert notable([*notable(every[:50]), *notable(every[50:])]) == notable(every)
