@@ -43,7 +43,7 @@ class DecisionCount(msgspec.Struct, frozen=True):
 
 
 class CertifyEntry(msgspec.Struct, frozen=True):
-    """One log.
+    """What one log proves.
 
     Attributes:
         verdict: PROVED. UNKNOWN: several worlds show the log. REFUTED: no world shows it, or a

@@ -44,7 +44,7 @@ class ChosenPolicies(msgspec.Struct, frozen=True):
 
 
 class ExploreEntry(msgspec.Struct, frozen=True):
-    """One run.
+    """One run of a mapper.
 
     Attributes:
         isomorphic: the map is the world.

@@ -50,7 +50,7 @@ class SecondOpinion(msgspec.Struct, frozen=True):
 
 
 class ProveEntry(msgspec.Struct, frozen=True):
-    """One theorem.
+    """One theorem and its verdict.
 
     Attributes:
         claim: the claims that rest on it, with commas.

@@ -55,7 +55,7 @@ def world() -> None:
 
 
 class ShowEntry(msgspec.Struct, frozen=True):
-    """One world.
+    """One world and its properties.
 
     Attributes:
         id: null beyond 200 edges.
@@ -360,7 +360,7 @@ def _ids(entries: Iterable[ListEntry]) -> Iterator[Block]:
 
 
 class SampleEntry(msgspec.Struct, frozen=True):
-    """One drawn world.
+    """One world drawn at random.
 
     Attributes:
         id: null beyond 200 edges.
@@ -483,7 +483,7 @@ def _show_sampled(entries: Sequence[SampleEntry]) -> Iterator[Block]:
 
 
 class DrawEntry(msgspec.Struct, frozen=True):
-    """One picture.
+    """One picture of a world.
 
     Attributes:
         file: null without -o.

@@ -72,7 +72,7 @@ class TooLong(Exception):
 
 
 class Child:
-    """A running program.
+    """A program that runs as a child process.
 
     Args:
         command: the program and its arguments; no shell expands them.
@@ -136,7 +136,7 @@ class Child:
 
     @property
     def process(self) -> int:
-        """The process id."""
+        """The id of its process."""
         return self._process.pid
 
     # ------------------------------------------------------------ lines

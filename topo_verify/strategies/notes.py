@@ -24,7 +24,7 @@ class ObservedRun(Protocol):
 
     @property
     def world(self) -> World:
-        """The explored world."""
+        """The world that was explored."""
         ...
 
     @property
@@ -39,12 +39,12 @@ class ObservedRun(Protocol):
 
     @property
     def cost(self) -> int:
-        """In edge traversals."""
+        """The cost in edge traversals."""
         ...
 
     @property
     def trace(self) -> Trace:
-        """All events."""
+        """All events of the run."""
         ...
 
 

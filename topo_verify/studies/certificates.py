@@ -67,7 +67,7 @@ class ReceivedDecisions(msgspec.Struct, frozen=True):
 
 
 class CertificateEntry(msgspec.Struct, frozen=True):
-    """One received certificate.
+    """What Coq says of a received certificate.
 
     Attributes:
         certificate: its file.

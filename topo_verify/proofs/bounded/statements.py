@@ -324,7 +324,7 @@ def _links(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoundedStatement:
-    """A bounded theorem.
+    """A theorem about worlds of bounded size.
 
     Attributes:
         refuted: for a number of edges, the clauses of a counterexample.

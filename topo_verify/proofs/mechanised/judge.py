@@ -63,7 +63,7 @@ class ProvedOpinion:
 def second_opinion(
     run: TracedRun, *, timeout: float, progress: Callable[[str], None] = lambda _: None
 ) -> ProvedOpinion:
-    """Judge one run.
+    """Judge one run by the judge that is proved.
 
     Raises:
         InputError: the installed Coq or OCaml refuses the sources; or as `numbers`.
