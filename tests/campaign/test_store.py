@@ -204,7 +204,7 @@ def test_killed_at_random_moments_it_ends_with_the_same_totals(
         (planned(kind="planar"), "its class is any, now it is planar"),
         (planned(choices="all"), "its ways is null, now it is .*:by_name"),
         (planned(keep_going=True), "its stop is .*1.*, now it is .*null"),
-        (planned(limits=Limits(9)), "its limits is"),
+        (planned(limits=Limits(9)), "its limits are"),
         (planned(seed=7), "its seed is 0, now it is 7"),
         (msgspec.structs.replace(BASIC, strict=True), "its strict is false, now it is true"),
         (msgspec.structs.replace(BASIC, validate=True), "its validate is false, now it is true"),
@@ -300,7 +300,7 @@ def test_a_campaign_of_a_changed_mapper_begins_anew_and_the_others_stay() -> Non
         assert other.get(more) is not None
         assert len(changes) == 1
         limited = msgspec.structs.replace(campaign, limits=Limits(9))
-        with pytest.raises(InputError, match="holds another campaign of one: its limits is"):
+        with pytest.raises(InputError, match="holds another campaign of one: its limits are"):
             store.campaign(limited.identity("now"), Loaded(), name="one", renew=changes.append)
         with pytest.raises(InputError, match="of one: the source of the mapper has changed since"):
             store.campaign(campaign.identity("then"), Loaded(), name="one")

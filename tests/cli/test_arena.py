@@ -112,7 +112,7 @@ def test_a_league_that_is_killed_goes_on_where_it_was(call: Call) -> None:
 def test_runs_under_other_limits_do_not_meet(call: Call, refused: Refused, option: str) -> None:
     line = "arena basic --suite triangle --workers 0 --out here"
     assert call(line).exit_code == 0
-    refused(f"{line} {option}", "holds another campaign of basic: its limits is")
+    refused(f"{line} {option}", f"its limits are the usual ones, now {option}; name another file")
 
 
 def test_a_store_of_version_02_is_named_and_left_alone(call: Call) -> None:
@@ -207,6 +207,21 @@ def test_a_folder_has_the_page_a_player_and_the_counterexample(call: Call) -> No
     assert "<svg" in Path("here", picture).read_text()
     entries = json.loads(Path("here/results.json").read_text())["results"]
     assert not any("ms_per_move" in entry for entry in entries)
+    assert [e["counterexample"]["ended"] for e in entries if e["counterexample"]] == ["map"]
+
+
+def test_a_page_plays_each_beside_the_first_where_it_loses_most(call: Call) -> None:
+    assert call(f"{LINE} --out here").exit_code == 0
+    (loss,) = (
+        entry["losses"][0]
+        for entry in json.loads(Path("here/results.json").read_text())["results"]
+        if entry["losses"]
+    )
+    words = f"loses most: {loss['cost']} edge traversals, folding {loss['other']}"
+    assert words in Path("here/table.md").read_text()
+    assert words in Path("here/report.html").read_text()
+    page = Path("here/players/basic.html").read_text()
+    assert f"<title>folding beside basic in {loss['world']}<" in page
 
 
 def test_a_program_takes_part_over_the_pipe_and_pays_what_its_twin_pays(results: Results) -> None:
@@ -308,6 +323,21 @@ def test_worlds_of_your_own_are_a_suite_in_which_nothing_is_drawn(
     assert [family["family"] for family in first["families"]] == ["family:wheel(4)", "edges<=2"]
     assert first["ratio"]["low"] == first["ratio"]["mean"] < second["ratio"]["mean"]
     assert "own: worlds of your own, 13 worlds\n" in call(line).stdout
+
+
+def test_a_sample_of_your_own_has_an_interval_and_another_seed_draws_it_anew(
+    results: Results, call: Call
+) -> None:
+    line = "arena basic --worlds drawn:4:lattice(3,3,holes=0.2) --worlds edges<=2 --workers 0"
+    one, other = (results(f"{line} --seed {seed}")["results"][0]["families"] for seed in (0, 7))
+    assert one[0]["ratio"]["low"] < one[0]["ratio"]["mean"] < one[0]["ratio"]["high"]
+    assert one[0] != other[0]
+    assert one[1] == other[1]
+    assert one[1]["ratio"]["low"] == one[1]["ratio"]["high"]
+    assert "drawn:4" in (said := call(f"{line} --seed 7")).stdout
+    assert "--seed draws nothing" not in said.stderr
+    alone = call("arena basic --worlds m2/4 --seed 7 --workers 0").stderr
+    assert "--seed draws nothing in --worlds without drawn: and generated:" in alone
 
 
 def test_drawn_worlds_without_a_name_are_no_suite(refused: Refused) -> None:

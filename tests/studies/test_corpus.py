@@ -58,6 +58,18 @@ def test_worlds_too_large_for_an_id_are_called_by_what_drew_them() -> None:
     assert at.replay_arguments == ("--worlds", at.group, "--seed", "4")
 
 
+def test_a_family_is_drawn_with_the_seeds_from_0_on_or_with_others() -> None:
+    text = "drawn:3:king(4,4)"
+    names = [at.name for at in corpus_from([text])]
+    assert names == [f"family:king(4,4,seed={seed})" for seed in range(3)]
+    assert [at.name for at in corpus_from(["drawn:3:family:king(4,4)"])] == names
+    other = [at.name for at in corpus_from([text], seed=9)]
+    assert len({*names, *other}) == 6
+    assert other == [at.name for at in corpus_from([text], seed=9)]
+    (part,) = corpus_from([text]).parts
+    assert (part.total, part.sample, part.finite) == (3, True, False)
+
+
 def test_a_folder_is_the_world_files_in_it_by_name(tmp_path: Path) -> None:
     for name, text in (("b.json", "m2/9"), ("a.json", "m1/0")):
         World.from_id(text).save(tmp_path / name)
@@ -97,6 +109,11 @@ def test_the_digest_names_the_worlds_and_nothing_else() -> None:
         ("generated:0", "'generated:N'"),
         ("generated", "'generated:N'"),
         ("generated:5:no_worlds", "no such strategy"),
+        ("drawn:0:king(4,4)", "'drawn:N:FAMILY'"),
+        ("drawn:king(4,4)", "'drawn:N:FAMILY'"),
+        ("drawn:2:king(4,4,seed=1)", "leave out seed="),
+        ("drawn:2:queen(4,4)", "no such family of worlds"),
+        ("drawn:2:torus(4,4)", "unexpected keyword argument 'seed'"),
         ("-", "name a file"),
         ("nowhere", "no such world"),
         ("m3/9999", "m3"),

@@ -173,7 +173,9 @@ class Store:
         for key, value in identity.items():
             if key != "hash" and known.get(key) != value:
                 change = f"its {key} is {known.get(key)}, now it is {value}"
-                if key == "toolkit":
+                if key == "limits":
+                    change = f"its limits are {_limits(known.get(key))}, now {_limits(value)}"
+                elif key == "toolkit":
                     change = "the source of topo-verify has changed since"
                 raise InputError(
                     f"{where}: {change}; name another file, or remove this one to start anew"
@@ -409,6 +411,13 @@ def _seal(meta: Mapping[tuple[str, str], str], last: str) -> str:
 
 
 # ---------------------------------------------------------------- errors
+
+
+def _limits(known: str | None) -> str:
+    """The options that set kept limits, in words."""
+    if known is None:
+        return "unknown"
+    return " ".join(msgspec.json.decode(known, type=Limits).options) or "the usual ones"
 
 
 def _require_file_name(path: str) -> str:

@@ -35,7 +35,7 @@ from topo_verify.studies.arena.suites import DEFAULT, SUITES, chosen_suites, own
 @options.command(
     "arena basic,folding",
     "arena basic,folding my_mapper.py:explore --suite lattices,regular",
-    "arena basic,folding --worlds 'family:wheel(6)' --worlds worlds/",
+    "arena basic,folding --worlds 'drawn:30:king(6,6)' --worlds worlds/",
     "arena --game 3",
     "arena all --cmd './mapper --fast' --suite all --seed 20261 --out league",
     reports=True,
@@ -106,9 +106,9 @@ def arena(
     """
     if game is not None:
         return game_of_catalogue(output, game, [*texts, *named])
-    own = [own_suite(worlds)] if worlds else []
-    if own and seed:
-        output.note("--seed draws the worlds of named suites; those of --worlds stay the same")
+    own = [own_suite(worlds, seed)] if worlds else []
+    if own and seed and own[0].exact:
+        output.note("--seed draws nothing in --worlds without drawn: and generated:")
     suites = (*own, *(chosen_suites(suite or DEFAULT) if suite or not own else ()))
     asked = _asked(texts, named, commands, libraries)
     folder = None if out is None else options.make_folder(out, "--out")
@@ -118,7 +118,7 @@ def arena(
     mappers = _loaded(asked, in_process=in_process)
     league = League(mappers, suites, seed, limits)
     _require_players(league)
-    most_expensive: list[acc.Exhibit] = []
+    played: list[acc.Exhibit] = []
 
     def entries() -> Iterator[Result[LeagueEntry]]:
         try:
@@ -129,16 +129,16 @@ def arena(
         table = league.entries()
         _run_again(output, league, table)
         if output.exhibits:
-            most_expensive.extend(files.dearest_exhibits(league))
+            played.extend(files.exhibits(league, table))
         if folder is not None:
-            files.write_folder(folder, league, table, most_expensive, output.found.exhibits)
+            files.write_folder(folder, league, table, played, output.found.exhibits)
         _add_timing(output, league, table)
         yield from map(_result, table)
         close(mappers)
 
     def account(table: Sequence[LeagueEntry]) -> acc.Account:
         blocks = _show(league, table, memory=None, pictures=True)
-        return _account(table, blocks, most_expensive, exact=all(s.exact for s in suites))
+        return _account(table, blocks, played, exact=all(s.exact for s in suites))
 
     close(mappers)
     show = partial(_show, league, memory=league.memory)
@@ -276,7 +276,7 @@ def _show(
 def _account(
     table: Sequence[LeagueEntry],
     blocks: Iterable[Block],
-    most_expensive: Sequence[acc.Exhibit],
+    played: Sequence[acc.Exhibit],
     *,
     exact: bool,
 ) -> acc.Account:
@@ -293,7 +293,7 @@ def _account(
         judged,
         acc.suites((f"{entry.mapper} in {entry.suite}", _cases(entry)) for entry in table),
         tuple(blocks),
-        others=tuple(most_expensive),
+        others=tuple(played),
         results_first=True,
     )
 

@@ -5,7 +5,7 @@
     results.json             the entries
     timing.json              milliseconds a move, memory
     ratio-SUITE.svg          cost / LB by family
-    players/MAPPER.html      a ranked mapper in its most expensive world
+    players/MAPPER.html      a ranked mapper where it loses most, beside the first
     counterexamples/         of a mapper without a place: the world, drawn, and its run
 
 All but `timing.json` and the page are equal, byte for byte, for equal runs.
@@ -16,6 +16,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from operator import attrgetter
 from pathlib import Path
 
 import msgspec
@@ -28,6 +29,7 @@ from topo_verify.cli.runs import claims_in_words, target_title
 from topo_verify.errors import plural
 from topo_verify.player.page import player_page
 from topo_verify.player.recording import PlayedRun
+from topo_verify.programs.loader import Target
 from topo_verify.report.account import Exhibit
 from topo_verify.report.blocks import Block, Bullets, Cell, Command, Text, TextTable
 from topo_verify.report.league import ratio_plot
@@ -190,13 +192,14 @@ def broken_blocks(entries: Sequence[lg.LeagueEntry]) -> Iterator[Block]:
                 total[entry.mapper] += worlds
         rows = [
             (
-                *(mapper, Cell(example.claim, tone="failed"), example.world, example.suite),
+                *(mapper, Cell(example.claim, tone="failed"), example.ended),
+                *(example.world, example.suite),
                 " of ".join(str(total[mapper]) for total in totals),
             )
             for mapper, example in broken.items()
         ]
         yield Text("")
-        columns = ("mapper", "claim that fails", "world", "suite", ">played to there")
+        columns = ("mapper", "claim that fails", "ended by", "world", "suite", ">played")
         yield TextTable(columns, rows, title="No place, for a claim fails")
     for mapper, example in broken.items():
         yield Text("")
@@ -209,38 +212,55 @@ def broken_blocks(entries: Sequence[lg.LeagueEntry]) -> Iterator[Block]:
 # ---------------------------------------------------------------- the files
 
 
-def dearest_exhibits(league: lg.League) -> Iterator[Exhibit]:
-    """Each ranked mapper in its most expensive world, run once more."""
-    most_expensive: dict[str, lg.MostExpensiveWorld] = {}
-    for entry in league.entries():
-        worst, previous = entry.dearest, most_expensive.get(entry.mapper)
-        if entry.place is None or worst is None:
-            continue
-        if previous is None or worst.ratio > previous.ratio:
-            most_expensive[entry.mapper] = worst
-    for mapper in league.mappers:
-        if (worst := most_expensive.get(mapper.text)) is None:
-            continue
-        world = resolve_world(worst.world)
+def exhibits(league: lg.League, table: Sequence[lg.LeagueEntry]) -> Iterator[Exhibit]:
+    """Each ranked mapper, run once more where it loses most, beside the first of the table.
+
+    One that loses nowhere is shown alone, in its most expensive world.
+    """
+    targets = {mapper.text: mapper for mapper in league.mappers}
+    for text, mapper in targets.items():
+        entries = [e for e in table if e.mapper == text and e.place is not None]
+        lost = [(e.losses[0], e.behind.mapper) for e in entries if e.losses and e.behind]
+        if lost:
+            loss, best = max(lost, key=lambda pair: pair[0].excess)
+            words = f"loses most: {loss.cost} edge traversals, {best} {loss.other}"
+            yield _exhibit(league, loss, [targets[best], mapper], words, loss.show)
+        elif entries:
+            worst = max((e.dearest for e in entries if e.dearest), key=attrgetter("ratio"))
+            words = f"most expensive: {worst.cost} edge traversals, {worst.ratio:.2f} × LB"
+            again = replay_line(worst.world, text, None, league.limits.options)
+            yield _exhibit(league, worst, [mapper], words, again)
+
+
+def _exhibit(
+    league: lg.League,
+    at: lg.LostWorld | lg.MostExpensiveWorld,
+    mappers: Sequence[Target],
+    words: str,
+    again: str,
+) -> Exhibit:
+    world = resolve_world(at.world)
+    runs: list[PlayedRun] = []
+    for mapper in mappers:
         run = explore(world, mapper, limits=league.limits)
         judgements = check(world, run.trace, run.stopped)
-        cost = f"{worst.cost} edge traversals, {worst.ratio:.2f} × LB = {worst.least}"
-        yield Exhibit(
-            title=target_title(mapper.text, worst.world),
-            world=world,
-            name=worst.world,
-            notes=(f"most expensive: {cost}",),
-            runs=(PlayedRun(mapper.text, run.trace, tuple(judgements), run.stopped),),
-            again=replay_line(worst.world, mapper.text, None, league.limits.options),
-            whole=True,
-        )
+        runs.append(PlayedRun(mapper.text, run.trace, tuple(judgements), run.stopped))
+    return Exhibit(
+        title=target_title(mappers[-1].text, at.world),
+        world=world,
+        name=at.world,
+        notes=(f"{words}, LB {at.least}",),
+        runs=tuple(runs),
+        again=again,
+        whole=True,
+    )
 
 
 def write_folder(
     folder: Path,
     league: lg.League,
     table: Sequence[lg.LeagueEntry],
-    most_expensive: Sequence[Exhibit],
+    played: Sequence[Exhibit],
     counterexamples: Sequence[Exhibit],
 ) -> None:
     """Write all files of the league into the folder."""
@@ -251,13 +271,13 @@ def write_folder(
     for suite in league.suites:
         if plot := plot_of(league, suite, table):
             files.write(folder / f"ratio-{suite.name}.svg", plot)
-    for exhibit in most_expensive:
+    for exhibit in played:
         _write_player(folder / "players", exhibit)
     for exhibit in counterexamples:
         _write_player(folder / "counterexamples", exhibit)
         name = _stem(exhibit)
         files.write(folder / "counterexamples" / f"{name}.svg", exhibit.world.draw())
-    files.write(folder / "table.md", _table(league, table, most_expensive, counterexamples))
+    files.write(folder / "table.md", _table(league, table, played, counterexamples))
 
 
 def _write_player(folder: Path, exhibit: Exhibit) -> None:
@@ -269,7 +289,7 @@ def _write_player(folder: Path, exhibit: Exhibit) -> None:
 
 def _stem(exhibit: Exhibit) -> str:
     # A program's TARGET begins with dashes.
-    return file_name(exhibit.runs[0].name if exhibit.runs else exhibit.title).lstrip("-")
+    return file_name(exhibit.runs[-1].name if exhibit.runs else exhibit.title).lstrip("-")
 
 
 def _results(league: lg.League, table: Sequence[lg.LeagueEntry]) -> str:
@@ -299,7 +319,7 @@ def _timing(league: lg.League, table: Sequence[lg.LeagueEntry]) -> str:
 def _table(
     league: lg.League,
     table: Sequence[lg.LeagueEntry],
-    most_expensive: Sequence[Exhibit],
+    played: Sequence[Exhibit],
     counterexamples: Sequence[Exhibit],
 ) -> str:
     parts = ["# The arena\n"]
@@ -310,12 +330,12 @@ def _table(
         parts.append(markdown(suite_blocks(suite, table)))
         if ranked_in(suite, table):
             parts.append(f"![cost / LB in {suite.name}](ratio-{suite.name}.svg)\n")
-    if most_expensive:
-        parts.append("## The most expensive worlds\n")
-        for exhibit in most_expensive:
+    if played:
+        parts.append("## Where each loses most\n")
+        for exhibit in played:
             words = Text(f"{exhibit.title}, {exhibit.notes[0]}")
             parts.append(markdown([words, Command(exhibit.again, "again: ")]))
-            parts.append(f"[The run, step by step](<players/{_stem(exhibit)}.html>)\n")
+            parts.append(f"[Step by step](<players/{_stem(exhibit)}.html>)\n")
     if broken := list(broken_blocks(table)):
         parts.append("## No place\n")
         parts.append(markdown(broken))

@@ -56,7 +56,8 @@ def _seeds(_context: click.Context, _option: click.Parameter, value: str | None)
     "texts",
     multiple=True,
     metavar="WORLDS",
-    help="corpus, edges<=N, generated:N[:STRATEGY], a folder, any WORLD; may be repeated."
+    help="corpus, edges<=N, generated:N[:STRATEGY], drawn:N:FAMILY, a folder, any WORLD;"
+    " may be repeated."
     "  [default: corpus]",
 )
 @click.option(

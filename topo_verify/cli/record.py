@@ -32,7 +32,7 @@ SHOWN = 3
     "--worlds",
     multiple=True,
     metavar="WORLDS",
-    help="corpus, edges<=N, generated:N, a folder or a WORLD; repeatable.  [default: corpus]",
+    help="As in conform: edges<=4, drawn:9:king(4,4), a folder …; repeatable.  [default: corpus]",
 )
 @options.seed("Seed of the generated worlds.")
 @options.mappers(with_policies=True)

@@ -6,6 +6,7 @@
 | `edges<=5` | every world of 1 to 5 edges, in the order of their ids |
 | `generated:200` | 200 worlds, spread evenly over the strategies |
 | `generated:200:STRATEGY` | 200 worlds of one, e.g. `planar_worlds(max_edges=20)` |
+| `drawn:30:FAMILY` | 30 worlds of a family with seeds, e.g. `lattice(10,10,holes=0.2)` |
 | a folder | its world files, by name |
 | any WORLD | this world: a path, `family:…`, an id, `nyc` |
 
@@ -71,12 +72,18 @@ class Named:
 
 @dataclass(frozen=True)
 class CorpusPart:
-    """The worlds that one text names; each call of `listed` lists them anew."""
+    """The worlds that one text names; each call of `listed` lists them anew.
+
+    Attributes:
+        finite: they are every world of a finite class.
+        sample: they are drawn; another seed draws others.
+    """
 
     text: str
     total: int
     listed: Callable[[], Iterator[Named]]
     finite: bool = False
+    sample: bool = False
 
 
 @dataclass(frozen=True)
@@ -149,6 +156,8 @@ def _parts(text: str, seed: int) -> Iterator[CorpusPart]:
         yield _enumerated(text)
     elif text.startswith("generated"):
         yield _generated(text, seed)
+    elif text.startswith("drawn:"):
+        yield _drawn(text, seed)
     elif text == "-":
         raise InputError("--worlds -: standard input is read only once; name a file or a folder")
     elif _is_folder(text):
@@ -197,7 +206,7 @@ def _generated(text: str, seed: int) -> CorpusPart:
         worlds += drawn(f"--worlds {text!r}", strategy, each + (place < more), seed)
     arguments = ("--worlds", text, "--seed", str(seed))
     named = [_named(f"{text}#{i}", world, text, arguments) for i, world in enumerate(worlds)]
-    return _listed(text, named)
+    return _listed(text, named, sample=True)
 
 
 def drawn(asked: str, strategy: str, number: int, seed: int) -> list[World]:
@@ -214,11 +223,40 @@ def drawn(asked: str, strategy: str, number: int, seed: int) -> list[World]:
         raise InputError(f"{asked}: {strategy} draws no worlds: {error}") from error
 
 
+def _drawn(text: str, seed: int) -> CorpusPart:
+    match = re.fullmatch(r"drawn:([0-9]{1,9}):(.+\))", text, re.DOTALL)
+    number = int(match[1]) if match else 0
+    if match is None or not 1 <= number <= MOST_GENERATED:
+        raise InputError(
+            f"--worlds: expected 'drawn:N:FAMILY' with N from 1 to {MOST_GENERATED:,}, as in"
+            f" 'drawn:30:lattice(10,10,holes=0.2)', got {text!r}"
+        )
+    if re.search(r"\bseed\s*=", match[2]):
+        raise InputError(
+            f"--worlds {text!r}: the seeds are drawn; leave out seed= from the call, and give"
+            " --seed for other worlds"
+        )
+    names = drawn_names(match[2].removeprefix("family:"), number, seed)
+    _by_name(names[0], text)  # refuse a wrong call early
+    return CorpusPart(text, number, lambda: (_by_name(name, text) for name in names), sample=True)
+
+
+def drawn_names(call: str, number: int, seed: int) -> list[str]:
+    """The worlds of a family with seeds 0, 1, …, or with others for a `seed` other than 0."""
+    head = call.removesuffix(")")
+    seeds = range(number) if seed == 0 else [_drawn_seed(seed, call, k) for k in range(number)]
+    return [f"family:{head},seed={drawn})" for drawn in seeds]
+
+
+def _drawn_seed(seed: int, call: str, place: int) -> int:
+    return int.from_bytes(sha256(f"{seed} {call} {place}".encode()).digest()[:6])
+
+
 # ---------------------------------------------------------------- named
 
 
-def _listed(text: str, worlds: Sequence[Named]) -> CorpusPart:
-    return CorpusPart(text, len(worlds), lambda: iter(worlds))
+def _listed(text: str, worlds: Sequence[Named], *, sample: bool = False) -> CorpusPart:
+    return CorpusPart(text, len(worlds), lambda: iter(worlds), sample=sample)
 
 
 def _by_name(name: str, group: str) -> Named:

@@ -96,11 +96,16 @@ class MostExpensiveWorld(msgspec.Struct, frozen=True):
 
 
 class LeagueCounterexample(msgspec.Struct, frozen=True):
-    """The first world in which a claim fails."""
+    """The first world in which a claim fails.
+
+    Attributes:
+        ended: `map`, a limit, a misbehaviour, `no-map` or `worker-lost`.
+    """
 
     suite: str
     world: str
     edges: int
+    ended: str
     claim: str
     message: str
     replay: str
@@ -285,7 +290,8 @@ class League:
         finding = failure.findings[0]
         suite = next(part.name for part in self.suites if failure.world in part.worlds(self.seed))
         return LeagueCounterexample(
-            suite, failure.world, failure.edges, finding.claim, finding.message, finding.replay
+            *(suite, failure.world, failure.edges, failure.ended),
+            *(finding.claim, finding.message, finding.replay),
         )
 
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from hashlib import sha256
+from functools import partial
 
 from topo_verify.errors import InputError
 from topo_verify.programs.loader import close_name
-from topo_verify.studies.corpus import CorpusPart, corpus_from
+from topo_verify.studies.corpus import CorpusPart, corpus_from, drawn_names
 from topo_verify.world.enumeration import rank_order
 
 DEFAULT = "default"
@@ -65,19 +65,7 @@ class Suite:
 
 def drawn(call: str, number: int, *, planar: bool = False) -> SuiteFamily:
     """A family with a seed, by its call without one."""
-    head = call.removesuffix(")")
-    return SuiteFamily(
-        call,
-        number,
-        lambda seed: [f"family:{head},seed={_drawn_seed(seed, call, k)})" for k in range(number)],
-        planar=planar,
-    )
-
-
-def _drawn_seed(seed: int, call: str, place: int) -> int:
-    if seed == 0:
-        return place
-    return int.from_bytes(sha256(f"{seed} {call} {place}".encode()).digest()[:6])
+    return SuiteFamily(call, number, partial(drawn_names, call, number), planar=planar)
 
 
 def alike(call: str, *markers: int) -> SuiteFamily:
@@ -147,9 +135,10 @@ def chosen_suites(text: str) -> list[Suite]:
     return [SUITES[name] for name in names]
 
 
-def own_suite(texts: Sequence[str]) -> Suite:
-    """The suite `own`: the worlds that these WORLDS name, a family each; nothing is drawn."""
-    return Suite("own", "worlds of your own", tuple(map(_own, corpus_from(texts).parts)))
+def own_suite(texts: Sequence[str], seed: int = 0) -> Suite:
+    """The suite `own`: the worlds that these WORLDS name, a family each."""
+    parts = corpus_from(texts, seed=seed).parts
+    return Suite("own", "worlds of your own", tuple(map(_own, parts)))
 
 
 def _own(part: CorpusPart) -> SuiteFamily:
@@ -162,4 +151,4 @@ def _own(part: CorpusPart) -> SuiteFamily:
             )
     names = [at.name for at in named]
     planar = all(at.world.genus == 0 for at in named)
-    return SuiteFamily(part.text, len(names), lambda _seed: names, exact=True, planar=planar)
+    return SuiteFamily(part.text, len(names), lambda _seed: names, not part.sample, planar)
