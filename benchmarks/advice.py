@@ -13,7 +13,6 @@ from statistics import mean
 import topo_verify as tv
 from topo_verify.robot.events import Event, Start
 from topo_verify.robot.simulator import exit_dart, first_percept
-from topo_verify.studies.advice import advice
 from topo_verify.studies.log_report import certify
 from topo_verify.studies.map_check import moves
 from topo_verify.world.resolve import resolve_world
@@ -35,7 +34,7 @@ def followed(world: tv.World, stroll: int, random: Random) -> tuple[int, int]:
     for _ in range(stroll):
         go((random.randrange(world.degrees[world.vertex_of[at]]),))
     rounds = 0
-    while (way := advice(certify(log))) is not None:
+    while (way := certify(log).advice) is not None:
         go(way.walk)
         rounds += 1
     return len(log) - 1 - stroll, rounds

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from topo_verify.robot.events import Policies, Robot
     from topo_verify.robot.limits import Limits
     from topo_verify.robot.percept import Percept
+    from topo_verify.studies.log_file import read_log
     from topo_verify.studies.log_report import Certificate, certify
     from topo_verify.world import families
     from topo_verify.world.enumeration.classes import WorldClass
@@ -58,6 +59,7 @@ __all__ = [
     "examine",
     "explore",
     "families",
+    "read_log",
     "strategies",
     "worlds",
 ]
@@ -75,6 +77,7 @@ _MODULES = {
     "robot.events": ("Policies", "Robot"),
     "robot.percept": ("Percept",),
     "campaign.judge": ("Report", "assert_maps", "examine"),
+    "studies.log_file": ("read_log",),
     "studies.log_report": ("Certificate", "certify"),
     "campaign.run": ("Exploration", "explore"),
     "world": ("families",),

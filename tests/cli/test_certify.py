@@ -92,10 +92,24 @@ def test_a_csv_table_is_a_log(results: Results, table: str) -> None:
             "row 3: expected a whole number from 0 on as degree, got ''",
         ),
         ("door,degree,marker\n,2,0\n1,9000000,\n", "row 3: Expected `int` <= 1000000"),
+        (
+            "door,degree,marker\n,1,0\n0,1",
+            "row 3: expected 3 cells, as in the row",
+        ),
+        ("door,degree,marker\n,2,0\n1,2,1,9\n", "row 3: expected 3 cells, as in the row"),
+        (
+            "door,door,degree,marker\n,,2,0\n",
+            "row 1: expected the columns door, degree, marker, got",
+        ),
+        (
+            "# robot 7\ndoor,degree,marker\n,2,0\n",
+            "row 1: expected the columns door, degree, marker",
+        ),
+        ("\ufeff".encode("utf-16"), "t.csv: expected text in UTF-8, got UTF-16"),
     ],
 )
-def test_an_error_in_a_table_names_the_row(refused: Refused, table: str, why: str) -> None:
-    Path("t.csv").write_text(table)
+def test_an_error_in_a_table_names_the_row(refused: Refused, table: str | bytes, why: str) -> None:
+    Path("t.csv").write_bytes(table if isinstance(table, bytes) else table.encode())
     refused("certify t.csv", why)
 
 
@@ -120,15 +134,37 @@ def test_the_open_doors_are_named_with_a_way_there_and_the_worlds_that_differ(
 ) -> None:
     (entry,) = results("certify short.jsonl", code=3)["results"]
     assert entry["open_doors"] == [
-        {"event": 1, "door": 1, "walk": [1]},
-        {"event": 0, "door": 1, "walk": [0, 1]},
+        {"event": 1, "place": 1, "door": 1, "walk": [1]},
+        {"event": 0, "place": 0, "door": 1, "walk": [0, 1]},
     ]
     text = " ".join(call("certify short.jsonl").stdout.split())
     assert "incomplete, true of several worlds, with 2 doors not known to have been crossed" in text
-    assert "door 1 of the place reached at event 1: from where the log ends, take door 1" in text
-    assert "door 1 of the first place: from where the log ends, take doors 0, 1" in text
+    assert "door 1 of place 1 (reached at event 1): from where the log ends, take door 1" in text
+    assert "door 1 of place 0 (the first): from where the log ends, take doors 0, 1" in text
     assert "Two of the worlds that show this log; infinitely many do" in text
-    assert "vertices and edges above are of the smaller one, not of your map" in text
+    assert "short.jsonl ? UNKNOWN - - 2 none declared" in text
+
+
+def test_a_picture_shows_what_is_known_and_each_open_door_dotted(
+    call: Call, refused: Refused
+) -> None:
+    call("certify short.jsonl --draw known.svg")
+    known = Path("known.svg").read_text()
+    assert "2 places, 2 open doors" in known
+    assert known.count('class="tv-stub"') == 2
+    assert known.count("data-vertex=") == 2
+    call("certify ring.jsonl --draw whole.svg")
+    assert 'class="tv-stub"' not in Path("whole.svg").read_text()
+    refused("certify short.jsonl ring.jsonl --draw known.svg", "expected one TRACE, got 2")
+    refused("certify ring.jsonl -o map.svg", "expected a name for data, as w.json")
+
+
+def test_a_contradiction_in_a_table_names_its_row(call: Call) -> None:
+    Path("t.csv").write_text("door,degree,marker\n,2,0\n\n0,2,\n\n0,3,\n")
+    text = " ".join(call("certify t.csv").stdout.split())
+    assert "map-entailed, event 2: no world shows this history" in text
+    assert "Event 2 is row 6 of t.csv." in text
+    assert "t.csv ! REFUTED - - - none declared" in text
 
 
 def test_an_edge_walked_five_times_is_proved(results: Results) -> None:

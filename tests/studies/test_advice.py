@@ -11,7 +11,6 @@ from topo_verify.robot.events import Event, Start
 from topo_verify.robot.percept import Door
 from topo_verify.robot.simulator import exit_dart, first_percept
 from topo_verify.studies import advice as adviser
-from topo_verify.studies.advice import advice
 from topo_verify.studies.log_report import certify, open_doors
 from topo_verify.studies.map_check import moves
 from topo_verify.world.enumeration.classes import WorldClass
@@ -37,7 +36,7 @@ class Walker:
     def follow(self) -> int:
         """Follow the advice until there is none; return the number of moves since."""
         before = len(self.log)
-        while (way := advice(certify(self.log))) is not None:
+        while (way := certify(self.log).advice) is not None:
             self.go(way.walk)
         return len(self.log) - before
 
@@ -63,7 +62,7 @@ def test_the_way_home_leads_to_the_marker() -> None:
     walker = Walker(world)
     for _ in range(20):
         walker.stray(3, random)
-        way = advice(certify(walker.log))
+        way = certify(walker.log).advice
         assert way is not None
         walker.go(way.home)
         assert world.vertex_of[walker.at] == world.vertex_of[world.root or 0]
@@ -71,7 +70,7 @@ def test_the_way_home_leads_to_the_marker() -> None:
 
 def test_the_way_ends_with_a_door_that_was_never_crossed() -> None:
     walker = Walker(tv.families.lattice(3, 3))
-    while (way := advice(certificate := certify(walker.log))) is not None:
+    while (way := (certificate := certify(walker.log)).advice) is not None:
         assert way.walk in [door.walk for door in open_doors(certificate)]
         walker.go(way.walk)
 
@@ -79,7 +78,7 @@ def test_the_way_ends_with_a_door_that_was_never_crossed() -> None:
 def test_a_proved_log_gets_no_advice() -> None:
     walker = Walker(World.from_id("m1/0"))
     walker.go((0,))
-    assert advice(certify(walker.log)) is None
+    assert certify(walker.log).advice is None
 
 
 def test_where_thinking_takes_too_long_the_way_home_remains(
@@ -88,6 +87,6 @@ def test_where_thinking_takes_too_long_the_way_home_remains(
     monkeypatch.setattr(adviser, "MOST_THOUGHTS", 2)
     walker = Walker(tv.families.lattice(3, 3))
     walker.go((0, 1, 1))
-    way = advice(certify(walker.log))
+    way = certify(walker.log).advice
     assert way is not None
     assert (way.walk, len(way.home)) == ((), 3)

@@ -119,7 +119,7 @@ class Fold:
         """Let the robot leave by a door and sense this behind it. Raises Contradiction."""
         (here, dart), marker = self.at, percept.marker
         if not 0 <= door < self._seen[here].degree or percept.degree < 1:
-            raise Contradiction(f"there is no door {door} among {self._seen[here].degree} doors")
+            raise Contradiction(f"no door {door} of {self._seen[here].degree}, or none behind it")
         if marker is not None and not 0 <= marker < percept.degree:
             raise Contradiction(f"the marker cannot point at door {marker} of {percept.degree}")
         exit_place = self.find((here, dart + door))

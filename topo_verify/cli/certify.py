@@ -21,9 +21,9 @@ from topo_verify.report.blocks import Block, Bullets, Text, TextTable
 from topo_verify.robot.events import Move
 from topo_verify.robot.limits import MOST_SECONDS
 from topo_verify.studies import certificates as study
-from topo_verify.studies.advice import Advice, advice
-from topo_verify.studies.log_file import read_log
-from topo_verify.studies.log_report import Certificate, OpenDoor, open_doors
+from topo_verify.studies.advice import Advice
+from topo_verify.studies.log_file import read_log, row_of
+from topo_verify.studies.log_report import Certificate, OpenDoor
 from topo_verify.studies.log_report import certify as judge
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
@@ -77,12 +77,14 @@ class CertifyEntry(msgspec.Struct, frozen=True):
 @options.command(
     "certify log.jsonl",
     "certify log.jsonl -o map.json",
+    "certify log.jsonl --draw known.svg",
     "certify log.jsonl --witness worlds",
     "certify log.jsonl --kernel",
     "certify --check certificate_log.cert --log log.jsonl",
 )
 @click.argument("traces", nargs=-1, metavar="TRACE...")
 @click.option("-o", "map_file", metavar="MAP", help="Write the proved map (one TRACE only).")
+@click.option("--draw", "picture", metavar="FILE", help="Draw what the log shows (one TRACE only).")
 @click.option(
     "--witness", "folder", metavar="DIR", help="Write two worlds that show the log to DIR."
 )
@@ -102,6 +104,7 @@ def certify(
     *,
     traces: tuple[str, ...],
     map_file: str | None,
+    picture: str | None,
     folder: str | None,
     proving: bool,
     received: str | None,
@@ -120,7 +123,9 @@ def certify(
     --check has Coq check a received certificate: accepted (0), refused (1), not readable (2),
     not checked, or silent about a part of the log (3).
     """
-    _require_one_task(traces, received, about, others=bool(map_file or folder or proving))
+    _require_one_task(
+        traces, received, about, others=bool(map_file or picture or folder or proving)
+    )
     doing = partial(output.progress, done=0, total=1)
     if received is not None:
 
@@ -134,8 +139,9 @@ def certify(
         return output.run("certify", checked, _show_received)
 
     def certified() -> Iterator[Result[CertifyEntry]]:
-        if map_file is not None and len(traces) != 1:
-            raise InputError(f"-o {map_file}: expected one TRACE, got {len(traces)}")
+        for option, file in (("-o", map_file), ("--draw", picture)):
+            if file is not None and len(traces) != 1:
+                raise InputError(f"{option} {file}: expected one TRACE, got {len(traces)}")
         with certificates.checking(timeout=timeout, progress=doing) as check:
             for number, trace in enumerate(traces):
                 output.progress(f"folding {trace}", number, len(traces))
@@ -150,6 +156,10 @@ def certify(
                     certificate.map.save(map_file)
                 elif map_file is not None:
                     output.note(f"-o {map_file}: not written, for the log proves no map")
+                if picture is not None and certificate.shown:
+                    certificate.draw(picture, doors=True)
+                elif picture is not None:
+                    output.note(f"--draw {picture}: not written, for no world shows the log")
                 proof = None
                 if proving:
                     file = f"{_stem(traces, number)}.cert"
@@ -186,8 +196,8 @@ def _result(
         trace=trace,
         moves=sum(isinstance(event, Move) for event in certificate.log),
         least_cost=None if certificate.map is None else certificate.map.least_cost(),
-        open_doors=tuple(open_doors(certificate, MOST_OPEN_DOORS)),
-        advice=advice(certificate),
+        open_doors=tuple(certificate.open_doors(MOST_OPEN_DOORS)),
+        advice=certificate.advice,
         decisions=DecisionCount(certificate.entailed, certificate.decisions),
         witnesses=_witnesses(trace, certificate, folder),
         findings=findings,
@@ -217,10 +227,7 @@ def _witnesses(trace: str, certificate: Certificate, folder: str | None) -> tupl
 
 
 def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
-    rows = [
-        (e.trace, e.verdict, str(e.vertices), str(e.edges), str(e.open_darts), _decisions(e))
-        for e in entries
-    ]
+    rows = [(e.trace, e.verdict, *_sizes(e), _decisions(e)) for e in entries]
     columns = ("log", "verdict", ">vertices", ">edges", ">open darts", "decisions that follow")
     yield TextTable(columns, rows)
     for entry in entries:
@@ -228,8 +235,9 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield Text("")
             yield Text(f"{entry.trace}:")
             yield Bullets(tuple(map(finding_line, entry.findings[:5])))
-            if entry.trace.endswith(".csv"):
-                yield Text("Of a CSV table, event 0 is the row below the titles.")
+            event = entry.findings[0].event
+            if event is not None and (row := row_of(entry.trace, event)) is not None:
+                yield Text(f"Event {event} is row {row} of {entry.trace}.")
             if not entry.decisions.total:
                 yield Text(
                     "There it shows; the wrong reading may be an earlier one. If you have a map:"
@@ -243,13 +251,17 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
         if entry.advice is not None:
             yield from _show_open(entry, entry.advice)
         if entry.witnesses:
-            yield Text(
-                "Two of the worlds that show this log; infinitely many do (vertices and edges above"
-                " are of the smaller one, not of your map; --witness DIR writes both):"
-            )
+            yield Text("Two of the worlds that show this log; infinitely many do:")
             yield Bullets(entry.witnesses)
         if entry.kernel is not None:
             yield from _show_proof(entry.kernel)
+
+
+def _sizes(entry: CertifyEntry) -> tuple[str, str, str]:
+    """Vertices and edges of the proved map, and the open darts if a world shows the log."""
+    known = entry.verdict == "PROVED"
+    map_size = (str(entry.vertices), str(entry.edges)) if known else ("-", "-")
+    return (*map_size, "-" if entry.verdict == "REFUTED" else str(entry.open_darts))
 
 
 def _show_open(entry: CertifyEntry, advice: Advice) -> Iterator[Block]:
@@ -261,8 +273,7 @@ def _show_open(entry: CertifyEntry, advice: Advice) -> Iterator[Block]:
     )
     yield Bullets(
         tuple(
-            f"door {door.door} of {_place(door.event)}: from where the log ends, take"
-            f" {_doors(door.walk)}"
+            f"door {door.door} of {_place(door)}: from where the log ends, take {_doors(door.walk)}"
             for door in entry.open_doors[:5]
         )
     )
@@ -277,8 +288,9 @@ def _show_open(entry: CertifyEntry, advice: Advice) -> Iterator[Block]:
     yield Text(f"Back to the marker, from where the log ends: {home}.")
 
 
-def _place(event: int) -> str:
-    return f"the place reached at event {event}" if event else "the first place"
+def _place(door: OpenDoor) -> str:
+    at = f"reached at event {door.event}" if door.event else "the first"
+    return f"place {door.place} ({at})"
 
 
 def _doors(walk: Sequence[int]) -> str:

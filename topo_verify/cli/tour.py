@@ -13,11 +13,10 @@ from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.errors import InputError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.report.blocks import Block, Text, TextTable
-from topo_verify.robot.events import Event, Move, Start, Trace, write_trace
+from topo_verify.robot.events import Event, Move, Start, Trace
 from topo_verify.robot.percept import Door, Percept
-from topo_verify.studies.log_file import read_log
+from topo_verify.studies.log_file import read_log, write_log
 from topo_verify.studies.map_check import check_map, tour_log
-from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import Dart, World
 
 
@@ -67,7 +66,10 @@ class TourEntry(msgspec.Struct, frozen=True):
 @click.argument("world", metavar="WORLD")
 @options.marker
 @click.option(
-    "-o", "file", metavar="LOG", help="Write the walk as a log, with what should be seen."
+    "-o",
+    "file",
+    metavar="LOG",
+    help="Write the walk as a log (.csv: a table), with what should be seen.",
 )
 @options.player
 @click.option(
@@ -110,7 +112,7 @@ def tour(
         if file is not None and refuted:
             output.note(f"-o {file}: not written, since no walk proves a map that is refuted")
         elif file is not None:
-            files.write(file, write_trace(trace))
+            write_log(file, trace)
         if player is not None:
             marked = [j for j in check(at.world, trace) if j.claim == "percepts-true"]
             runs.write_page(player, at.world, at.name, [PlayedRun("tour", trace, marked)])

@@ -10,14 +10,14 @@ What this does not show: that no shorter walk proves the map.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import msgspec
 
-from topo_verify.algorithms import NAMED
 from topo_verify.checkers.folding import Fold
 from topo_verify.errors import InternalError
 from topo_verify.robot.events import Decision
 from topo_verify.robot.percept import Door, Percept, Purpose
-from topo_verify.studies.log_report import Certificate, way_to
 
 ADVISER = "homing"
 
@@ -37,14 +37,13 @@ class Advice(msgspec.Struct, frozen=True):
     home: tuple[Door, ...]
 
 
-def advice(certificate: Certificate) -> Advice | None:
-    """The advice for an incomplete log, else None.
+def advice(fold: Fold) -> Advice:
+    """The advice for the fold of an incomplete log.
 
     After `MOST_THOUGHTS` moves the walk is empty: go home, and ask again there.
     """
-    fold = certificate.fold
-    if fold is None or certificate.map is not None:
-        return None
+    from topo_verify.algorithms import NAMED  # not needed to judge a log
+
     home, _ = way_to(fold, fold.find((0, 0))[0])
     try:
         NAMED[ADVISER](_Remembered(fold))
@@ -93,3 +92,39 @@ class _Remembered:
 
     def declare(self, event: Decision) -> None:
         pass
+
+
+# ---------------------------------------------------------------- ways in a fold
+
+
+def way_to(fold: Fold, place: int) -> tuple[tuple[Door, ...], int]:
+    """The doors of a shortest way from the log's end to a node; the dart of arrival."""
+    return next((doors_of(walk), entry) for node, entry, walk in places_from(fold) if node == place)
+
+
+_Walk = tuple["_Walk", Door] | None
+"""A linked list, last door first."""
+
+
+def places_from(fold: Fold) -> Iterator[tuple[int, int, _Walk]]:
+    """Each place by its distance from the log's end: a node, the dart of arrival, the way."""
+    start, reference = fold.find(fold.at)
+    reached = {start}
+    queue: list[tuple[int, int, _Walk]] = [(start, reference, None)]
+    for node, entry, walk in queue:  # grows as it goes
+        yield node, entry, walk
+        degree = fold.degree(node)
+        for door in range(degree):
+            end = fold.partner((node, (entry + door) % degree))
+            if end is not None and end[0] not in reached:
+                reached.add(end[0])
+                queue.append((*end, (walk, door)))
+
+
+def doors_of(walk: _Walk) -> tuple[Door, ...]:
+    """The doors of a way, the first one first."""
+    doors: list[Door] = []
+    while walk is not None:
+        walk, door = walk
+        doors.append(door)
+    return tuple(reversed(doors))

@@ -8,20 +8,22 @@
 
 The first row is the percept at the start; each further row is a door and the percept behind it. An
 empty cell may hold a word of `EMPTY`, and a number may end in `.0`, as tables of floats write them.
-Commas, semicolons or tabs separate the columns; other columns and empty rows are ignored.
+Commas, semicolons or tabs separate the columns; other columns and empty rows are ignored. A row
+with more or fewer cells than titles is refused, since a file that was cut might prove a wrong map.
 """
 
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Iterator
-from contextlib import nullcontext
-from itertools import chain
+from collections.abc import Generator, Iterable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext
+from itertools import chain, islice
+from os import PathLike, fspath
 
 import msgspec
 
-from topo_verify.errors import InputError
-from topo_verify.robot.events import Event, Move, Start, Trace, read_events
+from topo_verify.errors import InputError, plural
+from topo_verify.robot.events import Event, Move, Start, Trace, read_events, write_trace
 from topo_verify.robot.percept import Percept
 from topo_verify.world.formats import files
 
@@ -31,8 +33,46 @@ EMPTY = ("-", "nan", "none", "null", "na")
 """What may stand in an empty cell: `-` is what `tour` prints."""
 
 
-def read_log(path: str) -> Trace:
-    """The events in a file; `-` is standard input. InputError if it holds no log."""
+COMPRESSED_OR_WIDE = (b"\xff\xfe", b"\xfe\xff", b"\x1f\x8b", b"PK\x03")
+"""How files in UTF-16, of gzip and of zip begin."""
+
+
+def read_log(path: str | PathLike[str]) -> Trace:
+    """The events in a file of either kind; `-` is standard input. InputError: it holds no log."""
+    with _opened(fspath(path)) as (lines, name, is_table):
+        return tuple(
+            (event for _, event in table_events(lines, name))
+            if is_table
+            else read_events(lines, name=name)
+        )
+
+
+def row_of(path: str, event: int) -> int | None:
+    """The row of a CSV file that holds this event; None: it is no such file."""
+    if path == "-":
+        return None
+    with _opened(path) as (lines, name, is_table):
+        rows = (row for row, _ in table_events(lines, name))
+        return next(islice(rows, event, None)) if is_table else None
+
+
+def write_log(path: str, trace: Trace) -> None:
+    """Write the start and the moves as CSV if the name ends in .csv, else every event as JSON."""
+    if not path.lower().endswith(".csv"):
+        files.write(path, write_trace(trace))
+        return
+    rows = [",".join(COLUMNS)]
+    for event in trace:
+        if isinstance(event, Start | Move):
+            door = event.door if isinstance(event, Move) else ""
+            marker = "" if event.percept.marker is None else event.percept.marker
+            rows.append(f"{door},{event.percept.degree},{marker}")
+    files.write(path, "\n".join(rows) + "\n")
+
+
+@contextmanager
+def _opened(path: str) -> Generator[tuple[Iterator[bytes], str, bool]]:
+    """The lines of a file, its name, and whether they are a CSV table."""
     name = "standard input" if path == "-" else path
     with nullcontext(files.standard_input()) if path == "-" else files.opened(path) as stream:
         lines = files.lines(stream, name=name)
@@ -41,17 +81,20 @@ def read_log(path: str) -> Trace:
             first.append(line)
             if line.strip():
                 break
-        whole = chain(first, lines)
+        if first and first[0].startswith(COMPRESSED_OR_WIDE):
+            raise InputError(
+                f"{name}: expected text in UTF-8, got UTF-16 or a compressed file: convert it"
+            )
         head = first[-1].lower().strip() if first else b""
         is_untitled = head[:1].isdigit() or head[:1] in {b",", b";"}
-        is_table = b"{" not in head and (
-            is_untitled or any(column.encode() in head for column in COLUMNS)
+        is_table = name.lower().endswith(".csv") or (
+            b"{" not in head and (is_untitled or any(column.encode() in head for column in COLUMNS))
         )
-        return tuple(table_events(whole, name) if is_table else read_events(whole, name=name))
+        yield chain(first, lines), name, is_table
 
 
-def table_events(lines: Iterable[bytes], name: str) -> Iterator[Event]:
-    """The events in the lines of a CSV table with titles."""
+def table_events(lines: Iterable[bytes], name: str) -> Iterator[tuple[int, Event]]:
+    """The events in the lines of a CSV table with titles, each with its row."""
     titles: list[str] = []
     separator = ","
     begun = False
@@ -63,20 +106,29 @@ def table_events(lines: Iterable[bytes], name: str) -> Iterator[Event]:
         cells = [cell.strip() for cell in row]
         if not any(cells):
             continue
-        if titles:
-            named = dict(zip(titles, cells, strict=False))
-            yield _event(named, f"{name}, row {number}", begun=begun)
-            begun = True
+        place = f"{name}, row {number}"
+        if not titles:
+            titles = [cell.lower() for cell in cells]
+            _require_columns(titles, place)
             continue
-        titles = [cell.lower() for cell in cells]
-        for column in COLUMNS:
-            if column not in titles:
-                columns = ", ".join(COLUMNS)
-                raise InputError(
-                    f"{name}, row {number}: expected the columns {columns}, got no {column!r}"
-                )
+        if len(cells) != len(titles):
+            raise InputError(
+                f"{place}: expected {plural(len(titles), 'cell')}, as in the row of titles, got"
+                f" {len(cells)}; is the file cut?"
+            )
+        yield number, _event(dict(zip(titles, cells, strict=True)), place, begun=begun)
+        begun = True
     if not begun:
         raise InputError(f"{name}: expected a row with the percept at the start, got none")
+
+
+def _require_columns(titles: Sequence[str], place: str) -> None:
+    for column in COLUMNS:
+        if titles.count(column) != 1:
+            got = "two" if column in titles else "no"
+            raise InputError(
+                f"{place}: expected the columns {', '.join(COLUMNS)}, got {got} {column!r}"
+            )
 
 
 def _event(cells: dict[str, str], place: str, *, begun: bool) -> Event:

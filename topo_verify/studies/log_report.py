@@ -1,10 +1,10 @@
 """Certificates: what a log of percepts and doors proves without its world.
 
-certificate = certify(read_trace(log))
+certificate = certify("log.csv")
 certificate.map             # the world, proved; or None
 certificate.witnesses       # else: two worlds, each of which shows this very log
 
-for door in open_doors(certificate, 100): ...     # at most 100, nearest to the log's end first
+for door in certificate.open_doors(100): ...     # at most 100, nearest to the log's end first
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
 from itertools import islice
+from os import PathLike, fspath
 from typing import Literal
 
 import msgspec
@@ -21,8 +22,12 @@ from topo_verify.checkers.certificate import judge_log, showing
 from topo_verify.checkers.entailment import CONCLUDED
 from topo_verify.checkers.findings import Finding
 from topo_verify.checkers.folding import Fold
+from topo_verify.errors import InputError
 from topo_verify.robot.events import Event, Move
 from topo_verify.robot.percept import Door
+from topo_verify.studies.advice import Advice, advice, doors_of, places_from
+from topo_verify.studies.log_file import read_log
+from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
 
@@ -31,6 +36,7 @@ class Certificate:
     """What a log proves: its one map, or what is left to walk.
 
     Attributes:
+        verdict: PROVED, UNKNOWN (several worlds show the log) or REFUTED (there are findings).
         map: the one world that shows the log, or None.
         open_darts: number of darts of the fold that were never crossed.
         vertices, edges: of the map, else of the smaller witness; 0 if no world shows the log.
@@ -38,6 +44,7 @@ class Certificate:
         fold: of the log; None if no world shows it.
     """
 
+    verdict: Literal["PROVED", "UNKNOWN", "REFUTED"]
     map: World | None
     open_darts: int
     vertices: int
@@ -49,16 +56,46 @@ class Certificate:
     fold: Fold | None = field(repr=False)
 
     @property
-    def verdict(self) -> Literal["PROVED", "UNKNOWN", "REFUTED"]:
-        """PROVED, UNKNOWN (several worlds show the log) or REFUTED (there are findings)."""
-        if self.findings:
-            return "REFUTED"
-        return "UNKNOWN" if self.map is None else "PROVED"
-
-    @property
     def shown(self) -> bool:
         """Whether some world shows the log."""
         return self.fold is not None
+
+    def open_doors(self, most: int | None = None) -> list[OpenDoor]:
+        """The `most` nearest open doors of an incomplete log, nearest first."""
+        return open_doors(self, most)
+
+    @property
+    def advice(self) -> Advice | None:
+        """How to go on from where an incomplete log ends; else None."""
+        return None if self.fold is None or self.map is not None else advice(self.fold)
+
+    @property
+    def known(self) -> World:
+        """What the log shows of the world: its places, in the order in which it reached them.
+
+        Door d of a place is counted as when it was first reached. An open door leads to a vertex
+        of degree 1 behind all places.
+
+        Raises:
+            InputError: no world shows the log.
+        """
+        return _known(self)
+
+    def draw(self, path: str | PathLike[str], *, doors: bool = False) -> str:
+        """The picture of `known` as SVG, also written to a .svg, .png, .pdf or .html file.
+
+        Open doors are dotted. `doors=True` numbers the doors of each place.
+
+        Raises:
+            InputError: no world shows the log, it has over about 1,000 edges, or the file cannot
+                be written.
+        """
+        from topo_verify.world.drawing import document, format_of, lay_out_known, to_svg
+
+        kind, known = format_of(fspath(path)), self.known
+        layout = lay_out_known(known, len(known.vertices) - self.open_darts)
+        files.write(path, document(known, layout, kind, doors=doors))
+        return to_svg(known, layout, doors=doors)
 
     @property
     def witnesses(self) -> tuple[World, ...]:
@@ -68,18 +105,20 @@ class Certificate:
         return tuple(showing(self.fold.world(hang), self.log) for hang in (1, 2))
 
 
-def certify(trace: Sequence[Event]) -> Certificate:
-    """Judge a log without its world.
+def certify(log: Sequence[Event] | str | PathLike[str]) -> Certificate:
+    """Judge a log, events or a file of them, without its world.
 
     Raises:
-        InputError: the trace does not begin with its only `start`, or goes on after `finish`; or
-            its places have more than 2^20 doors together, and more than 16 an event.
+        InputError: the file holds no log; the log does not begin with its only `start`, or goes on
+            after `finish`; its places have more than 2^20 doors together and 16 an event.
     Complexity: nearly linear for a plain log; claim 10 reads every open dart once a decision.
     """
+    trace = read_log(log) if isinstance(log, str | PathLike) else log
     judged = judge_log(trace)
     shown = judged.broken is None
     fold, open_darts = judged.fold, judged.fold.open_darts()
     return Certificate(
+        verdict="REFUTED" if judged.findings else "UNKNOWN" if judged.map is None else "PROVED",
         map=judged.map,
         open_darts=open_darts,
         vertices=len(fold.roots()) + open_darts if shown else 0,
@@ -92,6 +131,36 @@ def certify(trace: Sequence[Event]) -> Certificate:
     )
 
 
+def _known(certificate: Certificate) -> World:
+    fold = certificate.fold
+    if fold is None:
+        raise InputError("no world shows this log, so nothing is known: see its findings")
+    if certificate.map is not None and not certificate.map.edges:
+        return certificate.map
+    reached = _reached(certificate.log, fold, set(fold.roots()))
+    first: dict[int, int] = {}
+    for node in reached:
+        first[node] = sum(map(fold.degree, first))
+    doors = sum(map(fold.degree, reached))
+    rotations: list[Sequence[int]] = []
+    edges: list[tuple[int, int]] = []
+    for node, (_, reference) in reached.items():
+        degree = fold.degree(node)
+        rotations.append(range(first[node], first[node] + degree))
+        for door in range(degree):
+            dart = first[node] + door
+            end = fold.partner((node, (reference + door) % degree))
+            if end is None:
+                edges.append((dart, doors + dart))
+                continue
+            beyond, entry = end
+            other = first[beyond] + (entry - reached[beyond][1]) % fold.degree(beyond)
+            if dart < other:
+                edges.append((dart, other))
+    rotations += [[leaf] for dart, leaf in edges if leaf == doors + dart]
+    return World.from_rotations(rotations, edges, 0)
+
+
 # ---------------------------------------------------------------- open doors
 
 
@@ -100,11 +169,13 @@ class OpenDoor(msgspec.Struct, frozen=True):
 
     Attributes:
         event: the first event at which its place was reached.
+        place: the vertex of `Certificate.known`: the number of places reached before.
         door: its number, as counted at that event.
         walk: a shortest way from where the log ends through crossed doors, this door last.
     """
 
     event: int
+    place: int
     door: Door
     walk: tuple[Door, ...]
 
@@ -116,67 +187,43 @@ def open_doors(certificate: Certificate, most: int | None = None) -> list[OpenDo
         return []
     nearest = [*islice(_nearest(fold), most)]
     reached = _reached(certificate.log, fold, {node for node, _, _ in nearest})
+    numbers = {node: number for number, node in enumerate(reached)}
     doors: list[OpenDoor] = []
     for node, dart, walk in nearest:
         event, reference = reached[node]
-        doors.append(OpenDoor(event, (dart - reference) % fold.degree(node), walk))
+        door = (dart - reference) % fold.degree(node)
+        doors.append(OpenDoor(event, numbers[node], door, walk))
     return doors
 
 
 def _nearest(fold: Fold) -> Iterator[tuple[int, int, tuple[Door, ...]]]:
     """Each open dart by distance: a node, its dart, the doors to take."""
-    for node, entry, walk in _places(fold):
+    for node, entry, walk in places_from(fold):
         degree = fold.degree(node)
         for door in range(degree):
             dart = (entry + door) % degree
             if fold.partner((node, dart)) is None:
-                yield node, dart, (*_doors(walk), door)
-
-
-def way_to(fold: Fold, place: int) -> tuple[tuple[Door, ...], int]:
-    """The doors of a shortest way from the log's end to a node; the dart of arrival."""
-    return next((_doors(walk), entry) for node, entry, walk in _places(fold) if node == place)
-
-
-_Walk = tuple["_Walk", Door] | None
-"""A linked list, last door first."""
-
-
-def _places(fold: Fold) -> Iterator[tuple[int, int, _Walk]]:
-    start, reference = fold.find(fold.at)
-    reached = {start}
-    queue: list[tuple[int, int, _Walk]] = [(start, reference, None)]
-    for node, entry, walk in queue:  # grows as it goes
-        yield node, entry, walk
-        degree = fold.degree(node)
-        for door in range(degree):
-            end = fold.partner((node, (entry + door) % degree))
-            if end is not None and end[0] not in reached:
-                reached.add(end[0])
-                queue.append((*end, (walk, door)))
-
-
-def _doors(walk: _Walk) -> tuple[Door, ...]:
-    doors: list[Door] = []
-    while walk is not None:
-        walk, door = walk
-        doors.append(door)
-    return tuple(reversed(doors))
+                yield node, dart, (*doors_of(walk), door)
 
 
 def _reached(
     log: Sequence[Event], fold: Fold, places: AbstractSet[int]
 ) -> dict[int, tuple[int, int]]:
-    """The first event at each place, and the reference dart then."""
+    """The first event at each place, and the reference dart then, until all `places` are reached.
+
+    In the order of the events, so that a place's index is the number of those reached before.
+    """
     reached: dict[int, tuple[int, int]] = {}
+    missing = set(places)
     at = fold.find((0, 0))
     for when, event in enumerate(log):
         if isinstance(event, Move):
             beyond = fold.partner((at[0], at[1] + event.door))
             assert beyond is not None, "the fold is of this log, so it has crossed this door"
             at = beyond
-        if at[0] in places and at[0] not in reached:
+        if at[0] not in reached:
             reached[at[0]] = when, at[1]
-            if len(reached) == len(places):
+            missing.discard(at[0])
+            if not missing:
                 break
     return reached

@@ -32,8 +32,13 @@ _ENDINGS = {
 
 
 def format_of_name(path: str | PathLike[str]) -> str:
-    """The format that the file's name stands for."""
+    """The format that the file's name stands for. InputError: it is a picture's."""
     name = os.fspath(path).lower()
+    if name.endswith((".svg", ".png", ".pdf")):
+        raise InputError(
+            f"{shown(path)}: expected a name for data, as w.json, got one for a picture; those are"
+            " made by topo-verify world draw, and by certify --draw"
+        )
     return next((kind for ending, kind in _ENDINGS.items() if name.endswith(ending)), "json")
 
 

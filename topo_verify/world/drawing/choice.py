@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, replace
 
-from topo_verify.errors import InternalError
+from topo_verify.errors import InputError, InternalError
 from topo_verify.world.drawing import curves, read_back
 from topo_verify.world.drawing.cells import polygon, torus_cell
 from topo_verify.world.drawing.layout import Bridge, Layout, Sketch, fitted
@@ -46,6 +47,26 @@ def lay_out(world: World, *, centre: Dart | None = None) -> Layout:
             return layout
     assert world.root is not None, "a vertex alone is drawn true"
     return _ball(world, world.root)
+
+
+def lay_out_known(world: World, places: int) -> Layout:
+    """A true layout whose vertices from number `places` on are not drawn: each is an open door.
+
+    InputError: the world has too many edges for a whole picture.
+    """
+    if places == len(world.vertices):
+        return lay_out(world)
+    assert world.root is not None, "a vertex alone has no open door"
+    around = _part(world, world.root, frozenset(range(places)))
+    for sketch in _sketches(around.part):
+        layout = _true(around.part, sketch)
+        whole = None if layout is None else replace(put_back(around, layout), kind="known")
+        if whole is not None and not untrue(world, whole, None):
+            return whole
+    raise InputError(
+        f"no picture: {len(world.edges):,} edges, expected up to about {WHOLE:,}; draw the map"
+        " when it is proved"
+    )
 
 
 def _sketches(world: World) -> Iterator[Sketch]:
@@ -142,6 +163,10 @@ def ball(world: World, centre: Dart, *, limit: int = LIMIT) -> Ball:
                 inside.add(end)
                 queue.append(end)
                 darts += len(world.vertices[end])
+    return _part(world, centre, inside)
+
+
+def _part(world: World, centre: Dart, inside: AbstractSet[int]) -> Ball:
     vertices = tuple(sorted(inside))
     rotations = [list(world.vertices[vertex]) for vertex in vertices]
     edges: list[tuple[Dart, Dart]] = []

@@ -17,7 +17,7 @@ from topo_verify.world.drawing.curves import crossings
 from topo_verify.world.formats.embedding import Point
 from topo_verify.world.rooted_map import Dart
 
-Kind = Literal["positions", "planar", "bridges", "cell", "ball"]
+Kind = Literal["positions", "planar", "bridges", "cell", "ball", "known"]
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,8 @@ class Layout:
     """Where everything in a picture of a world lies.
 
     Attributes:
-        kind: `planar` has no crossings, `bridges` has some, `cell` is a cut surface.
+        kind: `planar` has no crossings, `bridges` has some, `cell` is a cut surface; of `known`
+            the hidden vertices are not known.
         centres: of the vertices; of a hidden one, where the way to it leaves the ball.
         paths: path data of each edge, from the circle at its lesser dart; several parts if it
             leaves a cell, none if hidden.

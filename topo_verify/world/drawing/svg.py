@@ -11,7 +11,7 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from topo_verify.errors import map_size, shown
+from topo_verify.errors import map_size, plural, shown
 from topo_verify.world.drawing import curves
 from topo_verify.world.drawing.arrays import Floats
 from topo_verify.world.drawing.curves import number
@@ -53,11 +53,18 @@ def text(words: str, *, limit: int = 200) -> str:
 def caption(world: World, layout: Layout) -> str:
     """The picture's content in words."""
     size = f"{map_size(len(world.vertices), len(world.edges))}, genus {world.genus}"
-    part = ""
-    if layout.hidden:
-        visible = len(world.vertices) - len(layout.hidden)
-        part = f"; {visible} of {len(world.vertices)} vertices are shown"
-    return f"{world.name}: {size}{part}" if world.name else f"{size}{part}"
+    words = "; ".join(([] if layout.kind == "known" else [size]) + _shown(layout))
+    return f"{world.name}: {words}" if world.name else words
+
+
+def _shown(layout: Layout) -> list[str]:
+    """A sentence if not everything is shown."""
+    if not layout.hidden:
+        return []
+    visible = len(layout.centres) - len(layout.hidden)
+    if layout.kind == "known":
+        return [f"{plural(visible, 'place')}, {plural(len(layout.hidden), 'open door')}"]
+    return [f"{visible} of {len(layout.centres)} vertices are shown"]
 
 
 def _head(world: World, layout: Layout) -> Iterator[str]:
@@ -95,10 +102,8 @@ def _body(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[st
     if world.root is not None:
         yield from arrow(world, layout, world.root)
     yield from _vertices(world, layout)
-    if layout.hidden:
-        visible = len(layout.centres) - len(layout.hidden)
+    for words in _shown(layout):
         size = number(max(0.9 * radius, layout.width / 60))
-        words = f"{visible} of {len(layout.centres)} vertices are shown"
         at = f'x="{number(radius)}" y="{number(layout.height - radius)}"'
         yield f'<text class="tv-soft" font-family="{FONT}" font-size="{size}" {at}>{words}</text>'
     if doors or darts:

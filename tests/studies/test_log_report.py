@@ -1,0 +1,68 @@
+"""What a log shows of its world so far: places, in the order in which they were reached."""
+
+from __future__ import annotations
+
+from random import Random
+
+import pytest
+
+import topo_verify as tv
+from topo_verify.robot.events import Event, Move, Start
+from topo_verify.robot.percept import Percept
+from topo_verify.robot.simulator import SimulatedRobot
+from topo_verify.studies.map_check import check_map
+from topo_verify.world.enumeration.classes import WorldClass
+
+
+def strolls(world: tv.World, steps: int, random: Random) -> list[Event]:
+    robot = SimulatedRobot(world, steps)
+    log: list[Event] = [Start(percept=robot.percept)]
+    for _ in range(steps):
+        door = random.randrange(robot.percept.degree)
+        log.append(Move(door, robot.move(door)))
+    return log
+
+
+def test_what_is_known_shows_the_log_and_has_an_end_for_each_open_door() -> None:
+    random = Random(2026)
+    for number in range(60):
+        log = strolls(WorldClass().sample(random.randrange(1, 12), random), number, random)
+        certificate = tv.certify(log)
+        known = certificate.known
+        assert check_map(known, log).verdict != "REFUTED"
+        places = len(known.vertices) - certificate.open_darts
+        assert set(known.degrees[places:]) <= {1}
+        if certificate.map is not None:
+            assert known.code == certificate.map.code
+        for door in certificate.open_doors():
+            dart = known.vertices[door.place][door.door]
+            assert known.vertex_of[known.alpha[dart]] >= places
+
+
+def test_places_are_numbered_as_the_robot_reached_them() -> None:
+    log: list[Event] = [
+        Start(percept=Percept(2, 0)),
+        Move(1, Percept(3, None)),
+        Move(1, Percept(4, None)),
+    ]
+    certificate = tv.certify(log)
+    assert certificate.known.degrees[:3] == (2, 3, 4)
+    assert certificate.known.vertices[0][0] == certificate.known.root
+    assert [(door.event, door.place) for door in certificate.open_doors(4)] == [
+        *[(2, 2)] * 3,
+        (1, 1),
+    ]
+
+
+def test_of_a_robot_that_can_go_nowhere_its_only_place_is_known() -> None:
+    assert tv.certify([Start(percept=Percept(0, None))]).known == tv.World((), (), None)
+
+
+def test_nothing_is_known_of_a_log_that_no_world_shows() -> None:
+    log: list[Event] = [
+        Start(percept=Percept(1, 0)),
+        Move(0, Percept(2, None)),
+        Move(0, Percept(1, None)),
+    ]
+    with pytest.raises(tv.InputError, match="no world shows this log, so nothing is known"):
+        _ = tv.certify(log).known
