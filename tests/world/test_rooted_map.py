@@ -5,6 +5,7 @@ from __future__ import annotations
 from base64 import b64encode
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -143,6 +144,46 @@ def test_a_mirror_image_may_be_another_world() -> None:
     images = {world.id: world.mirror().id for world in every_world(range(3))}
     others = {name: image for name, image in images.items() if name != image}
     assert others == {"m2/4": "m2/5", "m2/5": "m2/4", "m2/7": "m2/9", "m2/9": "m2/7"}
+
+
+def medial(world: World) -> World:
+    """A vertex in the middle of each edge, an edge along each corner: the same for the dual."""
+    rotations = [(2 * a + 1, 2 * b, 2 * b + 1, 2 * a) for a, b in world.edges]
+    corners = [(2 * dart, 2 * after + 1) for dart, after in enumerate(world.sigma)]
+    return World.from_rotations(rotations, corners, 0)
+
+
+def without_marker(world: World) -> object:
+    """A code of the map, whichever dart is marked."""
+    return min(world.with_marker(dart).code for dart in range(len(world.alpha)))
+
+
+def test_a_map_and_its_dual_have_the_same_medial_map() -> None:
+    images = [(world, world.mirror(), world.dual()) for world in every_world((1, 2, 4))]
+    codes = [[without_marker(medial(world)) for world in row] for row in images]
+    assert all(code == dual for code, _, dual in codes)
+    assert any(code != mirrored for code, mirrored, _ in codes), "a mirrored dual is noticed"
+
+
+def test_a_world_made_of_lists_is_the_world_made_of_tuples() -> None:
+    swap: Any = [1, 0]
+    world = World(swap, swap, 0)
+    assert world == LOOP and hash(world) == hash(LOOP)
+
+
+def test_the_dual_leaves_the_face_on_the_left_of_each_dart() -> None:
+    # a loop with a leaf outside: inside is one corner, outside three
+    world = World.from_rotations([[0, 1, 2], [3]], [[0, 1], [2, 3]], 0)
+    assert world.faces == ((0, 2, 3), (1,))
+    assert world.dual().vertices == ((0, 3, 2), (1,))
+    assert World.from_id("m4/4").dual().id == "m4/505"
+
+
+@given(worlds)
+def test_the_dual_of_the_dual_has_the_marker_at_the_other_end_of_its_edge(world: World) -> None:
+    turned = world if world.root is None else world.with_marker(world.alpha[world.root])
+    assert world.dual().dual().is_isomorphic(turned)
+    assert (len(world.dual().vertices), world.dual().genus) == (len(world.faces), world.genus)
 
 
 def test_a_mirror_image_is_drawn_as_in_a_mirror() -> None:

@@ -14,7 +14,7 @@ Source: docs/semantics.md, section 1; S. K. Lando and A. K. Zvonkin, "Graphs on 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from os import PathLike
@@ -35,18 +35,12 @@ Code = tuple[tuple[int, ...], tuple[Dart, ...]]
 
 
 class _Formats(Protocol):
+    draw: Callable[..., str]
+
     def load(self, cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -> W: ...
     def decode(self, cls: type[W], text: str | bytes) -> W: ...
     def encode(self, world: World) -> str: ...
     def save(self, world: World, path: str | PathLike[str]) -> None: ...
-    def draw(
-        self,
-        world: World,
-        path: str | PathLike[str] | None,
-        *,
-        doors: bool = ...,
-        darts: bool = ...,
-    ) -> str: ...
     def twin(self, world: World, model: Literal["undirected", "none"]) -> World | None: ...
 
 
@@ -79,6 +73,7 @@ class World:
     licence: str = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
+        vars(self).update(alpha=tuple(self.alpha), sigma=tuple(self.sigma))
         validation.require_permutations(self.alpha, self.sigma, self.root)
         if len(self._discovery[0]) != len(self.alpha):
             lost = min(set(range(len(self.alpha))) - set(self._discovery[0]))
@@ -318,12 +313,17 @@ class World:
 
     def mirror(self) -> Self:
         """The world with every rotation reversed, unnamed."""
-        back = [0] * len(self.sigma)
-        for dart, after in enumerate(self.sigma):
-            back[after] = dart
-        # reflected in the y axis
-        flipped = tuple((-x, y) for x, y in self.positions)
+        back = sorted(range(len(self.sigma)), key=self.sigma.__getitem__)  # sigma's inverse
+        flipped = tuple((-x, y) for x, y in self.positions)  # in the y axis
         return replace(self, sigma=tuple(back), positions=flipped, name="")
+
+    def dual(self) -> Self:
+        """The dual map, unnamed: dart d leaves the face on its left, across its own edge.
+
+        The dual of the dual is this map with the marker at the other end of its edge.
+        """
+        back = self.mirror().sigma  # along a face: counterclockwise
+        return type(self)(self.alpha, tuple([self.alpha[dart] for dart in back]), self.root)
 
     def with_marker(self, root: Dart) -> Self:
         """The same map with the marker at another dart, unnamed. Raises InputError for no dart."""
