@@ -107,6 +107,16 @@ def draws(robot: Robot) -> Any:
     return CATALOGUE["basic"].with_policies(pick=f"random({random.randrange(10**6)})")(robot)
 
 
+def tosses(robot: Robot) -> Any:
+    """Wrong in half of its runs, in whichever process; the same runs each time."""
+    runs = Path("runs")
+    with runs.open("a") as file:
+        file.write(".")
+    survey = CATALOGUE["basic"](robot)
+    wrong = random.Random(runs.stat().st_size).random() < 0.5
+    return survey._replace(edges=survey.edges[1:]) if wrong else survey
+
+
 def moody(robot: Robot) -> Any:
     """Right, unless a variable of the environment says otherwise."""
     return guesses(robot) if os.environ.get("MOOD") else CATALOGUE["basic"](robot)

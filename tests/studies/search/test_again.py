@@ -75,6 +75,17 @@ def test_a_mapper_that_is_right_alone_and_in_the_order_of_the_search_is_tried_in
     assert found.run_again.row < 86
 
 
+@pytest.mark.parametrize("toss", range(2))
+def test_a_mapper_that_fails_now_and_then_is_not_said_to_remember(folder: Path, toss: int) -> None:
+    (folder / "runs").write_text("." * toss)
+    found = searched("tosses")
+    assert found.run_again is not None
+    (first, *_), rows = found.run_again.failures, found.run_again.rows
+    assert first.findings[0].message.startswith(again.VARIES)
+    assert first.findings[0].replay == f"topo-verify replay {rows[0].world} --target {first.target}"
+    assert [row.world for row in rows] == sorted(row.world for row in rows)
+
+
 @pytest.mark.usefixtures("folder")
 def test_the_row_has_every_world_once_and_an_order_drawn_by_the_seed() -> None:
     campaign = search_campaign(targets("mappers.py:right"), edges=3)

@@ -1,12 +1,16 @@
 """Runs worlds again, alone and in another order: does the mapper remember earlier worlds?
 
-The counterexample, up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed, are
-run again, each in a fresh process. If none fails, one process runs `ROW` worlds in a shuffled
-order.
+The counterexample (`REPEATS` times), up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn
+by a seed, are run again, each in a fresh process. If none fails, one process runs `ROW` worlds in a
+shuffled order.
 
-    a failing world passes alone    `not-deterministic`: it fails only after other worlds
+    a failing world passes alone    `not-deterministic`
     another world fails alone       `not-deterministic`, too; likewise in the row
     other doors, another cost       no finding, since mappers may draw lots; the verdict is open
+
+The smallest such world is repeated `REPEATS` times. Only what is the same each time is named as
+the cause: that the world fails alone, or that it passes alone and fails after certain worlds. If
+the mapper tosses a fair coin, a world is named alone in 3 of 100 searches.
 
 What this does not show: a memory that none of the drawn worlds reveals. If a share p of the
 worlds would differ alone, it is noticed with probability 1 - (1 - p)^SAMPLE: a tenth in 99.5 of
@@ -36,6 +40,14 @@ from topo_verify.world.rooted_map import World
 MOST = SAMPLE
 
 ROW = 1000
+
+REPEATS = 5
+"""Runs in which a world does the same before a cause is named."""
+
+VARIES = (
+    "it fails in some runs and passes in others: it draws lots, or keeps something; repeat"
+    " `again:` several times"
+)
 
 LONGEST = 64
 """Worlds before a failing one that are tried to make it fail again."""
@@ -96,19 +108,24 @@ def run_again(campaign: c.Campaign, rows: Sequence[Row], tell: Progress | None =
     tell = tell or no_progress
 
     def report(_work: str, done: int, _total: int) -> None:
-        tell(f"{campaign.mappers[0]}, again", done, 2 * MOST + 1 + ROW)
+        tell(f"{campaign.mappers[0]}, again", done, 2 * MOST + REPEATS + ROW)
 
-    worlds = [row.world for row in before]
-    alone = _rows(campaign, worlds, _alone, report)
-    failures: list[Unlike] = []
+    runs = [row for row in before[:1] if row.failed] * (REPEATS - 1) + before
+    alone = _rows(campaign, [row.world for row in runs], _alone, report)
+    unlike: dict[str, tuple[Row, Row]] = {}
     others: list[str] = []
-    for row, now in zip(before, alone, strict=True):
+    for row, now in zip(runs, alone, strict=True):
         if now.late or now.lost:
             continue
         if bool(row.failed) != bool(now.failed):
-            failures.append(_failure(campaign, row, now, search=not failures))
+            unlike[row.world] = row, now
         elif not row.timed_out and now.digest != row.digest:
-            others.append(row.world)
+            others += [row.world] if row.world not in others else []
+    smallest_first = sorted(unlike.values(), key=lambda pair: (pair[0].edges, pair[0].place))
+    failures = [
+        _failure(campaign, row, now, repeat=not number)
+        for number, (row, now) in enumerate(smallest_first)
+    ]
     if failures or any(row.failed for row in rows):  # refuted already
         return RunAgain(len(before), 0, tuple(failures), tuple(others))
     known = {row.world: row for row in rows}
@@ -209,48 +226,62 @@ def _program(text: str) -> Program:
 # ---------------------------------------------------------------- findings
 
 
-def _failure(campaign: c.Campaign, row: Row, now: Row, *, search: bool) -> Unlike:
-    if not row.failed:
-        finding = now.findings[0]
-        message = (
-            f"it passed after other worlds, and alone it fails: {finding.claim}, {finding.message}"
-        )
-        return _unlike(campaign, row, message, finding.replay)
-    first = row.findings[0]
-    message = (
-        "a claim fails here only after other worlds, and alone none does:"
-        f" {first.claim}, {first.message}"
-    )
-    replay = _reproduced(campaign, row.world, _before(campaign, row)) if search else None
-    if search and replay is None:
-        message += f". No row of up to {LONGEST} worlds before it made it fail again"
-    return _unlike(campaign, row, message, replay or _searching(campaign))
+def _failure(campaign: c.Campaign, row: Row, now: Row, *, repeat: bool) -> Unlike:
+    if row.failed:
+        if repeat:
+            how = "a claim fails here only after other worlds, and alone none does"
+            return _after_others(campaign, row, how, _before(campaign, row))
+        return _unlike(campaign, row, "it failed in the search, and passed alone", row.findings[0])
+    how = "it passed in the search, and failed alone"
+    if repeat:
+        always = all(again.failed for again in _repeated_alone(campaign, row.world))
+        how = "it passed after other worlds, and alone it fails" if always else VARIES
+    return _unlike(campaign, row, how, now.findings[0])
 
 
 def _failure_in_row(campaign: c.Campaign, names: Sequence[str], now: Row) -> Unlike:
-    finding = now.findings[0]
-    message = (
+    how = (
         f"it passed in the search, and fails as number {len(names)} of a row of worlds that one"
-        f" process played: {finding.claim}, {finding.message}"
+        " process played"
     )
-    replay = _reproduced(campaign, now.world, names[:-1])
-    if replay is None:
-        message += f". The last {LONGEST} worlds before it did not make it fail again"
-    return _unlike(campaign, now, message, replay or _searching(campaign))
+    return _after_others(campaign, now, how, names[:-1])
 
 
-def _unlike(campaign: c.Campaign, row: Row, message: str, replay: str) -> Unlike:
-    finding = Finding(CLAIM, None, "the same each time", None, message, None, row.world, replay)
+def _after_others(campaign: c.Campaign, row: Row, how: str, before: Sequence[str]) -> Unlike:
+    """A world that failed after others, `how` if that can be repeated, and passed alone."""
+    finding = row.findings[0]
+    if any(again.failed for again in _repeated_alone(campaign, row.world)):
+        return _unlike(campaign, row, VARIES, finding)
+    replay = _reproduced(campaign, row.world, before)
+    if replay is not None:
+        return _unlike(campaign, row, how, msgspec.structs.replace(finding, replay=replay))
+    finding = msgspec.structs.replace(
+        finding,
+        message=f"{finding.message}. No row of up to {LONGEST} worlds before it made it fail again",
+        replay=_searching(campaign),
+    )
+    return _unlike(campaign, row, VARIES, finding)
+
+
+def _repeated_alone(campaign: c.Campaign, world: str) -> list[Row]:
+    return _rows(campaign, [world] * REPEATS, _alone)
+
+
+def _unlike(campaign: c.Campaign, row: Row, how: str, failure: Finding) -> Unlike:
+    message = f"{how}: {failure.claim}, {failure.message}"
+    finding = Finding(
+        CLAIM, None, "the same each time", None, message, None, row.world, failure.replay
+    )
     rank = int(row.world.partition("/")[2])
     return Unlike(row.edges, rank, campaign.mappers[0], (finding,))
 
 
 def _reproduced(campaign: c.Campaign, world: str, before: Sequence[str]) -> str | None:
-    """A command that makes a world fail after others in one process, or None."""
+    """A command that makes a world fail each time after others in one process, or None."""
     number = 1
     while before and number <= LONGEST:
         row = [*before[-number:], world]
-        if _rows(campaign, row, _one_process)[-1].failed:
+        if all(_rows(campaign, row, _one_process)[-1].failed for _ in range(REPEATS)):
             words = ["topo-verify", "explore", *row]
             target = target_arguments(campaign.mappers[0])
             words += target if len(target) > 1 else ("--target", *target)
