@@ -39,7 +39,7 @@ def test_other_policies_and_enhancement_i_grow_otherwise_in_this_family() -> Non
     assert [explore(row, "enhancement-i").cost for row in rows] == [218, 818, 3170]
 
 
-def test_rules_without_motion_save_nothing_where_all_places_look_alike() -> None:
+def test_rules_without_motion_save_nothing_in_a_double_row() -> None:
     world = double_row(17)
     for algorithm in ("enhancement-ii", "enhancement-iii-one", "enhancement-iii-all"):
         assert explore(world, algorithm).cost == 3538
