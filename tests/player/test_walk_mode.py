@@ -82,6 +82,10 @@ def test_a_wrong_declaration_is_shown_where_it_is_wrong(show: Open, text: str) -
     page = show(text, at="#walk")
     keys(page, "0 n 1 n 1 n 1 a 1")
     assert said(page) == "Your map contradicts what you see"
+    told = page.inner_text("#walk .says p")
+    keys(page, "0")
+    assert page.inner_text("#walk .says p") == told  # what was seen then, and not what is seen now
+    assert told.startswith("After move 5 you saw 3 exits, where your map shows ")
     keys(page, "Enter")
     assert said(page) == "A decision is wrong"
     assert page.locator("#walk .says li.wrong").inner_text() == (
@@ -146,8 +150,13 @@ def test_the_reader_sees_percepts_only(show: Open, text: str) -> None:
 def test_where_one_answer_is_left_the_game_does_not_advise_to_walk_on(show: Open) -> None:
     page = show(page_of(World.from_id("m1/0"), "basic"), at="#walk")
     keys(page, "0")
-    assert "so it is a new place. Say so: press n." in page.inner_text("#walk .says")
+    assert "so it is a new place. Say so: press “It is a new place”." in page.inner_text(
+        "#walk .says"
+    )
     assert "Walk on" not in page.inner_text("#walk .says p")
+    keys(page, "Enter")
+    assert said(page) == "So far it is right, with 0 of 1 road on it"
+    assert "The history proves the world." in page.inner_text("#walk .says")
 
 
 def test_help_opens_in_the_game_and_escape_closes_it_alone(show: Open, text: str) -> None:

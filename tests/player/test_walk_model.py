@@ -123,6 +123,26 @@ def test_luck_is_told_from_what_followed_and_a_wrong_declaration_is_found(fault:
     assert seen == {"followed", "luck", "wrong"}
 
 
+def test_what_the_moves_prove_does_not_depend_on_a_wrong_declaration() -> None:
+    both = """
+    function answer([world, said]) {
+      const walk = new Walk(new WalkWorld(world));
+      walk.move(0);
+      if (said !== null) walk.declare(said);
+      walk.move(1);
+      const { found, proved, witness } = walk.judged();
+      return [found.map(({ fate }) => fate), proved, witness];
+    }
+    """
+    world = data(World.from_id("m2/8"))
+    silent, wrong, right = answers(MODEL + both, [(world, None), (world, 1), (world, 2)])
+    assert (silent, wrong, right) == (
+        [[], True, None],
+        [["wrong"], True, None],
+        [["followed"], True, None],
+    )
+
+
 def test_least_cost_genus_and_percept_are_those_of_the_world() -> None:
     found = [World((), (), None), *worlds([1, 2, 3]), families.torus(3, 4), families.lattice(5, 5)]
     expected = [
@@ -196,5 +216,5 @@ def test_an_unexpected_sight_says_that_the_map_is_wrong() -> None:
     """
     world = families.lattice(2, 4, holes=0.1, seed=2)
     (told,) = answers(MODEL + wrong, [data(world)])
-    surprise = "Your map shows 2 exits and the marker, and you see 3 exits."
+    surprise = "After move 5 you saw 3 exits, where your map shows 2 exits and the marker."
     assert told == [surprise, ["followed", "followed", "followed", "wrong"]]

@@ -242,8 +242,8 @@ class WalkMode {
     const guesses = walk.hypotheses().length, exits = guesses === 1 ? 'the exit with the letter' : `one of the ${guesses} exits with letters`;
     const alone = guesses + walk.mayBeNew() === 1;
     const places = !walk.mayBeNew() ? `You see the marker, so no place is new here: the road ends at ${exits}` : guesses ? `It may be a new place, or ${exits}` : 'No unexplored exit of your map looks like it, so it is a new place';
-    if (pending.word.length) return [`${pending.word.length} door${pending.word.length === 1 ? '' : 's'} behind the end of the new road`, `${fate}If you know now where the road (?) ends, say so: ${walk.mayBeNew() ? 'it is a new place, or an exit of your map' : 'it is an exit at the marker'}.`];
-    return ['A new road: where does it end?', `${fate}${places}. ${alone ? 'Say so' : 'Walk on to find out, or say so'}: ${guesses ? 'click a letter or press its key' : 'press n'}${guesses && walk.mayBeNew() ? ', or n for a new place' : ''}.`];
+    if (pending.word.length) return [`You are ${pending.word.length} door${pending.word.length === 1 ? '' : 's'} past the end of the new road`, `${fate}If you know now where the road (?) ends, say so: ${walk.mayBeNew() ? 'it is a new place, or an exit of your map' : 'it is an exit at the marker'}.`];
+    return ['A new road: where does it end?', `${fate}${places}. ${alone ? 'Say so' : 'Walk on to find out, or say so'}: ${guesses ? 'choose a letter on your map' : 'press “It is a new place”'}${guesses && walk.mayBeNew() ? ', or “It is a new place”' : ''}.`];
   }
 
   // ---------------------------------------------------------------- the end
@@ -282,10 +282,10 @@ class WalkMode {
   }
 
   headline(wrong, luck, good) {
-    const { walk, ended } = this, left = walk.open().length;
+    const { walk, ended } = this, roads = walk.world.edges.length;
     if (wrong) return 'A decision is wrong';
     if (good) return 'All of it followed: your walk proves this map';
-    const part = walk.complete ? 'The map is right' : `So far it is right, and ${left} exit${left === 1 ? ' is' : 's are'} unexplored`;
+    const part = walk.complete ? 'The map is right' : `So far it is right, with ${ended.found.length} of ${roads} road${roads === 1 ? '' : 's'} on it`;
     if (luck.length) return `${part}, but ${luck.length} of ${ended.found.length} decisions ${luck.length === 1 ? 'was' : 'were'} luck`;
     return walk.complete ? `${part}, but the walk does not prove it` : part;
   }

@@ -95,27 +95,27 @@ class Walk {
     this.percept = percept;
     this.moves += 1;
     if (this.pending) this.behind(door, degree, percept);
-    else if (this.here !== null) this.onward(this.turn(this.here, door), percept);
+    else if (this.here !== null) this.onward(this.turn(this.here, door), percept, this.moves);
   }
 
-  /** Leave a place of S by this dart. */
-  onward(exit, percept) {
+  /** Leave a place of S by this dart, with this move. */
+  onward(exit, percept, move) {
     this.here = this.alpha.get(exit) ?? null;
     if (this.here === null) this.pending = { edge: exit, percept, word: [], turned: 0 };
-    else this.compare(percept);
+    else this.compare(percept, move);
   }
 
   /** A move somewhere behind e: the doors from vu on are kept as a word, ways back cancel. */
   behind(door, degree, percept) {
     const { edge, word, turned } = this.pending, meant = (door + turned) % degree;
     if (meant) {
-      word.push({ door: meant, percept });
+      word.push({ door: meant, percept, move: this.moves });
       this.pending.turned = 0;
     } else if (word.length) this.pending.turned = word.pop().door;
     else {
       this.pending = null;
       this.here = edge;
-      this.compare(percept);
+      this.compare(percept, this.moves);
     }
   }
 
@@ -128,8 +128,8 @@ class Walk {
     this.alpha.set(edge, dart).set(dart, edge);
     this.pending = null;
     this.here = dart;
-    for (const [place, { door, percept }] of word.entries()) {
-      this.onward(this.turn(this.here, door), percept);
+    for (const [place, { door, percept, move }] of word.entries()) {
+      this.onward(this.turn(this.here, door), percept, move);
       if (this.surprise) return;
       if (this.pending) {
         Object.assign(this.pending, { word: word.slice(place + 1), turned });
@@ -137,16 +137,16 @@ class Walk {
       }
     }
     this.here = this.turn(this.here, turned);
-    this.compare(this.percept);
+    this.compare(this.percept, this.moves);
   }
 
-  /** Whether what was seen is what S shows; if not, S is wrong, and where the robot is on it unknown. */
-  compare(percept) {
+  /** Whether a move showed what S shows; if not, S is wrong, and where the robot is on it unknown. */
+  compare(percept, move) {
     const should = this.expected(this.here), { degree, marker } = percept;
     if (should.degree === degree && should.marker === marker) return;
     this.surprise = should.degree !== degree || (should.marker === null) !== (marker === null)
-      ? `Your map shows ${seenAs(should)}, and you see ${seenAs(percept)}.`
-      : 'Your map shows the marker pointing to another exit than it does.';
+      ? `After move ${move} you saw ${seenAs(percept)}, where your map shows ${seenAs(should)}.`
+      : `After move ${move} the marker pointed to another exit than on your map.`;
     this.here = null;
   }
 
@@ -155,6 +155,7 @@ class Walk {
   /**
    * What became of each declaration: it `followed` from the history, was true by `luck`, or `wrong`.
    * What was luck is taken for true by those after it (`given`), but not by the proof of the map.
+   * What stands on a wrong one is not judged.
    */
   judged() {
     const { world } = this, [{ percept }] = this.events, fold = new Fold(percept);
@@ -170,12 +171,12 @@ class Walk {
     if (world.marker !== null) add(world.marker);
     for (const [when, event] of this.events.entries()) {
       if (event.type === 'move') for (const one of [fold, believed]) one.move(event.door, event.percept);
-      if (event.type !== 'augment') continue;
+      if (event.type !== 'augment' || found.at(-1)?.fate === 'wrong') continue;
       const end = world.other.get(phi.get(event.edge)), truth = number.get(end) ?? null;
       const { why, witness } = map.doubt(event);
       if (truth !== (event.kind === 'new' ? null : event.dart)) {
         found.push({ when, event, fate: 'wrong', truth, witness: null });
-        return { found, phi, proved: false, witness: null };
+        continue; // the moves alone decide what is proved
       }
       const given = found.some(({ fate }) => fate === 'luck');
       found.push({ when, event, fate: why ? 'luck' : 'followed', why, witness, given });
