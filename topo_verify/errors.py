@@ -24,7 +24,14 @@ class TopoVerifyError(Exception):
     """Base of every exception that topo_verify raises on purpose."""
 
 
-class InputError(TopoVerifyError, ValueError):
+class ShortTraceback:
+    """An exception whose message says all: a notebook shows it without the stack."""
+
+    def _render_traceback_(self) -> list[str]:  # called by IPython
+        return [f"{type(self).__name__}: {self}"]
+
+
+class InputError(ShortTraceback, TopoVerifyError, ValueError):
     """The input cannot be used; one sentence names the input, the place and the mend.
 
     It may quote a file's name or content, so its control characters are escaped.

@@ -1,4 +1,10 @@
-"""The exhaustive search, for use from Python: `from topo_verify.search import search`."""
+"""The exhaustive search, for use from Python: `from topo_verify.search import search`.
+
+`print(entry)` shows the report of the command line, and so does a notebook.
+"""
+
+from io import StringIO
+from typing import Any
 
 from topo_verify.studies.search.choices import Choices
 from topo_verify.studies.search.search import (
@@ -9,6 +15,7 @@ from topo_verify.studies.search.search import (
     FailingClaim,
     Search,
     SearchEntry,
+    SearchInterrupted,
     search,
 )
 
@@ -21,5 +28,38 @@ __all__ = [
     "FailingClaim",
     "Search",
     "SearchEntry",
+    "SearchInterrupted",
     "search",
 ]
+
+
+def _as_text(entry: SearchEntry) -> str:
+    from topo_verify.cli.search import shown
+    from topo_verify.report.terminal import pretty
+
+    out = StringIO()
+    pretty(shown(entry), out)
+    return out.getvalue().rstrip()
+
+
+def _as_html(entry: SearchEntry) -> str:
+    from topo_verify.cli.search import shown
+    from topo_verify.report.html import blocks_as_html
+    from topo_verify.world.io import notebook
+    from topo_verify.world.rooted_map import World
+
+    first = entry.counterexample
+    picture = "" if first is None else notebook(World.from_id(first.world))
+    return "".join(blocks_as_html(shown(entry))) + picture
+
+
+def _to_printer(entry: SearchEntry, printer: Any, _: bool) -> None:  # noqa: FBT001  by IPython
+    printer.text(str(entry))
+
+
+for _name, _form in (
+    ("__str__", _as_text),
+    ("_repr_html_", _as_html),
+    ("_repr_pretty_", _to_printer),
+):
+    setattr(SearchEntry, _name, _form)  # the report's blocks lie above the entry's room

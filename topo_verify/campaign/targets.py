@@ -10,8 +10,8 @@
     basic,path/file.py:name     several of these, except programs and libraries
 
 Conversely, `text_of` names a callable by its catalogue name, its module, its file if other
-programs do not find the module by name, or else, as for a closure or what a notebook holds, by
-`module:<name>`, which finds nothing.
+programs do not find the module by name, or else, as for a closure, by `module:<name>`, or as for
+what a notebook holds, by `<name>`. Neither finds anything.
 
 Source: docs/semantics.md, section 16.
 """
@@ -200,7 +200,8 @@ def text_of(mapper: Mapper) -> str:
     if place is not None:
         return f"{place}:{name}"
     called: str = getattr(mapper, "__qualname__", type(mapper).__qualname__)
-    return f"{home}:<{called.rpartition('.')[2].strip('<>')}>"
+    name = f"<{called.rpartition('.')[2].strip('<>')}>"
+    return name if home == "__main__" else f"{home}:{name}"
 
 
 def is_found_again(text: str) -> bool:

@@ -120,7 +120,7 @@ def search(
                     yield from _searched(output, one_search, compare=compare is not None)
 
     def show(entries: Sequence[study.SearchEntry]) -> Iterator[Block]:
-        return chain.from_iterable(_shown(entry, worst=worst) for entry in entries)
+        return chain.from_iterable(shown(entry, worst=worst) for entry in entries)
 
     return output.run("search", searches, show, account=_account, in_process=mappers.in_process)
 
@@ -269,7 +269,8 @@ def _failing(claim: study.FailingClaim) -> acc.JudgedCase:
 SHOWN = 3
 
 
-def _shown(entry: study.SearchEntry, *, worst: bool) -> Iterator[Block]:
+def shown(entry: study.SearchEntry, *, worst: bool = False) -> Iterator[Block]:
+    """A search as the command shows it; `worst`: with the highest costs."""
     policies = "" if entry.policies == "reference" else f", policies {entry.policies}"
     title = f"{_who(entry)}: {_class(entry, ', class ')}{policies}"
     rows = [
@@ -395,7 +396,8 @@ def _counterexamples(entry: study.SearchEntry) -> Iterator[Block]:
         return
     yield Text(f"smallest counterexample: {first.world}")
     yield Bullets((f"{first.claim}: {first.message}",))
-    yield Command(first.replay, "again: ")
+    if first.replay:
+        yield Command(first.replay, "again: ")
     if sum(size.failing for size in entry.by_edges) > 1:
         rows = [(c.claim, str(c.failing), c.smallest.world) for c in entry.claims]
         yield Text("")

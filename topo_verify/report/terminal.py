@@ -49,7 +49,9 @@ def _console(out: IO[str]) -> Console:
     from rich.console import Console
 
     wide = None if out.isatty() else _columns()
-    return Console(file=out, width=wide, highlight=False, markup=False, emoji=False)
+    return Console(
+        file=out, width=wide, highlight=False, markup=False, emoji=False, force_jupyter=False
+    )
 
 
 def _columns() -> int:

@@ -17,7 +17,7 @@ from topo_verify.campaign.backend import SHORT_OF_MEMORY
 from topo_verify.campaign.campaign import Ranks, Stop
 from topo_verify.campaign.tally import KEPT_FAILING, KEPT_WORST, Tally
 from topo_verify.studies.search import choices
-from topo_verify.studies.search.search import search
+from topo_verify.studies.search.search import SearchInterrupted, search
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
 
@@ -138,6 +138,23 @@ def test_a_program_that_is_killed_once_is_tried_again(
         assert found.counterexample.world == "m3/21"
         assert "SIGSEGV before it delivered a map" in found.counterexample.message
         assert "; at the second try it delivered one" in found.counterexample.message
+
+
+def test_an_interrupted_search_says_how_far_it_came_and_keeps_the_result() -> None:
+    runs = 0
+
+    def interrupted(robot: Robot) -> Any:
+        nonlocal runs
+        runs += 1
+        if runs > 5:
+            raise KeyboardInterrupt
+        return basic(robot)
+
+    with pytest.raises(SearchInterrupted, match="after 5 of 86 worlds, so far UNKNOWN") as cut:
+        search(interrupted, edges=3)
+    entry = cut.value.entry
+    assert [size.checked for size in entry.by_edges] == [2, 3, 0]
+    assert (entry.verdict, entry.checked, entry.total) == ("UNKNOWN", 5, 86)
 
 
 def test_a_search_that_would_take_for_ever_ends_after_its_time_outs() -> None:

@@ -6,6 +6,7 @@ EXHAUSTED compares two independent numbers: of worlds in which mappers ran, and 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import nullcontext
 
 import msgspec
 from msgspec.structs import astuple
@@ -18,10 +19,10 @@ from topo_verify.campaign.cluster import both_given, connected
 from topo_verify.campaign.row import PolicyCosts, Row
 from topo_verify.campaign.run import Engine, is_native, require_compiled
 from topo_verify.campaign.tally import KEPT_PAIRS, KEPT_WORST, Costs, Pairs, Tally, notable
-from topo_verify.campaign.targets import one_target, targets
+from topo_verify.campaign.targets import is_found_again, one_target, targets
 from topo_verify.checkers import Judgement
 from topo_verify.checkers.findings import Verdict
-from topo_verify.errors import InputError, InternalError
+from topo_verify.errors import InputError, InternalError, ShortTraceback, plural
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import Program
 from topo_verify.robot.limits import Limits
@@ -172,6 +173,21 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
     by_checkers: int
 
 
+class SearchInterrupted(ShortTraceback, KeyboardInterrupt):
+    """Ctrl-C stopped a search.
+
+    Attributes:
+        entry: the result so far; a class without a counterexample is UNKNOWN.
+    """
+
+    def __init__(self, entry: SearchEntry) -> None:
+        self.entry = entry
+        super().__init__(
+            f"interrupted after {entry.checked} of {plural(entry.total, 'world')}, so far"
+            f" {entry.verdict}; the attribute `entry` of this exception has the result"
+        )
+
+
 def search_campaign(  # noqa: PLR0913  an argument an option
     mappers: Sequence[Target],
     *,
@@ -241,6 +257,8 @@ def search(  # noqa: PLR0913  an argument an option
         dask: the address of a Dask scheduler, or `local`.
     Raises:
         InputError: no such mapper; no formula counts the class; and the like.
+        SearchInterrupted: Ctrl-C; its `entry` is the result so far. After it, in a notebook:
+            `import sys; sys.last_value.entry`.
     """
     mappers = targets(target) if isinstance(target, str) else (one_target(target),)
     if workers and dask is not None:
@@ -256,16 +274,19 @@ def search(  # noqa: PLR0913  an argument an option
         limits=limits,
         engine=engine,
     )
-    if dask is not None:
-        with connected(dask) as cluster:
-            study = Search(campaign, mappers, clustered(cluster))
+    local = not workers and not calls_native(campaign)
+    with nullcontext() if dask is None else connected(dask) as cluster:
+        if cluster is not None:
+            backend = clustered(cluster)
+        else:
+            backend = here(mappers) if local else pooled(workers)
+        study = Search(campaign, mappers, backend)
+        try:
             study.work(tell)
-    else:
-        local = not workers and not calls_native(campaign)
-        study = Search(campaign, mappers, here(mappers) if local else pooled(workers))
-        study.work(tell)
-    if isinstance(target, str):
-        study.run_again(tell)
+            if isinstance(target, str):
+                study.run_again(tell)
+        except KeyboardInterrupt:
+            raise SearchInterrupted(study.entry()) from None
     return study.entry()
 
 
@@ -274,6 +295,11 @@ def _require_texts(mappers: Sequence[Target]) -> None:
     for mapper in mappers:
         if isinstance(mapper.mapper, Program):
             continue
+        if not is_found_again(mapper.text):
+            raise InputError(
+                f"{mapper.text} cannot be handed to workers, which find a mapper by its TARGET:"
+                " put it into a file, or search in this process (workers=0)"
+            )
         try:
             loaded = one_target(mapper.text).mapper
         except InputError as error:

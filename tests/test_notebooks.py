@@ -1,0 +1,59 @@
+"""What a notebook shows of results and errors. IPython's protocol is spoken without IPython."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import topo_verify as tv
+from topo_verify.search import search
+
+
+def guess(_robot: tv.Robot) -> dict[str, Any]:
+    """A mapper that says without a move that the world is one edge."""
+    return {"vertices": [[0], [1]], "edges": [[0, 1]], "marker": 0}
+
+
+class Printer:
+    """As much of IPython's printer as is needed here."""
+
+    def __init__(self) -> None:
+        self.printed = ""
+
+    def text(self, text: str) -> None:
+        self.printed += text
+
+
+def test_an_input_error_is_one_line() -> None:
+    with pytest.raises(tv.InputError) as refused:
+        tv.explore("m3/99", "basic")
+    stack: Any = refused.value
+    assert stack._render_traceback_() == [f"InputError: {refused.value}"]
+
+
+def test_a_search_shows_its_verdict_its_table_and_its_counterexample() -> None:
+    entry: Any = search(guess, edges=2)
+    printer = Printer()
+    entry._repr_pretty_(printer, False)  # noqa: FBT003  as IPython does
+    assert printer.printed == str(entry)
+    page = entry._repr_html_()
+    for text in (str(entry), page):
+        assert "REFUTED" in text
+        assert "worlds of 1 to 2 edges" in text
+        assert "smallest counterexample: m1/0" in text
+    assert len(str(entry).splitlines()) < 15
+    assert page.count("<img ") == 1
+    assert page.count("<table") == 1
+
+
+def test_a_search_without_a_counterexample_has_no_picture() -> None:
+    entry: Any = search("basic", edges=2)
+    assert "EXHAUSTED: 12 of 12 worlds checked" in str(entry)
+    assert "<img " not in entry._repr_html_()
+
+
+def test_no_command_is_shown_for_what_no_command_finds() -> None:
+    entry = search(lambda _robot: None, edges=1)
+    assert "again:" not in str(entry)
+    assert "again:" in str(search(guess, edges=1))
