@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from topo_verify import InputError, World, examine, explore
 from topo_verify.campaign.targets import one_target, target_arguments, target_text
 from topo_verify.programs.library import header_text, library_file
 from topo_verify.programs.loader import Target
+from topo_verify.programs.misbehaviour import last_words
 from topo_verify.studies.search.search import search
 
 MISDEEDS = {
@@ -125,3 +127,19 @@ def test_the_sketch_in_rust_maps_what_it_does_not_skip(tmp_path: Path) -> None:
 def test_the_wrong_sketch_in_rust_is_caught(tmp_path: Path) -> None:
     report = examine(built_by_rust(tmp_path, "--cfg", "wrong"), World.from_id("m2/9"))
     assert report.claims["map-isomorphic"] == "failed"
+
+
+def test_the_example_for_a_debugger_runs_a_library_in_one_world(tmp_path: Path) -> None:
+    library = built(tmp_path).removeprefix("--library ")
+    script = ROOT / "examples" / "native_c" / "in_gdb.py"
+    done = subprocess.run(
+        [sys.executable, script, library, "m2/5"], capture_output=True, text=True, check=True
+    )
+    assert "m2/5" in done.stdout
+
+
+def test_a_sanitizer_is_quoted_by_its_summary() -> None:
+    summary = "SUMMARY: AddressSanitizer: SEGV m.c:9 in map_world"
+    frames = "".join(f"    #{n} 0x77 in _Py_call\n" for n in range(20))
+    words = f"; its last line on standard error: {summary}"
+    assert last_words(f"==7==ERROR\n{summary}\n{frames}==7==ABORTING\n") == words

@@ -130,7 +130,7 @@ def test_a_world_that_is_over_stays_what_it_is_whatever_our_child_writes(child: 
     for name in LINES:
         written("ready", "move", "move", name, "undelivered", "done")
         run = explore(EDGE, child.target, limits=Limits(budget=1))
-        assert (run.stopped, run.cost) == ("the mapper asked for more than 1 moves", 1), name
+        assert (run.stopped, run.cost) == ("the mapper asked for more than 1 move", 1), name
 
 
 # ---------------------------------------------------------------- outside of a world

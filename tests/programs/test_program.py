@@ -189,7 +189,7 @@ def test_limits_hold_in_other_threads_too() -> None:
     thread = threading.Thread(target=play)
     thread.start()
     thread.join(30)
-    flush = "a program must flush its output after each line"
+    flush = "an endless loop, or an answer that was not flushed"
     assert stopped == [f"the mapper did not move for 0.5 s; {flush}"]
 
 

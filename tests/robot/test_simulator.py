@@ -79,7 +79,7 @@ def test_a_move_is_for_one_of_the_known_purposes(robot: SimulatedRobot, purpose:
 
 @pytest.mark.parametrize("budget", [0, -1])
 def test_one_move_more_than_the_budget_stops_the_robot(budget: int) -> None:
-    with pytest.raises(BudgetExceeded, match=f"more than {budget} moves"):
+    with pytest.raises(BudgetExceeded, match=f"more than {budget} move"):
         SimulatedRobot(World.from_id("m1/0"), budget).move(0)
 
 

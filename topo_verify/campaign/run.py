@@ -178,7 +178,7 @@ def explore(
     if limit in ("move-timeout", "world-timeout"):
         robot.settle()
     if limit == "move-timeout" and target.text.startswith(PREFIX):
-        flush = "a program must flush its output after each line"
+        flush = "an endless loop, or an answer that was not flushed"
         why = "it computes on, or waits for an answer" if robot.events else flush
         stopped = f"{stopped}; {why}"
     misbehaved = None

@@ -255,7 +255,7 @@ class CompiledJob:
             None if stop else map_of(space, layout),
             {
                 0: None,
-                ws.STOP_BUDGET: f"the mapper asked for more than {self.budget} moves",
+                ws.STOP_BUDGET: f"the mapper asked for more than {plural(self.budget, 'move')}",
                 ws.STOP_DOOR: "the mapper asked for a door that is not there",
             }[stop],
             self.events if self.trace else None,

@@ -154,8 +154,9 @@ def silence_report(child: Child, message: str, *, over: bool = False) -> Misbeha
 
 
 def last_words(stderr: str) -> str:
-    """The last lines on standard error, to append to a sentence."""
-    lines = [shown(line.strip()) for line in stderr.splitlines() if line.strip()][-LAST_LINES:]
+    """The last lines on standard error, or a sanitizer's summary, to append to a sentence."""
+    lines = [shown(line.strip()) for line in stderr.splitlines() if line.strip()]
+    lines = [line for line in lines if line.startswith("SUMMARY: ")] or lines[-LAST_LINES:]
     if not lines:
         return ""
     which = "last line" if len(lines) == 1 else "last lines"

@@ -36,7 +36,7 @@ EXPECTED = {
     "floods stdout": ("too-long", "a line of more than 1048576 bytes"),
     "floods stdout with lines": ("not-json", "spam"),
     "floods stderr": ("flooded-stderr", "more than 1048576 bytes on standard error"),
-    "floods moves": ("budget", "more than 1 moves"),
+    "floods moves": ("budget", "more than 1 move"),
     "floods declarations": ("declarations", "100001 decisions without a move"),
     "prints garbage": ("not-json", "hello, world"),
     "prints an empty line": ("not-json", "truncated"),
@@ -75,7 +75,7 @@ EXPECTED = {
     "ignores SIGTERM": ("move-timeout", "did not move"),
     "leaves a child": ("crashed", "exit code 1"),
     "leaves a child in a session of its own": ("crashed", "exit code 1"),
-    "walks for ever": ("budget", "more than 1 moves"),
+    "walks for ever": ("budget", "more than 1 move"),
 }
 """What is found, and what its sentence says."""
 
