@@ -63,6 +63,8 @@ def test_the_example_of_overlap_in_the_paper() -> None:
     for door in second[choice.shared :]:
         pilot.forward(door)
     assert doors(robot.events) == [2, 1, 3, 1, 2, 0, -2 % 16, (3 - 1) % 16, 2, 4]
+    by_way_of_vu = len(first) + len(first) + len(second)
+    assert pilot.cost == by_way_of_vu - 2 * choice.shared == 10
 
 
 def test_overlap_with_nothing_executed_takes_the_first() -> None:

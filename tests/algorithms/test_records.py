@@ -9,8 +9,9 @@ import pytest
 from tests.helpers import failing, of_type, trace_of, variant
 from topo_verify import CATALOGUE, World
 from topo_verify.algorithms.chart import Chart
+from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.enhancement_iii import RecordsRule, Seen
-from topo_verify.algorithms.motion import Executed, overlap
+from topo_verify.algorithms.motion import Executed, Hypothesis, overlap
 from topo_verify.faults import FAULTS
 from topo_verify.robot.events import Evidence, MapDart, Record, Reject, Trace
 from topo_verify.robot.percept import Percept
@@ -120,6 +121,36 @@ def test_records_go_as_deep_as_their_levels(levels: int | None) -> None:
         depth, place = depth + 1, next(iter(place.behind.values()))
     assert place.percept == row[depth + 1]
     assert depth + 1 == (levels or 3)
+
+
+SEEN = (6, 4, 3, 2, 5)
+"""Degrees at vx and behind 3, 2, 1, 4 from there, in section III-C; the marker is elsewhere."""
+
+
+@pytest.mark.parametrize(
+    ("rule", "compared"),
+    [(HistoryRule(), 1), (RecordsRule(levels=1), 2), (RecordsRule(), 4)],
+    ids=["history", "one level", "all levels"],
+)
+def test_the_examples_of_records_in_the_paper(rule: HistoryRule, compared: int) -> None:
+    # vk has the darts 1 to 7; e = 2 ends at vx, whose edge 0 is dart 8; edge 5 from dart 4 is e.
+    chart = Chart(Percept(1, 0))
+    chart.join(0, chart.add_vertex(Percept(7, None)))
+    vx = chart.add_vertex(Percept(SEEN[0], None))
+    chart.join(2, vx)
+    rule.learn(chart, 2, vx, [Executed((3, 2, 1, 4), percepts(SEEN))])
+    hypothesis = Hypothesis(4, chart, chart.tree(0))
+    for place in range(4):
+        other = [7, *SEEN[:4]]
+        assert rule.refute(chart, hypothesis, [Executed((5, 3, 2, 1), percepts(other))]) is None
+        other[place + 1] = 9
+        refuted = rule.refute(chart, hypothesis, [Executed((5, 3, 2, 1), percepts(other))])
+        assert (refuted is not None) == (place < compared)
+
+
+def percepts(degrees: Sequence[int]) -> tuple[Percept, ...]:
+    """Percepts without the marker."""
+    return tuple(Percept(degree, None) for degree in degrees)
 
 
 def test_a_second_sequence_adds_branches_to_the_trie() -> None:

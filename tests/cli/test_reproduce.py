@@ -85,7 +85,7 @@ def test_another_seed_draws_other_graphs(results: Results) -> None:
 def test_people_see_a_table_a_paragraph_exponents_and_what_was_judged(call: Call) -> None:
     text = call("reproduce --quick --figure 3,6a --graphs 2").stdout
     assert "Figure 6a: Enhancement I, lattices" in text
-    assert "Does not follow from the text" in text
+    assert "Not reproduced: at 10×10" in text
     assert "Growth: cost ~ m^exponent" in text
     assert "24 runs were judged: 10 of 10 claims held in each." in text
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from collections import defaultdict
 from math import sqrt
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from msgspec.structs import replace
 
 from tests.studies.reproduce.rows import made_up, measured, planned_runs, rows_of
 from topo_verify.campaign.row import Row
+from topo_verify.report.figures.words import LADDER
 from topo_verify.studies.reproduce import points as pts
 from topo_verify.studies.reproduce.figures import FIGURES, PAIRS, FigureExtent
 
@@ -112,6 +114,33 @@ def test_the_points_in_docs_are_those_that_this_code_makes(name: str) -> None:
     lines = made.splitlines()[1:]
     assert len(lines) == len(figure.lines) + 2
     assert {*lines} <= {*(folder / f"figure-{name}.csv").read_text().splitlines()}
+
+
+def means(setting: str) -> dict[int, dict[str, float]]:
+    """The mean costs in docs/figures, by size and algorithm."""
+    found = defaultdict[int, dict[str, float]](dict)
+    for path in KEPT[setting][0].glob("figure-*.csv"):
+        for point in csv.DictReader(path.read_text().splitlines()):
+            found[int(point["size"])][point["algorithm"]] = float(point["mean"])
+    return found
+
+
+@pytest.mark.parametrize(
+    ("setting", "size", "percent"),
+    [("lattice", 10, 49), ("lattice", 20, 69), ("dense", 20, 53), ("dense", 100, 82)],
+)
+def test_all_level_enhancement_iii_saves_as_much_as_the_pages_say(
+    setting: str, size: int, percent: int
+) -> None:
+    costs = means(setting)[size]
+    assert round(100 * (1 - costs["enhancement-iii-all"] / costs["basic"])) == percent
+
+
+@pytest.mark.parametrize("setting", KEPT)
+def test_in_the_mean_no_enhancement_costs_more_than_the_one_before_it(setting: str) -> None:
+    for costs in means(setting).values():
+        ladder = [costs[name] for name in LADDER]
+        assert ladder == sorted(ladder, reverse=True)
 
 
 @pytest.mark.parametrize("setting", KEPT)

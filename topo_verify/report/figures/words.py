@@ -79,7 +79,7 @@ def _stated(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
         if point is None:
             continue
         yield (
-            f"Does not follow from the text: at {size}×{size} the paper states {stated.words} edge"
+            f"Not reproduced: at {size}×{size} the paper states {stated.words} edge"
             f" traversals for {SHORT[name]}, measured are {_cost(point)},"
             f" {_percent(point.mean / stated.cost)} of that."
         )
