@@ -35,7 +35,7 @@ def test_an_input_error_is_one_line() -> None:
 def test_a_search_shows_its_verdict_its_table_and_its_counterexample() -> None:
     entry: Any = search(guess, edges=2)
     printer = Printer()
-    entry._repr_pretty_(printer, False)  # noqa: FBT003  as IPython does
+    entry._repr_pretty_(printer, False)
     assert printer.printed == str(entry)
     page = entry._repr_html_()
     for text in (str(entry), page):

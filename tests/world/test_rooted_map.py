@@ -168,7 +168,8 @@ def test_a_map_and_its_dual_have_the_same_medial_map() -> None:
 def test_a_world_made_of_lists_is_the_world_made_of_tuples() -> None:
     swap: Any = [1, 0]
     world = World(swap, swap, 0)
-    assert world == LOOP and hash(world) == hash(LOOP)
+    assert world == LOOP
+    assert hash(world) == hash(LOOP)
 
 
 def test_the_dual_leaves_the_face_on_the_left_of_each_dart() -> None:
