@@ -73,6 +73,9 @@ def own_alarm(robot):
     while True:
         time.sleep(0.01)
 
+def waits(robot):
+    time.sleep(60)
+
 def swallows(robot):
     while True:
         try:
@@ -155,7 +158,8 @@ WAYS = (
 def test_what_keeps_it_from_a_map_is_said_in_the_same_words(name: str) -> None:
     limits = Limits(budget=3)
     if name == "swallows":  # in this process nothing but the clock stops it
-        assert why(name, limits=Limits(move_timeout=0.3)) == "the mapper did not move for 0.3 s"
+        hung = str(why(name, limits=Limits(move_timeout=0.3)))
+        assert hung.startswith("the mapper did not move for 0.3 s; it was at mine.py, line ")
         return
     told = why(name, limits=limits)
     assert told == why(name, limits=limits, in_process=True)
@@ -195,9 +199,17 @@ def test_a_child_that_dies_names_the_signal_and_the_line() -> None:
     assert str(why("exits")).startswith("the program ended with exit code 3")
 
 
+@pytest.mark.parametrize("in_process", [False, True])
+def test_the_line_of_a_hang_is_told(folder: Path, in_process: bool) -> None:
+    limits = Limits(move_timeout=0.3)
+    line = (folder / "mine.py").read_text().splitlines().index("def waits(robot):") + 2
+    told = why("waits", limits=limits, in_process=in_process)
+    assert told == f"the mapper did not move for 0.3 s; it was at mine.py, line {line}"
+
+
 def test_the_clock_ends_a_mapper_that_uses_the_alarm_itself() -> None:
-    told = why("own_alarm", limits=Limits(move_timeout=0.3))
-    assert told == "the mapper did not move for 0.3 s"
+    told = str(why("own_alarm", limits=Limits(move_timeout=0.3)))
+    assert told.startswith("the mapper did not move for 0.3 s; it was at mine.py, line ")
 
 
 # ---------------------------------------------------------------- what it is given

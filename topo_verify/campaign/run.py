@@ -28,7 +28,7 @@ from topo_verify.campaign.targets import one_target
 from topo_verify.checkers import check
 from topo_verify.compiled import require
 from topo_verify.errors import InputError, InternalError
-from topo_verify.programs.delivery import Undelivered, deliver
+from topo_verify.programs.delivery import Undelivered, deliver, stopped_at
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.misbehaviour import Misbehaved
@@ -268,8 +268,10 @@ def _run(
     try:
         result = within(limits, lambda: robot.cost, survey)
     except MapperStopped as stop:
-        stop = robot.stopped or stop
-        return None, str(stop), None, stop.limit
+        if robot.stopped is not None:
+            return None, str(robot.stopped), None, robot.stopped.limit
+        line = mapper.line() if isinstance(mapper, Program) else stopped_at(stop)
+        return None, f"{stop}; it was at {line}" if line else str(stop), None, stop.limit
     error = result.error if isinstance(result, Undelivered) else None
     # The first limit counts, even if the mapper swallowed the robot's exception.
     if robot.stopped is not None:

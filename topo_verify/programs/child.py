@@ -325,6 +325,20 @@ class Child:
             sleep(0.001)
         return str(status)
 
+    def after_signal(self, number: int, seconds: float) -> bytes:
+        """What it writes after this signal, within some seconds or until a silent tick."""
+        with suppress(ProcessLookupError, PermissionError):
+            os.kill(self._process.pid, number)
+        until = monotonic() + seconds
+        written = b""
+        with suppress(TooLong):
+            while monotonic() < until and not self._output_ended:
+                heard = self._listen()
+                written = b"\n".join((*self._lines, self._rest))
+                if written and not heard:
+                    break
+        return written
+
     def signal(self) -> str | None:
         """The name of the signal that ended the program, or None."""
         status = self._status()

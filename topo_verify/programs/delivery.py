@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from inspect import isgenerator
 from operator import index
@@ -18,7 +18,7 @@ from topo_verify import errors
 from topo_verify.errors import LINE, InputError, shown
 from topo_verify.programs.loaded import is_users
 from topo_verify.robot.events import Finish, MapData
-from topo_verify.robot.limits import MapperStopped
+from topo_verify.robot.limits import MapperStopped, TimeLimitExceeded
 from topo_verify.world.validation import map_parts, optional_part
 
 R = TypeVar("R")
@@ -88,15 +88,32 @@ def exception_text(error: BaseException) -> str:
 
 def _place(error: BaseException) -> str:
     """The innermost line of the user's files in a traceback, else one outside topo_verify."""
-    frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.lineno]
-    others = [f for f in frames if not Path(f.filename).is_relative_to(_PACKAGE)]
-    chosen = [f for f in others if Path(f.filename).is_file() and is_users(f.filename)] or others
-    if not chosen:
-        return ""
-    path = Path(chosen[-1].filename)
+    frames = _frames(error)
+    others = [frame for frame in frames if not Path(frame[0]).is_relative_to(_PACKAGE)]
+    return users_line(frames) or (_line(*others[-1]) if others else "")
+
+
+def _frames(error: BaseException) -> list[tuple[str, int]]:
+    frames = traceback.extract_tb(error.__traceback__)
+    return [(frame.filename, frame.lineno) for frame in frames if frame.lineno]
+
+
+def users_line(frames: Iterable[tuple[str, int]]) -> str:
+    """The last of these files and lines that is in a file of the user's, or ""."""
+    users = [frame for frame in frames if Path(frame[0]).is_file() and is_users(frame[0])]
+    return _line(*users[-1]) if users else ""
+
+
+def _line(file: str, line: int) -> str:
+    path = Path(file)
     with suppress(ValueError, OSError):
         path = path.relative_to(Path.cwd())
-    return f"{os.fspath(path)}, line {chosen[-1].lineno}"
+    return f"{os.fspath(path)}, line {line}"
+
+
+def stopped_at(stop: MapperStopped) -> str:
+    """Where a mapper in this process was when a time limit stopped it, or ""."""
+    return users_line(_frames(stop)) if isinstance(stop, TimeLimitExceeded) else ""
 
 
 def finish_of(result: object) -> Finish:

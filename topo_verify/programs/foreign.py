@@ -6,11 +6,14 @@
 When a limit stops the robot, the mapper's next move raises. If the mapper then ends in time, its
 process (serve.py) plays the next world.
 
-What this does not show: that exceptions, prints and `loaded`, the child's own words, are true.
+What this does not show: that exceptions, prints, `loaded` and the line of a hang, the child's own
+words, are true.
 """
 
 from __future__ import annotations
 
+import os
+import re
 from typing import ClassVar, TypeVar
 
 import msgspec
@@ -18,12 +21,14 @@ import msgspec
 from topo_verify.errors import InputError
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import Child, Ended, ReaperProcess, Silent, TooLong
+from topo_verify.programs.delivery import users_line
 from topo_verify.programs.isolation import python_command
 from topo_verify.programs.library import LIBRARY, library_file
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
 from topo_verify.programs.misbehaviour import Misbehaved, crash_report, decoded
 from topo_verify.programs.program import Program
+from topo_verify.programs.serve import WHERE
 from topo_verify.robot.events import Finish, Robot
 from topo_verify.robot.limits import Limits, MapperStopped, helped_by, within
 from topo_verify.robot.simulator import EXPECTED, SimulatedRobot
@@ -35,6 +40,11 @@ LOADING = 120.0
 
 UNWINDING = Limits(move_timeout=1.0, world_timeout=1.0)
 """How long a mapper has to end a world in which its robot was stopped."""
+
+WHERE_SECONDS = 0.5
+"""How long to wait for the line at which a mapper hangs."""
+
+_FRAME = re.compile(rb'^  File "(.*)", line (\d+) in ', re.MULTILINE)
 
 LONGEST = 2**26
 """The most bytes of a message: a Python mapper need not know the protocol's limit."""
@@ -82,6 +92,7 @@ class Foreign(Program):
         self.text = text
         self._decode = _decoded
         self._was_loaded = False
+        self._says_line = not fresh and not text.startswith(LIBRARY)
 
     @property
     def target(self) -> Target:
@@ -105,6 +116,13 @@ class Foreign(Program):
         if isinstance(answer, ms.RefusedMessage):
             raise InputError(f"target {self.text!r}: {answer.why}")
         return answer.loaded
+
+    def line(self) -> str:
+        """The user's file and line at which a time limit stopped it, or "" if nothing tells."""
+        if self._child is None or self._idle or self._halted or not self._says_line:
+            return ""
+        frames = _FRAME.findall(self._child.after_signal(WHERE, WHERE_SECONDS))
+        return users_line([(os.fsdecode(file), int(line)) for file, line in reversed(frames)])
 
     def _play(self, child: Child, robot: Robot) -> Finish | Misbehaved:
         try:

@@ -211,6 +211,10 @@ class Program:
         with suppress(Misbehaved):  # it was started before; the world in which it fails says so
             self._ready()
 
+    def line(self) -> str:
+        """The user's file and line at which a time limit stopped it, or "" if nothing tells."""
+        return ""
+
     @property
     def process(self) -> int | None:
         """The process id, or None."""

@@ -38,6 +38,9 @@ _to_child: msgspec.json.Decoder[ms.ToChild] = msgspec.json.Decoder(ms.ToChild)
 _encode = msgspec.json.Encoder(enc_hook=index).encode
 
 
+WHERE = signal.SIGUSR2
+"""The signal upon which a child of `Foreign` writes its frames to the harness."""
+
 WORDS = 100_000
 """Most characters of an explanation that are sent."""
 
@@ -190,6 +193,7 @@ def child(text: str) -> None:
     cast("TextIOWrapper", sys.stdout).reconfigure(line_buffering=True)
     if not text.startswith(LIBRARY):  # below a library's function stand lines of ours alone
         faulthandler.enable()
+        faulthandler.register(WHERE, writer, all_threads=False)
     try:
         mapper = load(text)
     except InputError as error:

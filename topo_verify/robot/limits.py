@@ -221,7 +221,7 @@ def _by_thread(watch: _Watch, tick: float, work: Callable[[], T]) -> T:
     try:
         return work()
     except TimeLimitExceeded as bare:
-        raise watch.struck or bare from None
+        raise (watch.struck or bare).with_traceback(bare.__traceback__) from None
     finally:
         done.set()
         watcher.join()
