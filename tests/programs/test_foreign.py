@@ -73,6 +73,10 @@ def own_alarm(robot):
     while True:
         time.sleep(0.01)
 
+def debugs(robot):
+    breakpoint()
+    return basic(robot)
+
 def waits(robot):
     time.sleep(60)
 
@@ -180,6 +184,12 @@ def test_every_exception_is_told_with_its_line(folder: Path, name: str, error: s
     lines = (folder / "mine.py").read_text().splitlines()
     line = lines.index(f"def {name}(robot):") + 2
     assert why(name) == f"the mapper raised {error} (mine.py, line {line})"
+
+
+def test_a_debugger_without_an_input_names_the_options_that_give_it_one() -> None:
+    told = str(why("debugs"))
+    assert told.startswith("the mapper raised BdbQuit (mine.py, line ")
+    assert told.endswith("; a debugger needs --in-process --move-timeout 9999 --world-timeout 9999")
 
 
 def test_the_line_is_the_innermost_one_of_the_users_own_files(folder: Path) -> None:

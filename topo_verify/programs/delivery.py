@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import traceback
+from bdb import BdbQuit
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from inspect import isgenerator
@@ -24,6 +25,9 @@ from topo_verify.world.validation import map_parts, optional_part
 R = TypeVar("R")
 
 _PACKAGE = Path(errors.__file__).resolve().parent
+
+DEBUG = "; a debugger needs --in-process --move-timeout 9999 --world-timeout 9999"
+"""What is added for a debugger in a process whose standard input is empty."""
 
 TEST_TOOLS = ("hypothesis", "_pytest", "pytest")
 """Their exceptions end a test, not the mapper in the same process."""
@@ -54,7 +58,8 @@ def deliver(
     except BaseException as raised:
         if not alone and _passes(raised):
             raise
-        return Undelivered(f"the mapper raised {exception_text(raised)}", raised)
+        why = f"the mapper raised {exception_text(raised)}"
+        return Undelivered(why + DEBUG * (alone and isinstance(raised, BdbQuit)), raised)
     try:
         return finish_of(result)
     except MapperStopped:

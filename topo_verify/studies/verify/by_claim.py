@@ -60,6 +60,9 @@ class ClaimResults:
         match self.verdict(claim):
             case "fails":
                 return self._failure(claim, runs["failed"])
+            case "undecided" if self.first:
+                tried = f"{self.part.checked:,} of {worlds:,} worlds were tried"
+                return f"{claim} is undecided: {tried}; see {', '.join(self.first)}, which fails"
             case "undecided":
                 return shown(f"{claim} is undecided: {self.part.summary}", limit=LINE)
             case "not-declared" if not runs["ok"] + runs["partial"]:
