@@ -18,6 +18,7 @@ from topo_verify.faults import FAULTS
 from topo_verify.player.fold_places import fold_places
 from topo_verify.player.page import player_page
 from topo_verify.player.scenes import Playback
+from topo_verify.robot.events import Robot
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -83,6 +84,24 @@ def test_a_run_without_a_question_opens_at_its_first_decision_if_it_has_one(show
     page = show(page_of(World.from_id("m1/0"), "basic"))
     assert step(page) > 0
     assert step(show(page_of(World((), (), None), "basic"))) in (0, 1)
+
+
+def test_where_the_only_guesses_come_after_the_last_move_it_opens_early(show: Open) -> None:
+    page = show(page_of(World.from_id("m3/13"), "enhancement-ii"))
+    assert " ".join(page.inner_text("#key").split()) == "new 1 moves 1 of 3 least 3 step 2 of 11"
+
+
+def test_a_walk_in_circles_opens_at_the_end_of_its_first_round(show: Open) -> None:
+    def circles(robot: Robot) -> None:
+        while True:
+            robot.move(1 % robot.percept.degree)
+
+    page = show(page_of(World.from_id("m4/41"), circles))
+    assert step(page) == 4
+    assert page.inner_text(".say .wrong").startswith("map-isomorphic: no map was delivered")
+    remark = "events 1 to 4 repeat to the end of the run, 31 times in all"
+    assert page.inner_text(".say .remark") == remark
+    assert page.inner_text("#key").count("moves") == 1
 
 
 @pytest.mark.parametrize(("width", "height"), [(1366, 768), (1280, 800), (1600, 900)])
@@ -284,7 +303,7 @@ SIZES = ((1400, 900), (390, 800), (360, 740), (1600, 1000), (3840, 2160))
 @pytest.mark.parametrize("name", ["lattice", "wrong", "two"])
 def test_nothing_has_to_be_scrolled(show: Open, name: str, request: pytest.FixtureRequest) -> None:
     page = show(request.getfixturevalue(name))
-    for width, height in SIZES:
+    for width, height in (*SIZES, (720, 736)):
         page.set_viewport_size({"width": width, "height": height})
         # In one go: the panes are made anew shortly after the size has changed.
         root, *panes = page.evaluate(

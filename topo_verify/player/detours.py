@@ -40,6 +40,10 @@ class Circle(NamedTuple):
     period: int
     moves: int
 
+    def __str__(self) -> str:
+        times = f"{self.moves // self.period:,} times in all"
+        return f"events {self.first} to {self.last} repeat to the end of the run, {times}"
+
 
 def turns(playback: Playback) -> dict[int, Turn]:
     """By event, the moves whose door does not count from the entry dart, except retracing ones."""

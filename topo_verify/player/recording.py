@@ -27,7 +27,7 @@ from typing import Any, NamedTuple, assert_never, get_args
 
 from topo_verify.checkers import Finding, Judgement
 from topo_verify.errors import LINE, shown
-from topo_verify.player.detours import turns
+from topo_verify.player.detours import circle, turns
 from topo_verify.player.narrator import SEES, SENSES, Narrator
 from topo_verify.player.remarks import remarks
 from topo_verify.player.scenes import Moment, Playback
@@ -190,13 +190,16 @@ def _findings(
     playback: Playback, worlds: list[dict[str, Any]], places: dict[str, int]
 ) -> list[dict[str, Any]]:
     rows: list[dict[str, Any]] = []
-    turned, explained = turns(playback), set[int | None]([None])
+    turned, explained, repeated = turns(playback), set[int | None]([None]), circle(playback)
     for finding in playback.findings:
         number, notes = finding.event, list[str]()
-        if number is not None and number not in explained:
+        if number is None and repeated is not None:
+            number, notes = repeated.last, [str(repeated)]  # shown at the end of the first round
+        elif number not in explained:
+            assert number is not None
             notes = list(remarks(playback, playback.moments[number], turned.get(number)))
-        explained.add(number)
-        rows.append({**_finding(finding, worlds, places), "remarks": notes})
+        explained.add(finding.event)
+        rows.append({**_finding(finding, worlds, places), "event": number, "remarks": notes})
     return rows
 
 

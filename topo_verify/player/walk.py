@@ -192,8 +192,7 @@ class _View:
     def more(self, last: int) -> list[str]:
         following, words, repeated = len(self.playback.trace) - 1 - last, "", self.circle
         if repeated is not None and last == repeated.last:
-            times = f"{repeated.moves // repeated.period:,} times in all"
-            words = f"Events {repeated.first} to {last} repeat to the end of the run, {times}."
+            words = f"{str(repeated).capitalize()}."
         elif following:
             words = f"{plural(following, 'more event')}: topo-verify replay --all shows them."
             if repeated is not None:

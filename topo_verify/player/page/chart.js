@@ -1,6 +1,6 @@
 /* The cost so far, stacked by purpose, along a clock; ticks for decisions, a line for the least cost. */
 
-const PURPOSE_NAMES = ['walking', 'new', 'testing', 'back', 'moves'];
+const PURPOSE_NAMES = { walk: 'walking', cross: 'new', validate: 'testing', retrace: 'back', other: 'other' };
 
 /** Which event of a run is shown at each tick: every event, every move, or every edge of S. */
 class Clock {

@@ -35,11 +35,11 @@ class Player {
     return found ? +found[1] : null;
   }
 
-  /** Where a run opens: at its first finding, or at the first question with guesses. */
+  /** Where a run opens: at its first finding, or at the first question with guesses before its last move. */
   opening() {
-    const [found] = this.findings(), { events } = this.runs[this.chosen[0]];
+    const [found] = this.findings(), run = this.runs[this.chosen[0]], { events } = run;
     if (found) return found.tick;
-    const asked = events.findIndex(({ hypotheses }) => hypotheses?.length);
+    const asked = events.findIndex(({ hypotheses }, when) => hypotheses?.length && run.costOf(when) < run.cost);
     const first = asked < 0 ? events.findIndex(({ type }) => type !== 'start' && type !== 'move') : asked;
     return this.clock.tick(0, Math.max(first, 0));
   }
@@ -413,10 +413,10 @@ class Player {
       this.cells.push(() => (b.textContent = value()));
     };
     if (runs.length === 1) {
-      PURPOSES.forEach((name, k) => {
-        if (runs[0].costs[k][runs[0].length - 1]) cell(name, PURPOSE_NAMES[k], () => runs[0].costs[k][this.at(0)]);
-      });
-      cell('', 'moves', () => `${runs[0].costOf(this.at(0))} of ${runs[0].cost}`);
+      const used = PURPOSES.filter((_, k) => runs[0].costs[k].at(-1));
+      const alone = used.length === 1 && used[0] === 'other' ? used.pop() : '';
+      for (const name of used) cell(name, PURPOSE_NAMES[name], () => runs[0].costs[PURPOSES.indexOf(name)][this.at(0)]);
+      cell(alone, 'moves', () => `${runs[0].costOf(this.at(0))} of ${runs[0].cost}`);
     } else runs.forEach((run, index) => cell('', run.name, () => `${run.costOf(this.at(index))} of ${run.cost} moves`));
     if (this.recording.least_cost) cell('least', 'least', () => this.recording.least_cost);
     const unit = { event: 'step', cost: 'move', edge: 'edge' }[this.clock.kind];
@@ -453,9 +453,8 @@ class Saying {
     this.text.textContent = said.text;
     const found = run.findingsBetween(since, when);
     this.wrong.hidden = !found.length;
-    const remarks = found.flatMap((one) => one.remarks.map((remark) => `(${remark})`));
-    const lines = [...found.map((one) => `${one.claim}: ${one.message}`), ...remarks];
-    this.wrong.replaceChildren(...lines.slice(0, 20).map((line) => html('li', '', null, line)));
+    const lines = [...found.map((one) => ['', `${one.claim}: ${one.message}`]), ...found.flatMap(({ remarks }) => remarks.map((one) => ['remark', one]))];
+    this.wrong.replaceChildren(...lines.slice(0, 20).map(([kind, line]) => html('li', kind, null, line)));
     this.section.classList.toggle('found', found.length > 0);
     const { sees, should } = said;
     this.compared.classList.toggle('none', !sees);
