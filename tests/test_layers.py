@@ -62,7 +62,6 @@ PEEPHOLES = {"__import__", "eval", "exec", "globals", "__globals__", "__closure_
 """Names with which an algorithm could reach the world behind its robot, imports or not."""
 
 LATE = {
-    ("world", "World._repr_svg_"): "player",
     ("campaign", "Exploration._played"): "player",
     ("campaign", "Exploration._repr_html_"): "player",
     ("campaign", "Exploration.save"): "player",
@@ -104,7 +103,7 @@ class Import:
 
     target: str  # the full dotted name, e.g. topo_verify.robot.percept.Percept
     line: int
-    scope: str  # the enclosing classes and functions, e.g. World._repr_svg_; "" at the top
+    scope: str  # the enclosing classes and functions, e.g. Report.walk; "" at the top
     at_load: bool  # runs as soon as the file is imported
 
     @property
@@ -292,8 +291,8 @@ def test_the_layer_check_sees_a_planted_breach(module: str, source: str, objecti
         ("topo_verify.cli.world", "def f():\n    from topo_verify.world.drawing import to_svg"),
         ("topo_verify.world", "if TYPE_CHECKING:\n    import numpy"),
         (
-            "topo_verify.world",
-            "class World:\n def _repr_svg_(self):\n  from topo_verify.player import draw",
+            "topo_verify.campaign",
+            "class Report:\n def walk(self):\n  from topo_verify.player import walk",
         ),
         ("topo_verify.algorithms.basic", "from topo_verify.robot.percept import Percept"),
         ("topo_verify.algorithms.basic", "from topo_verify.robot import events"),

@@ -57,3 +57,22 @@ def test_no_command_is_shown_for_what_no_command_finds() -> None:
     entry = search(lambda _robot: None, edges=1)
     assert "again:" not in str(entry)
     assert "again:" in str(search(guess, edges=1))
+
+
+def test_a_report_names_a_large_world_by_its_name() -> None:
+    report = tv.examine("basic", "nyc")
+    assert len(report.world) > 100, "replay lines have the id"
+    assert str(report) == "basic in nyc_osmnx, 1468 edge traversals: 10 of 10 claims hold"
+    assert repr(report) == f"<Report: {report}>"
+    assert tv.examine("basic", "m3/5").head.startswith("basic in m3/5, ")
+
+
+def test_the_package_offers_its_public_names_alone() -> None:
+    assert {*dir(tv)} == {*tv.__all__}
+    assert tv.search.search is search
+
+
+def test_a_robot_shows_what_it_senses() -> None:
+    robots: list[str] = []
+    tv.explore("m1/0", lambda robot: robots.append(repr(robot)))
+    assert robots == ["<Robot at (degree 1, marker at door 0)>"]

@@ -13,7 +13,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from topo_verify import strategies
+    from topo_verify import search, strategies
     from topo_verify.algorithms import CATALOGUE, Algorithm
     from topo_verify.campaign.judge import Report, assert_maps, examine
     from topo_verify.campaign.run import Exploration, explore
@@ -60,6 +60,7 @@ __all__ = [
     "explore",
     "families",
     "read_log",
+    "search",
     "strategies",
     "worlds",
 ]
@@ -90,8 +91,8 @@ _HOME = {name: f"topo_verify.{module}" for module, names in _MODULES.items() for
 
 
 def __getattr__(name: str) -> Any:
-    if name == "strategies":
-        return import_module("topo_verify.strategies")
+    if name in ("search", "strategies"):
+        return import_module(f"topo_verify.{name}")
     if name not in _HOME:
         raise AttributeError(f"module 'topo_verify' has no attribute {name!r}")
     if "hypothesis" in sys.modules:
@@ -102,4 +103,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return __all__

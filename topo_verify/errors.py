@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Iterable
 from os import PathLike
 
 LINE = 4000
@@ -57,6 +58,14 @@ class InternalError(TopoVerifyError):
 
 
 # ---------------------------------------------------------------- words of messages
+
+
+def close_name(name: str, known: Iterable[str]) -> str:
+    """`; did you mean 'explore'?`, or nothing if no known name is close."""
+    from difflib import get_close_matches
+
+    close = get_close_matches(name, list(known), n=1)
+    return f"; did you mean {close[0]!r}?" if close else ""
 
 
 def is_utf8(text: str) -> bool:

@@ -323,13 +323,20 @@ def test_a_world_shows_itself_and_writes_its_picture(tmp_path: Path) -> None:
     world = World.from_id("m1/0")
     picture = world.draw(tmp_path / "world.svg")
     assert (tmp_path / "world.svg").read_text() == picture
-    assert world._repr_svg_() == picture  # pyright: ignore[reportPrivateUsage]
     html = str(vars(World)["_repr_html_"](world))
     assert b64encode(picture.encode()).decode() in html
     numbered = world.draw(tmp_path / "doors.svg", doors=True, darts=True)
     assert (tmp_path / "doors.svg").read_text() == numbered != picture
+    assert not hasattr(world, "_repr_svg_"), "a notebook would draw the picture twice"
     with pytest.raises(InputError, match=r"world\.gif"):
         world.draw(tmp_path / "world.gif")
+
+
+def test_a_notebook_shows_a_large_world_as_a_sentence() -> None:
+    street = families.path(1002)
+    shown = str(vars(World)["_repr_html_"](street))
+    assert "1001 edges, genus 0" in shown
+    assert "<img" not in shown
 
 
 @given(ranks)

@@ -49,6 +49,9 @@ class JudgedRun(NamedTuple):
 
 _RUN = "_run"
 
+_LONG_ID = 30
+"""Characters of an id, in place of which a headline has the world's name."""
+
 
 class Report(msgspec.Struct, frozen=True, dict=True):
     """The judgement of every claim on one run; its text shows the walk to the first finding.
@@ -122,8 +125,13 @@ class Report(msgspec.Struct, frozen=True, dict=True):
     @property
     def head(self) -> str:
         """World, mapper, cost, and how many claims hold."""
-        ran = f"{self.target} in {self.world}, {plural(self.cost, 'edge traversal')}"
+        name = "" if self.run is None else self.run.world.name
+        world = name if name and len(self.world) > _LONG_ID else self.world
+        ran = f"{self.target} in {world}, {plural(self.cost, 'edge traversal')}"
         return f"{ran}: {in_words(self.claims, 'claims hold')}"
+
+    def __repr__(self) -> str:
+        return f"<Report: {shown(self.head, limit=LINE)}>"
 
     def _repr_html_(self) -> str:
         from topo_verify.player import cards

@@ -29,10 +29,10 @@ from pathlib import Path
 from types import ModuleType
 
 from topo_verify.algorithms import CATALOGUE, NAMED, STEERED, Algorithm, Steered
-from topo_verify.errors import InputError, is_utf8
+from topo_verify.errors import InputError, close_name, is_utf8
 from topo_verify.programs.foreign import Foreign
 from topo_verify.programs.library import LIBRARY
-from topo_verify.programs.loader import Mapper, Target, close_name, load, missing_attribute
+from topo_verify.programs.loader import Mapper, Target, load, missing_attribute
 from topo_verify.programs.program import OPTIONS, PREFIX, Program, split
 
 _LIBRARIES = (".so", ".dylib", ".dll")

@@ -11,17 +11,16 @@ import importlib
 import importlib.util
 import re
 import sys
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import cache
 from importlib.machinery import SourceFileLoader
 from pathlib import Path
 from types import CodeType
 from typing import Any, cast
 
-from topo_verify.errors import InputError, shown
+from topo_verify.errors import InputError, close_name, shown
 from topo_verify.programs import library
 from topo_verify.robot.events import Robot
 
@@ -210,12 +209,6 @@ def _reason(text: str) -> str:
 
 SHOWN = 5
 """Most names that are listed if none is close."""
-
-
-def close_name(name: str, known: Iterable[str]) -> str:
-    """`; did you mean 'explore'?`, or nothing if no known name is close."""
-    close = get_close_matches(name, list(known), n=1)
-    return f"; did you mean {close[0]!r}?" if close else ""
 
 
 def close_attribute(whole: object, name: str) -> str:

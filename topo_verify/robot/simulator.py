@@ -108,6 +108,9 @@ class RobotHandle:
         """The percept where the robot stands."""
         return self._percept()
 
+    def __repr__(self) -> str:
+        return f"<Robot at {self.percept}>"
+
 
 class SimulatedRobot:
     """A robot at the marker of a world. Lives for one run; `events` grows with every call.

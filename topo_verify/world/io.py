@@ -14,6 +14,7 @@
 from __future__ import annotations
 
 import os
+from html import escape
 from os import PathLike
 from typing import Literal, TypeVar
 
@@ -98,9 +99,12 @@ def save(world: World, path: str | PathLike[str]) -> None:
 
 
 def notebook(world: World) -> str:
-    """The picture as HTML, in the notebook's light or dark theme."""
-    from topo_verify.world.drawing import IN_NOTEBOOKS, image
+    """The picture as HTML, in the notebook's light or dark theme; of a large world, a sentence."""
+    from topo_verify.world.drawing import IN_NOTEBOOKS, WHOLE, image
 
+    if len(world.edges) > WHOLE:
+        much = f"over {WHOLE:,} edges take long to draw"
+        return f"<p>{escape(repr(world))}: {much}; <code>draw('world.svg')</code> does it.</p>"
     return IN_NOTEBOOKS + image(draw(world), world.name or "a world")
 
 

@@ -256,7 +256,7 @@ class World:
         return m * (n + (2 * m - 1) * 2 * (n - 1))
 
     def least_cost(self) -> int:
-        """The fewest edge traversals that prove this map: `least_cost.py`."""
+        """The fewest edge traversals of a walk that proves this map."""
         return least_cost(self.code)
 
     def proof_tour(self) -> tuple[int, ...]:
@@ -373,11 +373,11 @@ class World:
         return self.formats.draw(self, path, **marks)
 
     def twin(self, model: Literal["undirected", "none"] = "undirected") -> World | None:
-        """Another world that looks the same without the marker's direction, or None: twins.py."""
-        return self.formats.twin(self, model)
+        """Another world that looks the same to a robot that sees less of the marker, or None.
 
-    def _repr_svg_(self) -> str:
-        return self.draw()
+        It sees whether the marker is here, not its direction (`undirected`), or nothing of it.
+        """
+        return self.formats.twin(self, model)
 
     def _repr_pretty_(self, printer: Any, _: bool) -> None:  # noqa: FBT001  asked by Hypothesis
         small = len(self.edges) <= rank_order.MAX_ID_EDGES

@@ -11,8 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from topo_verify.errors import InputError
-from topo_verify.programs.loader import close_name
+from topo_verify.errors import InputError, close_name
 from topo_verify.studies.corpus import CorpusPart, corpus_from, drawn_names
 from topo_verify.world.enumeration import rank_order
 

@@ -238,7 +238,7 @@ def search(  # noqa: PLR0913  an argument an option
     target: Mapper | str | Target,
     *,
     edges: int,
-    world_class: WorldClass | None = None,
+    world_class: WorldClass | str | None = None,
     keep_going: bool = False,
     policies: Choices = "reference",
     limits: Limits | None = None,
@@ -251,6 +251,7 @@ def search(  # noqa: PLR0913  an argument an option
 
     Args:
         target: a callable or a TARGET, which may name several mappers.
+        world_class: a class, or its text as on the command line; default: every world.
         keep_going: do not stop at the first counterexample.
         policies: which choices a catalogue algorithm is tried with; `choices.py`.
         workers: number of worker processes; 0: this one.

@@ -3,7 +3,7 @@
 Imported late: it loads numpy.
 """
 
-from topo_verify.world.drawing.choice import lay_out, lay_out_known
+from topo_verify.world.drawing.choice import WHOLE, lay_out, lay_out_known
 from topo_verify.world.drawing.export import FORMATS, IN_NOTEBOOKS, document, format_of, image
 from topo_verify.world.drawing.layout import Bridge, Layout
 from topo_verify.world.drawing.svg import to_svg
@@ -15,6 +15,7 @@ from topo_verify.world.drawing.svg import to_svg
 __all__ = [
     "FORMATS",
     "IN_NOTEBOOKS",
+    "WHOLE",
     "Bridge",
     "Layout",
     "document",

@@ -12,7 +12,7 @@ import re
 from dataclasses import dataclass
 from random import Random
 
-from topo_verify.errors import InputError, shown
+from topo_verify.errors import InputError, close_name, shown
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.counts import count_genus, count_graphs
 from topo_verify.world.families.random_maps import random_planar
@@ -23,7 +23,9 @@ MAX_LISTED_EDGES = 7
 
 MAX_TRIES = 100_000
 
-_TERM = re.compile(r"(any|planar|simple|loopless)|(genus:|genus<=|max-degree:)([0-9]{1,9})")
+_WORDS = ("any", "planar", "simple", "loopless")
+
+_TERM = re.compile(rf"({'|'.join(_WORDS)})|(genus:|genus<=|max-degree:)([0-9]{{1,9}})")
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,10 +170,11 @@ def _terms(text: str) -> tuple[set[str], dict[str, list[int]]]:
     for term in text.split(","):
         match = _TERM.fullmatch(term.strip())
         if not match:
+            name = shown(term.strip(), limit=80)
             raise InputError(
-                f"class {shown(text, limit=80)!r}: expected any, planar, genus:G, genus<=G,"
-                " simple, loopless or max-degree:D, or several of them joined with commas, all of"
-                f" which hold; got {term.strip()!r}"
+                f"class {name!r}{close_name(name, _WORDS) or ':'} expected any, planar, genus:G,"
+                " genus<=G, simple, loopless or max-degree:D, or several of them joined with"
+                " commas, all of which hold"
             )
         word, bound, number = match.groups()
         if bound:
