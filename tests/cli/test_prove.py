@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from pathlib import Path
 from unittest.mock import Mock
 
@@ -14,6 +15,7 @@ from topo_verify.proofs import catalogue as proofs_catalogue
 from topo_verify.proofs.first_order.obligations import A
 from topo_verify.proofs.first_order.terms import eq, neg
 from topo_verify.proofs.first_order.theorems import PLANAR
+from topo_verify.proofs.mechanised import toolchain
 from topo_verify.proofs.theorem import TheoremResult
 
 
@@ -35,6 +37,23 @@ def test_the_table_shows_the_evidence_for_each_verdict(call: Call) -> None:
     for words in ("2 theorems (1 inductive, 1 mutant)", "premises", "used 6", "replays", "1 of 1"):
         assert words in seen
     assert "docs/proofs.md" in done.stdout
+
+
+def test_the_head_names_coq_and_the_number_of_its_files(
+    call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(toolchain, "missing", Mock(return_value=""))
+    monkeypatch.setattr(toolchain, "version", Mock(return_value="coqc 8.16.1"))
+    monkeypatch.setattr(toolchain, "compile_all", Mock(side_effect=toolchain.Unfinished("late")))
+    done = call("prove coq-confirmed")
+    first, second, *_ = done.stdout.splitlines()
+    assert first == "coqc 8.16.1: 1 theorem (1 mechanised)"
+    assert second == "First coqc compiles 18 files and coqchk checks them again: some minutes."
+    assert (done.exit_code, "UNKNOWN" in done.stdout, "late" in done.stdout) == (3, True, True)
+    both = call("prove coq-confirmed percept").stdout.splitlines()[0]
+    assert re.fullmatch(r"z3 .*, seed 0; coqc 8.16.1: 2 theorems .*", both)
+    monkeypatch.setattr(toolchain, "missing", Mock(return_value="coqc not installed"))
+    assert call("prove coq-posed").stdout.startswith("no coqc: 1 theorem (1 mechanised)\n")
 
 
 def test_the_list_has_every_theorem_and_proves_none(results: Results, call: Call) -> None:

@@ -167,6 +167,7 @@ def prove(
     NAME is a theorem, one in Coq also by its place there (Undirected.undirected_not_enough); by
     default all quick ones are proved. Inductive theorems hold in worlds of
     any size, bounded ones in every world of a few edges; negatives and mutants must be REFUTED.
+    For a theorem in Coq, coqc compiles each file that it needs (18 to 90), some minutes.
     A vacuous theorem is UNKNOWN, which does not pass (exit 3).
     """
     from topo_verify.proofs.catalogue import choose
@@ -176,7 +177,13 @@ def prove(
         return output.run("prove-list", lambda: map(_listed, theorems), _show_list)
     # Now, not minutes later.
     _require(second=solver == "cvc5", certify=certify)
-    budget = Budget(timeout=timeout, seed=seed, certify=certify, progress=output.progress)
+    budget = Budget(
+        timeout=timeout,
+        seed=seed,
+        certify=certify,
+        progress=output.progress,
+        together=tuple(theorem.name for theorem in theorems),
+    )
 
     seconds: dict[str, float] = {}
 
@@ -191,7 +198,7 @@ def prove(
             seconds[theorem.name] = perf_counter() - begin
             yield result
 
-    head = (Text(_head(theorems, budget)),)
+    head = [*map(Text, _head(theorems, budget))]
     live = Live(head, lambda entry: _live(entry, seconds[entry.name]), _end)
 
     return output.run(
@@ -315,13 +322,23 @@ FEW = 5
 """Up to this number, --list shows theorems in full."""
 
 
-def _head(theorems: Sequence[Theorem], budget: Budget) -> str:
+def _head(theorems: Sequence[Theorem], budget: Budget) -> Iterator[str]:
+    from topo_verify.proofs.mechanised import theorems as in_coq
+    from topo_verify.proofs.mechanised import toolchain
     from topo_verify.proofs.solvers import z3_solver
 
     kinds = Counter[str](theorem.kind for theorem in theorems)
     counts = ", ".join(f"{kinds[kind]} {kind}" for kind in KINDS if kinds[kind])
-    many = plural(len(theorems), "theorem")
-    return f"{z3_solver.name()}, seed {budget.seed}: {many} ({counts})"
+    coqc = "" if toolchain.missing() else toolchain.version()
+    provers: list[str] = []
+    if kinds.total() > kinds["mechanised"]:
+        provers.append(f"{z3_solver.name()}, seed {budget.seed}")
+    if kinds["mechanised"]:
+        provers.append(coqc or "no coqc")
+    yield f"{'; '.join(provers)}: {plural(len(theorems), 'theorem')} ({counts})"
+    if kinds["mechanised"] and coqc:
+        files = len(in_coq.needed(budget.together))
+        yield f"First coqc compiles {files} files and coqchk checks them again: some minutes."
 
 
 def _verdict(entry: ProveEntry) -> Cell:

@@ -44,6 +44,7 @@ class Budget:
         timeout: seconds for each query.
         rlimit: Z3's deterministic resource units for each query; 0: no limit.
         certify: also make certificates, and check them.
+        together: the names of all theorems to prove; Coq compiles their files at once.
     """
 
     timeout: float = 60.0
@@ -51,6 +52,7 @@ class Budget:
     seed: int = 0
     certify: bool = False
     progress: TheoremProgress = no_progress
+    together: tuple[str, ...] = ()
 
     @property
     def milliseconds(self) -> int:

@@ -206,7 +206,9 @@ def test_a_source_waits_for_what_it_needs_and_nothing_is_compiled_after_a_refusa
     (tmp_path / "Needs.v").write_text("From Topo Require Import Base.\nDefinition a := base.\n")
     (tmp_path / "Wrong.v").write_text("From Topo Require Needs.\nDefinition b := base.\n")
     (tmp_path / "Behind.v").write_text("From Topo Require Import Wrong.\n")
-    assert toolchain.compile_all(tmp_path, ["Needs", "Base"], timeout=LIMIT).accepted
+    counts: list[int] = []
+    ran = toolchain.compile_all(tmp_path, ["Needs", "Base"], timeout=LIMIT, compiled=counts.append)
+    assert (ran.accepted, counts) == (True, [0, 1])
     refused = toolchain.compile_all(tmp_path, ["Behind", "Wrong", "Needs", "Base"], timeout=LIMIT)
     assert not refused.accepted
     assert "base" in refused.output

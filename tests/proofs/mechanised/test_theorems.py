@@ -12,6 +12,8 @@ from topo_verify.proofs.mechanised import theorems, toolchain
 from topo_verify.proofs.mechanised.theorems import MECHANISED, STATEMENTS
 from topo_verify.proofs.theorem import Budget
 
+NAMES = tuple(one.name for one in STATEMENTS)
+
 CHECKED = "Theory: Set is predicative; Axioms: <none>"
 
 
@@ -49,7 +51,7 @@ def test_what_takes_too_long_is_unknown(monkeypatch: pytest.MonkeyPatch, library
 
 
 def test_the_theorems_rest_on_no_axiom(place: Path) -> None:
-    assert theorems.asked(place, timeout=LIMIT) == toolchain.NO_AXIOMS
+    assert theorems.asked(place, NAMES, timeout=LIMIT) == toolchain.NO_AXIOMS
 
 
 def test_theorems_that_rest_on_an_axiom_are_not_proved(
@@ -59,7 +61,8 @@ def test_theorems_that_rest_on_an_axiom_are_not_proved(
     assert toolchain.compile_one(place, "Gap", timeout=LIMIT).accepted
     gap = theorems.MechanisedStatement("coq-gap", "Gap", "a", (), "False.")
     monkeypatch.setattr(theorems, "STATEMENTS", (*STATEMENTS, gap))
-    assert "Gap.gap : False" in theorems.asked(place, timeout=LIMIT)
+    assert "Gap.gap : False" in theorems.asked(place, ("coq-gap",), timeout=LIMIT)
+    assert theorems.asked(place, ("coq-posed",), timeout=LIMIT) == toolchain.NO_AXIOMS
 
 
 def test_a_library_with_a_gap_is_refused(
@@ -72,15 +75,39 @@ def test_a_library_with_a_gap_is_refused(
     (gap / "_CoqProject").write_text("A.v\n")
     (gap / "A.v").write_text("Lemma a : False.\nAdmitted.\n")
     monkeypatch.setattr(toolchain, "SOURCES", gap)
-    assert theorems.examine(empty, timeout=LIMIT).why == "A.v claims without proof: Admitted"
+    why = theorems.examine(empty, (), ("A",), timeout=LIMIT).why
+    assert why == "A.v claims without proof: Admitted"
     (gap / "A.v").write_text("Lemma a : False.\nProof. auto. Qed.\n")
-    assert "coqc refuses" in theorems.examine(empty, timeout=LIMIT).why
+    assert "coqc refuses" in theorems.examine(empty, (), ("A",), timeout=LIMIT).why
+
+
+def test_a_theorem_needs_the_files_behind_it_and_all_theorems_need_every_file() -> None:
+    files = theorems.needed(["coq-twins", "no theorem in Coq"])
+    assert {*toolchain.required("Undirected"), "Examples", "RunExists"} < {*files}
+    assert len(files) < len(toolchain.files()) / 4
+    assert theorems.needed(NAMES) == toolchain.files()
+
+
+def test_the_symbols_are_the_statement_in_its_file_with_the_variables_of_its_section() -> None:
+    symbols = {theorem.name: theorem.symbols for theorem in MECHANISED}
+    assert symbols["coq-confirmed"] == (
+        "Topo.Embedding.confirm, in proofs/coq/Embedding.v: Variables (M W : Map) (phi : nat -> "
+        "nat). Hypotheses (WM : is_map M) (WW : is_map W) (E : embedded M W phi). confirm a h w c "
+        "r j : a < darts W -> h < darts M -> walk W a w = Some c -> walk M h w = Some r -> marker "
+        "M r = Some j -> marker W c = Some j -> a = phi h."
+    )
+    assert symbols["coq-basic"].endswith(
+        "in proofs/coq/Algorithms.v: basic_correct : maps_all basic."
+    )
+    for text in symbols.values():
+        assert text.endswith(".")
+        assert not {"(*", "Proof", "Theorem", "Lemma", "Qed"} & {*text.split()}
 
 
 @pytest.mark.slow
 def test_the_whole_library_is_compiled_and_checked_again(library: Path) -> None:
     del library
     for theorem in MECHANISED:
-        outcome = theorem.prove(Budget(timeout=LIMIT))
+        outcome = theorem.prove(Budget(timeout=LIMIT, together=NAMES))
         assert theorem.ok(outcome), outcome.note
         assert CHECKED in outcome.note

@@ -1,8 +1,8 @@
 """Theorems proved in Coq for worlds of any size, without axioms; `prove` checks them again.
 
-One check of the library serves all: no source holds a word that assumes without proof; coqc
-compiles them in a temporary folder; Coq and coqchk find no axiom. Else the verdict is UNKNOWN: a
-failed proof is no counterexample.
+One check serves all theorems that are asked about together. It takes the files that they need: no
+source holds a word that assumes without proof; coqc compiles them in a temporary folder; Coq and
+coqchk find no axiom. Else the verdict is UNKNOWN: a failed proof is no counterexample.
 
 What this does not show: that the statements mean what they should (docs/proofs.md names the lines
 to read), nor anything about the Python code.
@@ -11,7 +11,8 @@ to read), nor anything about the Python code.
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from pathlib import Path
@@ -19,7 +20,13 @@ from tempfile import TemporaryDirectory
 from time import perf_counter
 
 from topo_verify.proofs.mechanised import toolchain
-from topo_verify.proofs.theorem import Budget, Theorem, TheoremResult
+from topo_verify.proofs.theorem import (
+    Budget,
+    Theorem,
+    TheoremProgress,
+    TheoremResult,
+    no_progress,
+)
 
 LONGER = 10
 """A coqc call takes longer than a query: factor of the time limit."""
@@ -44,10 +51,20 @@ def _statements() -> Iterator[MechanisedStatement]:
 
 STATEMENTS = tuple(_statements())
 
+NOT_VACUOUS = ("Examples", "RunExists")
+"""The files that show that worlds and runs exist (torus_world, run_exists); always compiled."""
+
+
+def needed(names: Sequence[str]) -> tuple[str, ...]:
+    """The files that these theorems need, in order of compilation."""
+    roots = {row.file for row in STATEMENTS if row.name in names} | {*NOT_VACUOUS}
+    files = {file for root in roots for file in toolchain.required(root)}
+    return tuple(file for file in toolchain.files() if file in files)
+
 
 @dataclass(frozen=True, slots=True)
 class LibraryCheck:
-    """The result of checking the library: why nothing is proved, or coqchk's summary."""
+    """The result of checking the files: why nothing is proved, or coqchk's summary."""
 
     why: str = ""
     summary: str = ""
@@ -55,45 +72,57 @@ class LibraryCheck:
 
 
 @cache
-def library(timeout: float) -> LibraryCheck:
-    """Check the library once; `timeout`: seconds for each call."""
+def library(names: tuple[str, ...], timeout: float, progress: TheoremProgress) -> LibraryCheck:
+    """Check the files of these theorems once; `timeout`: seconds for each call."""
     if why := toolchain.missing():
         return LibraryCheck(why=why)
     begin = perf_counter()
     with TemporaryDirectory() as name:
         try:
-            check = examine(Path(name), timeout=timeout)
+            check = examine(Path(name), names, needed(names), timeout=timeout, progress=progress)
         except toolchain.Unfinished as error:
             check = LibraryCheck(why=str(error))
     return replace(check, seconds=perf_counter() - begin)
 
 
-def examine(folder: Path, *, timeout: float) -> LibraryCheck:
-    """Check the library in an empty folder.
+def examine(
+    folder: Path,
+    names: Sequence[str],
+    files: Sequence[str],
+    *,
+    timeout: float,
+    progress: TheoremProgress = no_progress,
+) -> LibraryCheck:
+    """Check theorems, and the files that they need, in an empty folder.
 
     Raises:
         toolchain.Unfinished: a call timed out, was killed, or lacks memory.
     """
-    names = toolchain.files()
-    toolchain.copy_library(folder, names)
-    for name in names:
-        if words := toolchain.claims_unproved((folder / f"{name}.v").read_text(encoding="utf-8")):
-            return LibraryCheck(why=f"{name}.v claims without proof: {', '.join(words)}")
-    ran = toolchain.compile_all(folder, names, timeout=timeout)
+    toolchain.copy_library(folder, files)
+    for file in files:
+        if words := toolchain.claims_unproved((folder / f"{file}.v").read_text(encoding="utf-8")):
+            return LibraryCheck(why=f"{file}.v claims without proof: {', '.join(words)}")
+
+    def compiled(done: int) -> None:
+        progress("coqc compiles files", done, len(files))
+
+    ran = toolchain.compile_all(folder, files, timeout=timeout, compiled=compiled)
     if not ran.accepted:
         return LibraryCheck(why=f"coqc refuses {ran.output[-300:]}")
-    if (output := asked(folder, timeout=timeout)) != toolchain.NO_AXIOMS:
+    progress("coqchk checks the compiled files", 0, 1)
+    if (output := asked(folder, names, timeout=timeout)) != toolchain.NO_AXIOMS:
         return LibraryCheck(why=f"the theorems rest on more than their proofs: {output[-300:]}")
-    ran = toolchain.recheck(folder, names, timeout=timeout)
+    ran = toolchain.recheck(folder, files, timeout=timeout)
     if not ran.accepted:
         return LibraryCheck(why=f"coqchk does not say that there is no axiom: {ran.output[-300:]}")
     return LibraryCheck(summary=summary(ran.output))
 
 
-def asked(folder: Path, *, timeout: float) -> str:
-    """Coq's answer about the axioms of all theorems together."""
-    imports = " ".join(dict.fromkeys(row.file for row in STATEMENTS))
-    theorems = ", ".join(f"@{row.file}.{row.theorem}" for row in STATEMENTS)
+def asked(folder: Path, names: Sequence[str], *, timeout: float) -> str:
+    """Coq's answer about the axioms of these theorems together."""
+    rows = [row for row in STATEMENTS if row.name in names]
+    imports = " ".join(dict.fromkeys(row.file for row in rows))
+    theorems = ", ".join(f"@{row.file}.{row.theorem}" for row in rows)
     text = f"From Topo Require {imports}.\nDefinition every := ({theorems}).\n"
     (folder / "asked.v").write_text(f"{text}Print Assumptions every.\n", encoding="utf-8")
     return toolchain.compile_one(folder, "asked", timeout=timeout).output
@@ -107,13 +136,31 @@ def summary(output: str) -> str:
     return "; ".join(worth_saying)
 
 
+def in_coq(file: str, theorem: str) -> str:
+    """The statement of a theorem as its file has it, and the variables of its section."""
+    source = (toolchain.SOURCES / f"{file}.v").read_text(encoding="utf-8")
+    before, _, after = re.split(
+        rf"^(Theorem|Lemma|Example|Corollary) {theorem}\b",
+        toolchain.without_comments(source),
+        flags=re.MULTILINE,
+    )
+    _, _, section = before.rpartition("\nSection ")
+    given = re.findall(
+        r"^(?:Variables?|Hypothes[ei]s|Context)\b.*?\.\s*$",
+        "" if "\nEnd " in section else section,
+        re.MULTILINE | re.DOTALL,
+    )
+    return " ".join(" ".join([*given, theorem + after.partition("Proof.")[0]]).split())
+
+
 def theorem(statement: MechanisedStatement) -> Theorem:
     return Theorem(
         name=statement.name,
         kind="mechanised",
         claims=statement.claims,
         words=statement.words,
-        symbols=f"Topo.{statement.file}.{statement.theorem}, in proofs/coq/{statement.file}.v",
+        symbols=f"Topo.{statement.file}.{statement.theorem}, in proofs/coq/{statement.file}.v: "
+        + in_coq(statement.file, statement.theorem),
         solver_part="all of it, for worlds of any size; coqchk checks the compiled proof again",
         assumed=(),
         expected="PROVED",
@@ -124,8 +171,7 @@ def theorem(statement: MechanisedStatement) -> Theorem:
 
 
 def _prove(name: str, budget: Budget) -> TheoremResult:
-    budget.progress(f"{name}: coqc and coqchk on the whole library", 0, 1)
-    check = library(budget.timeout * LONGER)
+    check = library(budget.together or (name,), budget.timeout * LONGER, budget.progress)
     return TheoremResult(
         verdict="UNKNOWN" if check.why else "PROVED",
         solver="coqc" if toolchain.missing() else toolchain.version(),

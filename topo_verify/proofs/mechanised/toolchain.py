@@ -12,7 +12,7 @@ import os
 import re
 import shutil
 import subprocess
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from functools import cache
@@ -106,10 +106,17 @@ def copy_library(folder: Path, names: Iterable[str]) -> None:
 
 
 def compile_all(
-    folder: Path, names: Iterable[str], *, timeout: float, flags: Sequence[str] = ()
+    folder: Path,
+    names: Iterable[str],
+    *,
+    timeout: float,
+    flags: Sequence[str] = (),
+    compiled: Callable[[int], None] = lambda _done: None,
 ) -> ProgramRun:
     """Compile these sources, on all processors, each after those that it needs; stop at a refusal.
 
+    Args:
+        compiled: called with the number of compiled files, at first 0.
     Returns: the refusal, or what the last one printed.
     Raises:
         Unfinished: as `run`.
@@ -124,6 +131,7 @@ def compile_all(
         while order.is_active():
             for name in sorted(order.get_ready(), key=names.index):
                 running[pool.submit(compile_one, folder, name, timeout=timeout, flags=flags)] = name
+            compiled(len(outputs))
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 ran = outputs[running[future]] = future.result()
                 if not ran.accepted:
