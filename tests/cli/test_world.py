@@ -202,13 +202,23 @@ def test_count_gives_the_known_numbers(
 
 
 def test_count_says_why_unrooted_worlds_are_not_counted(call: Call) -> None:
-    assert "too many" not in call("world count --edges 60 --class planar").stdout
-    assert "-: too many to count without" in call("world count --edges 6 --class genus:1").stdout
+    assert "not counted" not in call("world count --edges 60 --class planar").stdout
+    assert "-: not counted without the" in call("world count --edges 6 --class genus:1").stdout
+
+
+def test_count_by_vertices_has_a_row_for_each_number_of_vertices(
+    call: Call, results: Results
+) -> None:
+    line = "world count --edges 2..3 --class planar --by vertices"
+    rows = [(e["edges"], e["vertices"], e["total"]) for e in results(line)["results"]]
+    assert rows == [(2, 1, 2), (2, 2, 5), (2, 3, 2), (3, 1, 5), (3, 2, 22), (3, 3, 22), (3, 4, 5)]
+    assert call(line).stdout.splitlines()[1].split() == ["2", "planar", "1", "2"]
 
 
 def test_a_range_that_cannot_be_counted_to_its_end_is_refused_at_once(call: Call) -> None:
     assert (
-        "with 12 edges there are" in call("world count --edges 1..12 --class simple,planar").stderr
+        "with 12 edges there may be"
+        in call("world count --edges 1..12 --class simple,planar").stderr
     )
 
 
@@ -233,6 +243,11 @@ def test_sample_writes_world_files(call: Call, folder: Path) -> None:
     names = call("world sample --edges 220 -n 2 -o out/here").stdout.split()
     assert names == ["out/here/m220-seed0-0.json", "out/here/m220-seed0-1.json"]
     assert [len(World.load(folder / name).edges) for name in names] == [220, 220]
+
+
+def test_a_sample_that_fails_leaves_no_folder(call: Call, folder: Path) -> None:
+    assert call("world sample --edges 300 --class genus:1 -o empty").exit_code == 2
+    assert not (folder / "empty").exists()
 
 
 def test_sample_draws_from_a_strategy(call: Call, results: Results) -> None:

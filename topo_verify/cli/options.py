@@ -168,9 +168,12 @@ def number(
     """Add an integer option."""
     # Click takes an explicit default of None for a value.
     given: dict[str, Any] = {} if default is None else {"default": default}
+    integer = click.IntRange(least, most)
+    # in "'x' is not a valid …"
+    integer.name = f"integer {metavar}: {meaning.partition('.')[0]}"
     return click.option(
         *names,
-        type=click.IntRange(least, most),
+        type=integer,
         metavar=metavar,
         show_default=shows_default and bool(given),
         required=required,

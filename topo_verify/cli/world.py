@@ -20,6 +20,7 @@ from topo_verify.errors import InputError, plural
 from topo_verify.report.blocks import Block, Cell, Raw, Text, TextTable
 from topo_verify.studies.corpus import drawn as worlds_drawn
 from topo_verify.world import unrooted
+from topo_verify.world.enumeration import pruned
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.pruned import ranked_tables
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES, Table
@@ -247,6 +248,7 @@ class CountEntry(msgspec.Struct, frozen=True):
     """The number of worlds of one size.
 
     Attributes:
+        vertices: with --by vertices, of the worlds that are counted here.
         unrooted: the same without the marker; null where it would take too long.
     """
 
@@ -254,6 +256,7 @@ class CountEntry(msgspec.Struct, frozen=True):
     kind: str = msgspec.field(name="class")
     total: int
     unrooted: int | None
+    vertices: int | None = None
 
 
 def _range(_context: click.Context, _option: click.Parameter, value: str) -> range:
@@ -275,21 +278,36 @@ def _range(_context: click.Context, _option: click.Parameter, value: str) -> ran
     "--edges", callback=_range, required=True, metavar="N", help="Number of edges, or a range A..B."
 )
 @options.world_class
-def count(output: Output, *, edges: range, kind: str) -> int:
+@click.option(
+    "--by", type=click.Choice(["vertices"]), help="Count the rooted maps by their vertices."
+)
+def count(output: Output, *, edges: range, kind: str, by: str | None) -> int:
     """Count the rooted maps with N edges, and the unrooted ones."""
 
     def counted() -> Iterator[Result[CountEntry]]:
         worlds = WorldClass.parse(kind)
-        worlds.require_few_to_list(edges[-1])
+        pruned.require_few(edges[-1], worlds)
         for number, m in enumerate(edges):
             output.progress(f"{m} edges, class {worlds}", number, len(edges))
-            total, without_marker = worlds.count(m), unrooted.unrooted_count(m, worlds)
-            yield Result(CountEntry(m, str(worlds), total, without_marker))
+            if by is not None:
+                for vertices, total in pruned.count_by_vertices(m, worlds).items():
+                    yield Result(CountEntry(m, str(worlds), total, None, vertices))
+            else:
+                total, without_marker = pruned.count(m, worlds), unrooted.unrooted_count(m, worlds)
+                yield Result(CountEntry(m, str(worlds), total, without_marker))
 
     return output.run("world-count", counted, _show_counted)
 
 
 def _show_counted(entries: Sequence[CountEntry]) -> Iterator[Block]:
+    if any(entry.vertices is not None for entry in entries):
+        yield Rows(entries).table(
+            (">edges", lambda e: e.edges),
+            ("class", lambda e: e.kind),
+            (">vertices", lambda e: e.vertices),
+            (">worlds", lambda e: e.total),
+        )
+        return
     yield Rows(entries).table(
         (">edges", lambda e: e.edges),
         ("class", lambda e: e.kind),
@@ -298,8 +316,8 @@ def _show_counted(entries: Sequence[CountEntry]) -> Iterator[Block]:
     )
     if any(entry.unrooted is None for entry in entries):
         yield Text(
-            "-: too many to count without their marker. There are formulas for `any`, to"
-            f" {unrooted.SIZES[-1]} edges, and for `planar`; in other classes"
+            f"-: not counted without the marker. The formula for `any` goes to {unrooted.SIZES[-1]}"
+            " edges, that for `planar` on; in other classes"
             f" {unrooted.MOST_LISTED:,} worlds at most are compared."
         )
 
@@ -341,7 +359,7 @@ def _first(worlds: WorldClass, edges: int, number: int | None) -> Iterator[tuple
     if number is None:
         mend = "or name the first of them with -n N"
         try:
-            total = worlds.count(edges)
+            total = pruned.count(edges, worlds)
         except InputError as error:
             raise InputError(f"world list: {error}, {mend}") from error
         if total > MOST_LISTED:
@@ -421,14 +439,14 @@ def sample(
         drawn = _by_strategy(strategy, worlds, edges, number, seed)
 
     def sampled() -> Iterator[Result[SampleEntry]]:
-        target = None if folder is None else options.make_folder(folder, "-o")
         output.note(f"seed {seed}")
         output.progress("drawing worlds", 0, number)
         for index, world in enumerate(drawn):
             file = None
-            if target is None:
+            if folder is None:
                 _require_id(len(world.edges))
             else:
+                target = options.make_folder(folder, "-o")
                 file = str(target / f"m{len(world.edges)}-seed{seed}-{index}.json")
                 files.write(file, world.to_json() + "\n")
             yield Result(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from random import Random
 
 import pytest
@@ -154,6 +155,24 @@ def test_formulas_count_what_a_list_counts(text: str) -> None:
         assert chosen.count(edges) == sum(map(chosen.admits, rank_order.tables(edges)))
 
 
+@pytest.mark.parametrize("text", [*FORMULAS, *BY_DEGREES, "planar,loopless"])
+@pytest.mark.parametrize("edges", range(6))
+def test_worlds_are_counted_by_their_vertices_as_a_list_counts_them(text: str, edges: int) -> None:
+    chosen = WorldClass.parse(text)
+    listed = Counter(len(t[0]) for t in rank_order.tables(edges) if chosen.admits(t))
+    assert chosen.count_by_vertices(edges) == listed
+    assert [*chosen.count_by_vertices(edges)] == sorted(listed)
+
+
+def test_the_dual_maps_have_as_many_vertices_as_these_have_faces() -> None:
+    numbers = WorldClass.parse("genus:2").count_by_vertices(40)
+    assert [*numbers] == [*range(1, 38)]  # V + F = 40 - 2
+    assert [*numbers.values()] == [*numbers.values()][::-1]
+    assert sum(numbers.values()) == WorldClass.parse("genus:2").count(40)
+    with pytest.raises(InputError, match="expected at most 100 edges to count by vertices, got 10"):
+        WorldClass.parse("genus:2").count_by_vertices(101)
+
+
 def test_formulas_count_where_nobody_can_list() -> None:
     assert WorldClass.parse("any").count(30) == rank_order.count(30)
     assert WorldClass.parse("planar").count(30) == rank_order.count_planar(30)
@@ -202,6 +221,12 @@ def test_drawing_is_refused_at_once_where_it_would_take_ages() -> None:
         WorldClass.parse("genus:1").sample(30, Random(0))
 
 
+def test_drawing_a_genus_in_large_worlds_is_refused_before_it_is_counted() -> None:
+    with pytest.raises(InputError, match=r"class genus<=2: .* \(none is tried above 200 edges\)"):
+        WorldClass.parse("genus<=2").sample(1000, Random(0))
+    assert len(WorldClass().sample(201, Random(0)).edges) == 201
+
+
 def test_planar_worlds_are_drawn_among_planar_ones() -> None:
     """As `random_planar` draws them, exactly uniform: no planar world is too rare."""
     random = Random(1)
@@ -212,7 +237,7 @@ def test_planar_worlds_are_drawn_among_planar_ones() -> None:
 
 
 def test_drawing_gives_up_with_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(classes, "MAX_TRIES", 50)
+    monkeypatch.setattr(classes, "MAX_DRAWN_EDGES", 50 * 25)
     with pytest.raises(
         InputError, match=r"class simple: too few .* \(none of 50 that were drawn\)"
     ):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from itertools import islice
 from typing import Any
 
@@ -37,6 +38,25 @@ def test_growing_gives_what_filtering_gives_with_the_ranks_and_in_their_order(
 ) -> None:
     kind = WorldClass.parse(text)
     assert list(ranked_tables(edges, kind)) == filtered(kind, edges)
+
+
+@pytest.mark.parametrize("text", CLASSES)
+def test_worlds_are_counted_as_they_are_listed(text: str) -> None:
+    kind = WorldClass.parse(text)
+    listed = Counter(len(table[0]) for _, table in filtered(kind, 5))
+    assert pruned.count(5, kind) == listed.total()
+    assert pruned.count_by_vertices(5, kind) == listed
+
+
+def test_a_genus_and_a_property_of_the_graph_are_counted_where_few_worlds_have_one_of_them() -> (
+    None
+):
+    """Rooted loopless planar maps: OEIS A000260."""
+    kind = WorldClass.parse("planar,loopless")
+    assert [pruned.count(m, kind) for m in range(8)] == [1, 1, 3, 13, 68, 399, 2530, 16965]
+    assert pruned.count(8, WorldClass.parse("planar,simple,max-degree:3")) > 0
+    with pytest.raises(InputError, match="with 9 edges there may be 11370212: expected 1000000"):
+        pruned.count(9, kind)
 
 
 @given(text=st.sampled_from(CLASSES), edges=st.integers(1, 5), data=st.data())

@@ -9,7 +9,7 @@ Source: docs/semantics.md, section 16.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from random import Random
 
 from topo_verify.errors import InputError, close_name, shown
@@ -21,7 +21,11 @@ from topo_verify.world.rooted_map import World
 MAX_LISTED_EDGES = 7
 """Some classes are counted by listing: 1,708,394 worlds with 7 edges."""
 
-MAX_TRIES = 100_000
+MAX_BY_VERTICES = 100
+"""Limit of `count_by_vertices`: a second for planar worlds."""
+
+MAX_DRAWN_EDGES = 500_000
+"""Drawing gives up after worlds with this many edges together: about 10 seconds."""
 
 _WORDS = ("any", "planar", "simple", "loopless")
 
@@ -108,53 +112,85 @@ class WorldClass:
         Genera are counted by a formula, properties of the graph by `count_graphs`, both together by
         listing. None uses the pruned search, so a search that reaches the number was complete.
         """
-        if self._has_formula:
-            return self._count_by_formula(edges)
-        if self.genus is None and self.most_genus is None:
-            return count_graphs(
-                edges, most_degree=self.most_degree, loopless=self.loopless, simple=self.simple
-            )
-        self.require_few_to_list(edges)
-        return sum(map(self.admits, rank_order.tables(edges)))
+        return self._count(edges)
 
-    def require_few_to_list(self, edges: int) -> None:
-        """Raise an InputError if the class is counted by listing, and that would take too long."""
-        listed = not self._has_formula and (self.genus is not None or self.most_genus is not None)
-        if listed and edges > MAX_LISTED_EDGES:
+    def count_by_vertices(self, edges: int) -> dict[int, int]:
+        """The number of worlds in the class with each number of vertices, where there is one.
+
+        Raises:
+            InputError: more than `MAX_BY_VERTICES` edges, or too many for `count`.
+        """
+        if edges > MAX_BY_VERTICES:
+            raise InputError(
+                f"expected at most {MAX_BY_VERTICES} edges to count by vertices, got {edges}:"
+                " ask for fewer, or for the total"
+            )
+        width = self.count(edges).bit_length()
+        packed = self._count(edges, 1 << width)  # a number for each number of vertices
+        numbers = {v: packed >> v * width & (1 << width) - 1 for v in range(1, edges + 2)}
+        return {vertices: number for vertices, number in numbers.items() if number}
+
+    def _count(self, edges: int, x: int = 1) -> int:
+        """The sum of x^(number of vertices)."""
+        if self._has_formula:
+            return self._count_by_formula(edges, x)
+        if not self.is_mixed:
+            return count_graphs(
+                edges, x, most_degree=self.most_degree, loopless=self.loopless, simple=self.simple
+            )
+        if edges > MAX_LISTED_EDGES:
             raise InputError(
                 f"class {self}: it is counted by looking at all worlds, and with {edges} edges"
                 f" there are {rank_order.count(edges)}: ask for {MAX_LISTED_EDGES} edges or fewer;"
                 f" in Python tv.worlds({edges}, cls={str(self)!r}) lists its worlds"
             )
+        return sum(x ** len(t[0]) for t in rank_order.tables(edges) if self.admits(t))
+
+    @property
+    def is_mixed(self) -> bool:
+        """Whether it asks for a genus and a property of the graph: no formula counts both."""
+        return not (self._has_formula or (self.genus is None and self.most_genus is None))
+
+    def most(self, edges: int) -> int:
+        """A bound for `count`, quickly: the worlds of its genus, or with its graphs."""
+        by_genus = WorldClass(self.genus, self.most_genus)
+        by_graph = replace(self, genus=None, most_genus=None)
+        return min(by_genus.count(edges), by_graph.count(edges))
 
     def sample(self, edges: int, random: Random) -> World:
         """A world of the class, exactly uniform, by rejection; InputError if it is too rare."""
-        if self._has_formula and self.genus != 0:
+        tries = MAX_DRAWN_EDGES // max(edges, 1)
+        if self._has_formula and self.genus != 0 and self != WorldClass():
+            if edges > rank_order.MAX_ID_EDGES:
+                most = rank_order.MAX_ID_EDGES
+                raise InputError(self._too_rare(edges, f"none is tried above {most} edges"))
             inside, total = self._count_by_formula(edges), rank_order.count(edges)
             if not inside:
                 raise InputError(f"class {self}: there is no world with {edges} edges in it")
-            if total > inside * MAX_TRIES:
+            if total > inside * tries:
                 raise InputError(self._too_rare(edges, f"{inside / total:.0e} of all"))
-        for _ in range(MAX_TRIES):
+        for _ in range(tries):
             if self.genus == 0:
                 table = random_planar(edges, seed=random.getrandbits(64)).code
             else:
                 table = rank_order.sample(edges, random)
             if self.admits(table):
                 return World.from_code(table)
-        raise InputError(self._too_rare(edges, f"none of {MAX_TRIES} that were drawn"))
+        raise InputError(self._too_rare(edges, f"none of {tries} that were drawn"))
 
     @property
     def _has_formula(self) -> bool:
         return self.most_degree is None and not self.loopless and not self.simple
 
-    def _count_by_formula(self, edges: int) -> int:
+    def _count_by_formula(self, edges: int, x: int = 1) -> int:
+        if self.genus == 0 and x == 1:
+            return rank_order.count_planar(edges)
         if self.genus is not None:
-            return count_genus(edges, self.genus) if self.genus else rank_order.count_planar(edges)
+            return count_genus(edges, self.genus, x)
         # 2g <= m, by Euler's formula
         if self.most_genus is not None and 2 * self.most_genus < edges:
-            return sum(count_genus(edges, genus) for genus in range(self.most_genus + 1))
-        return rank_order.count(edges)
+            return sum(count_genus(edges, genus, x) for genus in range(self.most_genus + 1))
+        return rank_order.count(edges) if x == 1 else rank_order.count_by_recurrence(edges, x)
 
     def _too_rare(self, edges: int, evidence: str) -> str:
         return (

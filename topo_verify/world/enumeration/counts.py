@@ -1,23 +1,27 @@
 """Counts worlds by a property of their graph, and by genus, without listing them.
 
+With x = 1 each function counts worlds. With another x it is the sum of x^(number of vertices): if x
+is above all counts, its digits to the base x are the numbers of worlds with each number of
+vertices.
+
 **Loopless, simple, or a bound on the degrees.** Let the darts of vertex i be 0 … d_i-1, and
 wirings(d1, …, dn) the ways to join all darts in pairs such that the property holds. A world is
 rooted, so it has no symmetry: it comes from a multiset of degrees, up to the numbering of equal
 vertices and of each vertex's darts. With one term for each partition of 2m into degrees,
 
-    T(x) = Σ x^m · wirings(d1, …, dn) / Π d_i / Π (how often each degree occurs)!
+    T(z) = Σ z^m · x^n · wirings(d1, …, dn) / Π d_i / Π (how often each degree occurs)!
 
 counts all maps, connected or not, each 1 / (its symmetries) times. log T counts the connected ones,
-and rooting them at one of 2m darts removes the symmetries: N(m) = 2m · [x^m] log T(x).
+and rooting them at one of 2m darts removes the symmetries: N(m) = 2m · [z^m] log T(z).
 
-**By genus.** Q[g][m] is the number of rooted maps with genus g and m edges. For m >= 1,
+**By genus.** Q[g][m] counts rooted maps with genus g and m edges. For m >= 1,
 
-    (m+1)/6 · Q[g][m] = (4m-2)/3 · Q[g][m-1] + (2m-3)(2m-2)(2m-1)/12 · Q[g-1][m-2]
+    (m+1)/6 · Q[g][m] = (1+x)(2m-1)/3 · Q[g][m-1] + (2m-3)(2m-2)(2m-1)/12 · Q[g-1][m-2]
                         + 1/2 · Σ (2k-1)(2l-1) · Q[i][k-1] · Q[j][l-1],
 
-the sum over k + l = m with k, l >= 1 and i + j = g; Q[0][0] = 1, and Q is 0 outside (S. R. Carrell
+the sum over k + l = m with k, l >= 1 and i + j = g; Q[0][0] = x, and Q is 0 outside (S. R. Carrell
 and G. Chapuy, "Simple recurrence formulas to count maps on orientable surfaces", J. Combin. Theory
-Ser. A 133 (2015), theorem 1).
+Ser. A 133 (2015): theorem 1, and its variant with a weight x).
 """
 
 from __future__ import annotations
@@ -41,7 +45,12 @@ MAX_NARROW_EDGES = 100
 
 
 def count_graphs(
-    edges: int, *, most_degree: int | None = None, loopless: bool = False, simple: bool = False
+    edges: int,
+    x: int = 1,
+    *,
+    most_degree: int | None = None,
+    loopless: bool = False,
+    simple: bool = False,
 ) -> int:
     """The number of rooted maps of any genus with this many edges and these properties.
 
@@ -57,23 +66,23 @@ def count_graphs(
             f"expected at most {most} edges, got {edges}: with more, worlds with a property of"
             " their graph are too many to count; ask for fewer edges"
         )
-    total = [_all_maps(m, highest, loopless=loopless, simple=simple) for m in range(edges + 1)]
-    # [x^m] log T(x)
+    total = [_all_maps(m, x, highest, loopless=loopless, simple=simple) for m in range(edges + 1)]
+    # [z^m] log T(z)
     connected = [Fraction(0)]
     for m in range(1, edges + 1):  # T' = T·(log T)'
         known = sum((k * connected[k] * total[m - k] for k in range(1, m)), Fraction(0))
         connected.append(total[m] - known / m)
-    rooted = 2 * edges * connected[edges] if edges else Fraction(1)
+    rooted = 2 * edges * connected[edges] if edges else Fraction(x)
     assert rooted.denominator == 1, "the number of worlds is an integer"
     return rooted.numerator
 
 
-def _all_maps(edges: int, highest: int, *, loopless: bool, simple: bool) -> Fraction:
+def _all_maps(edges: int, x: int, highest: int, *, loopless: bool, simple: bool) -> Fraction:
     number = Fraction(0)
     for degrees in _partitions(2 * edges, highest):
         ways = _simple_wirings(degrees) if simple else _wirings(degrees, loopless=loopless)
         alike = prod(map(factorial, Counter(degrees).values()))
-        number += Fraction(ways, prod(degrees) * alike)
+        number += Fraction(x ** len(degrees) * ways, prod(degrees) * alike)
     return number
 
 
@@ -135,7 +144,7 @@ def _sorted(*degrees: int) -> Degrees:
     return tuple(sorted(filter(None, degrees), reverse=True))
 
 
-def count_genus(edges: int, genus: int) -> int:
+def count_genus(edges: int, genus: int, x: int = 1) -> int:
     """Q[genus][edges], in O(edges² · genus²) products.
 
     Raises:
@@ -147,15 +156,15 @@ def count_genus(edges: int, genus: int) -> int:
         return 0
     known: list[list[int]] = []
     for g in range(genus + 1):
-        known.append([int(g == 0)])
+        known.append([0 if g else x])
         for m in range(1, edges + 1):
-            known[g].append(_next(known, g, m))
+            known[g].append(_next(known, g, m, x))
     return known[genus][edges]
 
 
-def _next(known: list[list[int]], g: int, m: int) -> int:
+def _next(known: list[list[int]], g: int, m: int, x: int) -> int:
     # the recurrence times 6
-    total = 4 * (2 * m - 1) * known[g][m - 1]
+    total = 2 * (1 + x) * (2 * m - 1) * known[g][m - 1]
     if g and m >= 2:
         total += (2 * m - 3) * (m - 1) * (2 * m - 1) * known[g - 1][m - 2]
     for k in range(1, m):

@@ -18,7 +18,9 @@ has a world.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
+from functools import cache
 from typing import NamedTuple, Protocol
 
 from topo_verify.errors import InputError
@@ -26,6 +28,9 @@ from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES, IntTuple, Table
 from topo_verify.world.rooted_map import World
+
+MOST_COUNTED = 1_000_000
+"""`count` lists at most this many worlds: a minute or two."""
 
 
 class Pruner(Protocol):
@@ -52,6 +57,32 @@ def ranked_tables(
         yield from (pair for pair in listed if edges or kind.admits(pair[1]))
     else:
         yield from _grown(edges, kind, start, stop)
+
+
+def require_few(edges: int, kind: WorldClass) -> None:
+    """Raise an InputError if `count` would list too many worlds."""
+    most = kind.most(edges) if kind.is_mixed else 0
+    if most > MOST_COUNTED:
+        raise InputError(
+            f"class {kind}: its worlds are counted one by one, and with {edges} edges there may be"
+            f" {most}: expected {MOST_COUNTED} at most, ask for fewer edges; in Python"
+            f" tv.worlds({edges}, cls={str(kind)!r}) lists them"
+        )
+
+
+@cache
+def count_by_vertices(edges: int, kind: WorldClass) -> dict[int, int]:
+    """`kind.count_by_vertices`; a genus and a property of the graph together by listing."""
+    require_few(edges, kind)
+    if not kind.is_mixed:
+        return kind.count_by_vertices(edges)
+    numbers = Counter(len(degrees) for _, (degrees, _) in ranked_tables(edges, kind))
+    return dict(sorted(numbers.items()))
+
+
+def count(edges: int, kind: WorldClass) -> int:
+    """`kind.count`; a genus and a property of the graph together by listing."""
+    return sum(count_by_vertices(edges, kind).values()) if kind.is_mixed else kind.count(edges)
 
 
 class _Partial(NamedTuple):

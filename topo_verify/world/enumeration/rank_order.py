@@ -69,14 +69,14 @@ def count(edges: int) -> int:
     return sum(completions(d, 2 * edges - d) for d in range(1, 2 * edges + 1))
 
 
-def count_by_recurrence(edges: int) -> int:
-    """The same number, from an independent recurrence in the edges alone.
+def count_by_recurrence(edges: int, x: int = 1) -> int:
+    """The same number, from an independent recurrence; each world counts x^(its vertices).
 
-    M(z) = 1 + z·M(z)² + z·M(z) + 2z²·M'(z): D. Arquès and J.-F. Béraud, "Rooted maps on orientable
+    M(z) = x + z·M(z)² + z·M(z) + 2z²·M'(z): D. Arquès and J.-F. Béraud, "Rooted maps on orientable
     surfaces, Riccati's equation and continued fractions", Discrete Math. 215 (2000).
     """
     _require_edges(edges)
-    numbers: list[int] = [1]
+    numbers = [x]
     for m in range(1, edges + 1):
         # z·M and 2z²·M' have the coefficients M[m-1] and 2(m-1)·M[m-1]
         squared = sum(numbers[i] * numbers[m - 1 - i] for i in range(m))
