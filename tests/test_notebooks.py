@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -76,3 +77,19 @@ def test_a_robot_shows_what_it_senses() -> None:
     robots: list[str] = []
     tv.explore("m1/0", lambda robot: robots.append(repr(robot)))
     assert robots == ["<Robot at (degree 1, marker at door 0)>"]
+
+
+def test_two_runs_in_one_world_are_saved_side_by_side(tmp_path: Path) -> None:
+    run = tv.explore("m3/5", "basic")
+    run.save(tmp_path / "two.html", beside=tv.explore("m3/5", "folding"))
+    assert "<title>basic beside folding in m3/5" in (tmp_path / "two.html").read_text()
+    with pytest.raises(tv.InputError, match="a run in another world"):
+        run.save(tmp_path / "other.html", beside=tv.explore("m3/6", "basic"))
+    assert not (tmp_path / "other.html").exists()
+
+
+def test_a_log_that_proves_nothing_shows_no_size_of_its_map() -> None:
+    log = tv.explore("m3/5", "basic").trace[:3]
+    assert repr(tv.certify(log)).startswith(
+        "Certificate(verdict='UNKNOWN', map=None, open_darts=3, e"
+    )

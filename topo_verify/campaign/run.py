@@ -115,16 +115,22 @@ class Exploration:
         """Number of hypotheses confirmed."""
         return sum(isinstance(e, Confirm) for e in self.trace)
 
-    def save(self, path: str | PathLike[str]) -> None:
+    def save(self, path: str | PathLike[str], *, beside: Exploration | None = None) -> None:
         """Write a page (HTML) that plays this run in a browser, findings included.
 
+        Args:
+            beside: another run in the same world, to play beside this one.
         Raises:
-            InputError: the file cannot be written.
+            InputError: the file cannot be written, or the other run has another world.
         """
         from topo_verify.player.page import player_page
         from topo_verify.world.formats import files
 
-        files.write(path, player_page(self.world, [self._played()], name=self.world.name))
+        runs = [self] if beside is None else [self, beside]
+        if any(run.world != self.world for run in runs):
+            raise InputError("beside: a run in another world; explore this run's world with both")
+        played = [*map(Exploration._played, runs)]
+        files.write(path, player_page(self.world, played, name=self.world.name))
 
     def _repr_html_(self) -> str:
         from topo_verify.player.page import framed

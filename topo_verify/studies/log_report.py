@@ -47,8 +47,8 @@ class Certificate:
     verdict: Literal["PROVED", "UNKNOWN", "REFUTED"]
     map: World | None
     open_darts: int
-    vertices: int
-    edges: int
+    vertices: int = field(repr=False)
+    edges: int = field(repr=False)
     entailed: int
     decisions: int
     findings: tuple[Finding, ...]
