@@ -87,7 +87,10 @@ def test_false_evidence_from_a_record_is_caught(changes: dict[str, Any]) -> None
 def test_a_record_that_is_not_cited_is_named_by_where_tracing_left_s() -> None:
     lie = with_evidence(TRACE, BY_RECORD, record=None)
     (message,) = said(lie, "rejection-justified")
-    assert message.endswith("on S the doors lead to unexplored dart 3: cite its record, doors []")
+    on_s = "on S the doors lead to unexplored dart 3, behind which S expects nothing"
+    assert message.endswith(f"{on_s}: cite its record, doors []")
+    (message,) = said(edited(lie, BY_RECORD, rule="history"), "rejection-justified")
+    assert message.endswith(on_s)
 
 
 @pytest.mark.parametrize(

@@ -247,20 +247,20 @@ def _unmet(run: ReplayedTrace, when: int, cited: ev.Evidence, ends: tuple[Percep
 def _percepts_agree(
     run: ReplayedTrace, decision: Round, event: ev.Reject, end: WorldDart, h: KnownDart
 ) -> str:
-    cited, word = event.evidence, _executed(decision, event)
+    cited, word, when = event.evidence, _executed(decision, event), decision.when
     if word is None:
         return f"step {cited.step} of sequence {cited.sequence} was not executed"
     observed = word[-1].percept if word else run.map.seen_at(end)
     if cited.observed != observed:
         return f"observed is {observed}, not {cited.observed}"
-    at, rest = run.records.trace(h, word, decision.when)
+    at, rest = run.records.trace(h, word, when)
     doors = tuple(step.door for step in rest[1:])
     if cited.at not in (None, at) or cited.record != (ev.Record(at, doors) if rest else None):
-        leaves = f"lead to unexplored dart {at}: cite its record, doors {list(doors)}"
+        leaves = f"lead to unexplored dart {at}, behind which S expects nothing"
+        leaves += f": cite its record, doors {list(doors)}" * (event.rule == "records")
         ends = f"end at dart {at}: cite that dart and no record"
         return f"on S the doors {leaves if rest else ends}"
-    behind = run.records.behind(at, doors, decision.when)
-    expected = behind if rest else run.map.seen_at(run.map.phi[at])
+    expected = run.records.behind(at, doors, when) if rest else run.map.seen_at(run.map.phi[at])
     if expected is None:
         return f"nothing is recorded behind dart {at} and the doors {list(doors)}"
     if cited.expected != expected:
