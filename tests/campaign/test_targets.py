@@ -185,6 +185,12 @@ def test_policies_are_for_algorithms_of_the_catalogue() -> None:
             one_target(mapper, pick="last")
 
 
+def test_of_several_mappers_those_with_policies_get_them() -> None:
+    own, basic = targets("tests.campaign.test_targets:mine,basic", pick="last")
+    assert own.mapper is mine
+    assert getattr(basic.mapper, "policies", None) == Policies("last", "shortest")
+
+
 @pytest.mark.parametrize("choice", [{"pick": "far"}, {"order": "far"}])
 def test_an_unknown_policy_is_refused_as_input(choice: dict[str, Any]) -> None:
     with pytest.raises(InputError, match="policy 'far': there are"):

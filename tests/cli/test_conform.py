@@ -42,6 +42,13 @@ def test_a_skipped_world_exits_3(results: Results) -> None:
     assert found["results"][0]["verdict"] == "UNKNOWN"
 
 
+def test_the_cost_is_shown_as_measured(call: Call) -> None:
+    (line,) = (
+        line for line in call("conform basic --worlds m1/0").stdout.splitlines() if "cost  " in line
+    )
+    assert line.split() == ["cost", "measured", "1", "-", "0", "1"]
+
+
 def test_batch_mode(results: Results) -> None:
     found = results(f"conform {BATCH} --batch --like basic --worlds edges<=2 --worlds m4/41")
     assert {entry["passed"] for entry in found["results"]} == {13}

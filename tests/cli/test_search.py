@@ -80,6 +80,9 @@ def test_compare_shows_where_the_first_costs_more(call: Call, results: Results) 
     line = "search --compare enhancement-ii,enhancement-i --edges 4 --workers 0"
     (entry,) = results(line)["results"]
     assert [size["compare"]["dearer"] for size in entry["by_edges"]] == [0, 0, 0, 2]
+    assert [size["compare"]["totals"][0] for size in entry["by_edges"]] == [
+        size["total_cost"] for size in entry["by_edges"]
+    ]
     assert entry["by_edges"][3]["compare"]["first"][0] == {
         "world": "m4/16", "cost": 11, "other": 9,
     }  # fmt: skip

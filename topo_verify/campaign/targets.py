@@ -44,10 +44,17 @@ def targets(
     """The mappers that a TARGET names, in its order; InputError if it names none.
 
     A program starts in its first world, a mapper in its own process now. If `in_process`,
-    mappers outside the catalogue share this process.
+    mappers outside the catalogue share this process. `pick` and `order` are for those
+    that have policies, which must be one at least.
     """
-    mappers = (_target(name, in_process=in_process) for name in each_text(text))
-    return tuple(_with_policies(mapper, pick, order) for mapper in mappers)
+    mappers = [_target(name, in_process=in_process) for name in each_text(text)]
+    some_have = any(isinstance(target.mapper, Algorithm) for target in mappers)
+    return tuple(
+        target
+        if some_have and not isinstance(target.mapper, Algorithm)
+        else _with_policies(target, pick, order)
+        for target in mappers
+    )
 
 
 def each_text(text: str) -> tuple[str, ...]:

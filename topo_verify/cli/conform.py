@@ -202,10 +202,16 @@ def _show(entries: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Ite
 _COLUMNS = ("level", "verdict", ">passed", ">failed", ">not decided", ">of worlds")
 
 
+def _judged(level: LevelResult) -> tuple[str, ...]:
+    if level.level == "cost":
+        return "measured", str(level.passed), "-"
+    return level.verdict, str(level.passed), str(level.failed)
+
+
 def _shown(levels: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Iterator[Block]:
     rows = [
         (
-            *(level.level, level.verdict, str(level.passed), str(level.failed)),
+            *(level.level, *_judged(level)),
             *(str(level.worlds - level.passed - level.failed), str(level.worlds)),
         )
         for level in levels

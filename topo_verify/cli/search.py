@@ -283,7 +283,10 @@ def shown(entry: study.SearchEntry, *, worst: bool = False) -> Iterator[Block]:
     if pairs:
         yield Text("")
         yield TextTable(
-            (">edges", ">A costs more", ">at most by", ">B costs more", "A costs more, first"),
+            (
+                *(">edges", ">A costs", ">B costs", ">A costs more", ">at most by"),
+                *(">B costs more", "A costs more, first"),
+            ),
             pairs,
         )
     yield from _every(entry, worst=worst)
@@ -355,7 +358,7 @@ def _costs(entry: study.ByEdges) -> tuple[str, ...]:
 
 def _compared(edges: int, pair: study.CostComparison) -> tuple[str, ...]:
     first = [f"{world.world} ({world.cost}, {world.other})" for world in pair.first]
-    row = map(str, (edges, pair.dearer, pair.most, pair.cheaper))
+    row = map(str, (edges, *pair.totals, pair.dearer, pair.most, pair.cheaper))
     return (*row, _some(first, pair.dearer))
 
 

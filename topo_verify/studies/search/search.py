@@ -87,9 +87,11 @@ class CostComparison(Pairs, frozen=True, kw_only=True):
     Attributes:
         dearer, cheaper: number of worlds where the first costs more, and less.
         most: the largest excess of the first.
+        totals: what each costs in the worlds where it is right, in edge traversals.
         first: the first worlds in which it costs more.
     """
 
+    totals: tuple[int, int]
     first: tuple[CostPair, ...]
 
 
@@ -484,7 +486,9 @@ class Search:
             for row in mine
             if row.cost > others.get(row.world, row.cost)
         ]
-        return CostComparison(*astuple(tally.pairs), first=tuple(pairs[:KEPT_PAIRS]))
+        a, b = (tally.costs.get(mapper, Costs()).total for mapper in self.campaign.mappers)
+        kept = tuple(pairs[:KEPT_PAIRS])
+        return CostComparison(*astuple(tally.pairs), totals=(a, b), first=kept)
 
 
 def _counterexample(row: Row, claim: str | None = None) -> Counterexample:
