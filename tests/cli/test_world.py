@@ -301,6 +301,7 @@ def test_the_part_that_is_shown_of_a_large_world_may_be_around_any_vertex(
     line = "world draw family:random_planar(60,seed=1)"
     (entry,) = results(line)["results"]
     assert (entry["layout"], entry["shown"] < entry["vertices"]) == ("ball", True)
+    assert "is drawn around its marker: no whole picture was read back true" in call(line).stderr
     vertices = [f'data-vertex="{vertex}"' for vertex in range(entry["vertices"])]
     hidden = next(k for k, vertex in enumerate(vertices) if vertex not in entry["text"])
     assert vertices[hidden] in call(f"{line} --around {hidden}").stdout

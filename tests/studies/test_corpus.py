@@ -11,6 +11,7 @@ from topo_verify.errors import InputError
 from topo_verify.strategies.sample import WORLDS
 from topo_verify.studies.corpus import DEFAULT, GENERATED, STRATEGIES, corpus_from
 from topo_verify.world.enumeration import rank_order
+from topo_verify.world.formats import planar_code
 
 SHELF = Path(__file__).parents[1] / "data" / "worlds"
 
@@ -77,6 +78,19 @@ def test_a_folder_is_the_world_files_in_it_by_name(tmp_path: Path) -> None:
     corpus = corpus_from([str(tmp_path)])
     assert [Path(at.name).name for at in corpus] == ["a.json", "b.json"]
     assert [at.world.id for at in corpus] == ["m1/0", "m2/9"]
+
+
+def test_all_graphs_of_a_file_of_planar_code_are_worlds(tmp_path: Path) -> None:
+    triangle, path = (planar_code.encode(World.from_id(text)) for text in ("m3/13", "m1/0"))
+    both, one = tmp_path / "both.pc", tmp_path / "one.pc"
+    both.write_bytes(triangle + path.removeprefix(b">>planar_code<<"))
+    one.write_bytes(path)
+    names = [at.name for at in corpus_from([str(tmp_path)])]
+    assert names == [f"{both}:0", f"{both}:1", str(one)]
+    corpus = corpus_from([str(both)])
+    assert [at.world.name for at in corpus] == ["both-0", "both-1"]
+    assert all(World.load(both, graph=k) == at.world for k, at in enumerate(corpus))
+    assert all(at.replay_arguments == ("--worlds", at.name) for at in corpus)
 
 
 def test_any_world_may_stand_among_worlds() -> None:

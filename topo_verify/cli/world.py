@@ -537,7 +537,7 @@ class DrawEntry(msgspec.Struct, frozen=True):
 @options.number(
     "--around",
     metavar="VERTEX",
-    meaning="Show only what is near this vertex.  [default: up to 1,000 edges the whole world]",
+    meaning="Show only what is near this vertex.  [default: all, up to about 1,000 edges]",
 )
 @options.marker
 def draw(
@@ -551,7 +551,7 @@ def draw(
     marker: int | None,
 ) -> int:
     """Draw a world. The order of the edges at every vertex is read back from the picture."""
-    from topo_verify.world.drawing import document, format_of, lay_out
+    from topo_verify.world.drawing import WHOLE, document, format_of, lay_out
 
     def drawn() -> Iterator[Result[DrawEntry]]:
         kind = "svg" if file == "-" else format_of(file)
@@ -559,6 +559,10 @@ def draw(
         layout = lay_out(at.world, centre=_dart_at(at.world, around))
         if around is not None and not layout.hidden:
             output.note(f"--around {around}: the world is shown whole")
+        if around is None and layout.hidden:
+            large = len(at.world.edges) > WHOLE
+            why = f"it has over {WHOLE:,} edges" if large else "no whole picture was read back true"
+            output.note(f"{at.name} is drawn around its marker: {why}")
         content = document(at.world, layout, kind, doors=doors, darts=darts)
         if file != "-":
             files.write(file, content)

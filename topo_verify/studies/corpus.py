@@ -8,7 +8,7 @@
 | `generated:200:STRATEGY` | 200 worlds of one, e.g. `planar_worlds(max_edges=20)` |
 | `drawn:30:FAMILY` | 30 worlds of a family with seeds, e.g. `lattice(10,10,holes=0.2)` |
 | a folder | its world files, by name |
-| any WORLD | this world: a path, `family:…`, an id, `nyc` |
+| any WORLD | this world: a path, `family:…`, an id, `nyc`; all graphs of a file of planar_code |
 
 Source: docs/semantics.md, section 16.
 """
@@ -26,6 +26,7 @@ import msgspec
 
 from topo_verify.errors import InputError, is_utf8, shown
 from topo_verify.world.enumeration import rank_order
+from topo_verify.world.formats import planar_code
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
@@ -163,7 +164,7 @@ def _parts(text: str, seed: int) -> Iterator[CorpusPart]:
     elif _is_folder(text):
         yield _folder(text)
     else:
-        yield _listed(text, [_by_name(text, text)])
+        yield _listed(text, _file(text, text))
 
 
 # ---------------------------------------------------------------- all of a size
@@ -260,11 +261,15 @@ def _listed(text: str, worlds: Sequence[Named], *, sample: bool = False) -> Corp
 
 
 def _by_name(name: str, group: str) -> Named:
+    _require_utf8(name)
+    return Named(name, resolve_world(name), group, ("--worlds", name))
+
+
+def _require_utf8(name: str) -> None:
     if not is_utf8(name):  # results keep the name as JSON
         raise InputError(
             f"--worlds {name!r}: expected a name in UTF-8; rename the file or the folder"
         )
-    return Named(name, resolve_world(name), group, ("--worlds", name))
 
 
 def _named(name: str, world: World, group: str, arguments: tuple[str, ...]) -> Named:
@@ -287,7 +292,18 @@ def _folder(text: str) -> CorpusPart:
             f"--worlds {shown(text)}: expected a folder with world files, whose names end in"
             f" {', '.join(SUFFIXES)}; this one has none"
         )
-    return _listed(text, [_by_name(name, text) for name in names])
+    return _listed(text, [named for name in names for named in _file(name, text)])
+
+
+def _file(name: str, group: str) -> list[Named]:
+    """The world of this name; of a file of planar_code with several graphs, all of them."""
+    is_planar_code = name.lower().endswith((".pc", ".plc")) and Path(name).is_file()
+    worlds = [*planar_code.worlds(name)] if is_planar_code else []
+    if len(worlds) < 2:
+        return [_by_name(name, group)]
+    _require_utf8(name)
+    names = [f"{name}:{number}" for number in range(len(worlds))]
+    return [Named(n, w, group, ("--worlds", n)) for n, w in zip(names, worlds, strict=True)]
 
 
 def _world_files(folder: Path) -> Iterable[str]:

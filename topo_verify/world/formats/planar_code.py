@@ -17,9 +17,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from itertools import accumulate
+from os import PathLike
 from typing import TypeVar
 
 from topo_verify.errors import InputError, shown
+from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
@@ -46,21 +48,28 @@ def decode(
     neighbours = None
     number = -1
     for number, rows in enumerate(_graphs(data, name)):
-        if number == 1 and graph is None:
-            raise InputError(
-                f"{name} holds several graphs: say which, counted from 0, as in {name}:0 on the"
-                " command line or World.load(path, graph=0) in Python"
-            )
         if number == (graph or 0):
             neighbours = rows
         if number == graph:
             break
+    if number > 0 and graph is None:
+        raise InputError(
+            f"{name} holds {number + 1} graphs: say which, counted from 0, as in {name}:0 on the"
+            " command line or World.load(path, graph=0) in Python; planar_code.worlds(path) has all"
+        )
     if neighbours is None:
         held = f"{number + 1} graphs" if number >= 0 else "no graph"
         asked = "" if graph is None else f", and graph {graph} (counted from 0) is none of them"
         raise InputError(f"{name} holds {held}{asked}: name a file with the graph that is meant")
     title = stem if graph is None or not stem else f"{stem}-{graph}"
     return _world(cls, neighbours, name if graph is None else f"{name}, graph {graph}", title)
+
+
+def worlds(path: str | PathLike[str]) -> Iterator[World]:
+    """The worlds of a file of planar_code, in its order; raises as `World.load`."""
+    name, stem = shown(path), files.stem(path)
+    for number, rows in enumerate(_graphs(files.read(path), name)):
+        yield _world(World, rows, f"{name}, graph {number}", f"{stem}-{number}")
 
 
 def encode(world: World) -> bytes:
