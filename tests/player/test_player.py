@@ -394,6 +394,25 @@ def test_a_notebook_s_frame_plays_on_its_own_in_the_notebook_s_theme(
     assert int(inside.locator("#slider").input_value()) > 1
 
 
+def test_numbers_badges_and_the_question_of_neighbouring_exits_keep_apart(show: Open) -> None:
+    page = show(page_of(World.from_id("m5/136"), "basic"), at="#step=26", width=1366, height=768)
+    page.check("#darts")
+    numbers, signs = page.evaluate("""() => {
+        const centre = (part) => {
+            const { x, y, width, height } = part.getBoundingClientRect();
+            return [x + width / 2, y + height / 2];
+        };
+        return ['.map .names .dart', '.map .unknown, .map .badge'].map((parts) => {
+            const all = [...document.querySelectorAll(parts)].map(centre);
+            const gaps = all.flatMap(([x, y], k) => all.slice(k + 1).map(([u, v]) =>
+                Math.hypot(x - u, y - v)));
+            return Math.min(...gaps);
+        });
+    }""")
+    assert numbers > 12
+    assert signs > 28
+
+
 def test_a_wrong_confirmation_is_drawn_as_wrong(show: Open, wrong: str) -> None:
     page = show(wrong, at="#step=54")
     assert title(page) == "Guess 1 is right, it says"

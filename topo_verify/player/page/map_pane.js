@@ -97,10 +97,13 @@ class MapPane extends Pane {
     return [p.x + shift, p.y - shift];
   }
 
-  /** The number of a dart of S, beside its beginning. */
+  /** The number of a dart of S, beside its beginning; farther out, where the next darts are close. */
   name(dart, parent) {
-    const { image } = this.run.map.darts[dart];
-    const p = this.picture.trail(image).at(this.R + 9 * this.u);
+    const { picture, u } = this, { image } = this.run.map.darts[dart], degree = picture.vertices[picture.vertex[image]].length;
+    const at = (one, far) => picture.trail(one).at(this.R + far * u);
+    const beside = [1, degree - 1].map((door) => picture.turn(image, door)).filter((one) => one !== image);
+    const apart = (far) => beside.every((one) => Math.hypot(at(one, far).x - at(image, far).x, at(one, far).y - at(image, far).y) > 12 * u);
+    const p = at(image, [9, 14, 19].find(apart) ?? 9);
     const aside = p.angle + Math.PI / 2;
     const [x, y] = [p.x + 8 * this.u * Math.cos(aside), p.y + 8 * this.u * Math.sin(aside)];
     return draw('text', { x, y, 'font-size': 12 * this.u, class: 'dart' }, parent, String(dart));

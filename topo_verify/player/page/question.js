@@ -7,14 +7,17 @@ class Question {
     const { image } = run.map.darts[round.edge];
     const trail = picture.trail(image);
     const size = Math.max(8 * u, Math.min(13 * u, R * 0.9));
-    const reach = Math.min(R + 46 * u, Math.max(trail.length * 0.48, R + size + 4 * u), trail.length);
+    const known = round.hypotheses.filter((h) => run.map.darts[h.dart]), ends = known.map((h) => pane.end(h.dart, 5 * u));
+    const least = Math.min(R + 46 * u, Math.max(trail.length * 0.48, R + size + 4 * u), trail.length);
+    const farther = [0, 14, 28, 42].map((more) => least + more * u).filter((far) => far < 0.6 * trail.length);
+    const clear = (far) => ends.every(([x, y]) => Math.hypot(x - trail.at(far).x, y - trail.at(far).y) > 26 * u);
+    const reach = farther.find(clear) ?? least; // beside no badge, where there is room
     const end = trail.at(reach);
     this.at = [end.x, end.y];
     this.below = draw('g', {}, pane.now);
     this.above = draw('g', {}, pane.over);
     pane.path(trail.piece(R, reach), 'e', this.below);
     this.unknown(size, end.angle + Math.PI, picture.seen(picture.other[image])[0]);
-    const known = round.hypotheses.filter((h) => run.map.darts[h.dart]);
     this.guesses = known.map((h) => ({ h, arc: this.arc(h), badge: this.badge(h) }));
   }
 
