@@ -77,7 +77,7 @@ def test_every_input_stands_on_the_page_with_its_default() -> None:
 
 def test_no_shell_reads_an_expression() -> None:
     shells = [step["run"] for step in STEPS if "run" in step]
-    assert len(shells) == 2
+    assert len(shells) == 3
     assert not [text for text in shells if "${{" in text]
     assert all(step["shell"] == "bash" for step in STEPS if "run" in step)
 
@@ -113,6 +113,24 @@ def test_the_search_fails_the_step_just_as_it_should(
     assert done.code == code, done.stderr
     assert done.outputs == f"verdict={verdict}\n"
     assert verdict in done.summary
+
+
+@pytest.mark.parametrize(
+    ("target", "code", "says"),
+    [
+        ("enhancement-ii", 0, "No regression in 86 of 86 worlds"),
+        ("homing", 1, "exceed the tolerance"),
+        ("no-such-mapper", 2, ""),
+    ],
+)
+def test_a_mapper_that_costs_more_than_its_baseline_fails(
+    target: str, code: int, says: str, tmp_path: Path
+) -> None:
+    recorded = [str(PROGRAMS / "topo-verify"), "record", "enhancement-ii", "--worlds", "edges<=3"]
+    subprocess.run([*recorded, "--out", "b.gz"], cwd=tmp_path, check=True, capture_output=True)
+    done = run_step("Compare", tmp_path, PROGRAMS, target=target, baseline="b.gz")
+    assert done.code == code, done.stderr
+    assert says in done.summary
 
 
 def test_an_input_cannot_become_a_command(tmp_path: Path) -> None:
