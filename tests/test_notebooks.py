@@ -68,6 +68,11 @@ def test_a_report_names_a_large_world_by_its_name() -> None:
     assert tv.examine("basic", "m3/5").head.startswith("basic in m3/5, ")
 
 
+def test_a_headline_counts_the_claims_with_nothing_to_judge() -> None:
+    head = tv.examine("basic", "m1/0").head
+    assert head.endswith(": 10 of 10 claims hold (3 with nothing to judge)")
+
+
 def test_the_package_offers_its_public_names_alone() -> None:
     assert {*dir(tv)} == {*tv.__all__}
     assert tv.search.search is search

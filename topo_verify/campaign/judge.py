@@ -128,7 +128,9 @@ class Report(msgspec.Struct, frozen=True, dict=True):
         name = "" if self.run is None else self.run.world.name
         world = name if name and len(self.world) > _LONG_ID else self.world
         ran = f"{self.target} in {world}, {plural(self.cost, 'edge traversal')}"
-        return f"{ran}: {in_words(self.claims, 'claims hold')}"
+        idle = sum(judgement.status == "ok" and not judgement.of for judgement in self.judgements)
+        hold = f"claims hold ({idle} with nothing to judge)" if idle else "claims hold"
+        return f"{ran}: {in_words(self.claims, hold)}"
 
     def __repr__(self) -> str:
         return f"<Report: {shown(self.head, limit=LINE)}>"
