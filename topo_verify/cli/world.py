@@ -286,7 +286,7 @@ def count(output: Output, *, edges: range, kind: str, by: str | None) -> int:
 
     def counted() -> Iterator[Result[CountEntry]]:
         worlds = WorldClass.parse(kind)
-        pruned.require_few(edges[-1], worlds)
+        pruned.require_few(edges[-1], worlds, by_vertices=by is not None)
         for number, m in enumerate(edges):
             output.progress(f"{m} edges, class {worlds}", number, len(edges))
             if by is not None:

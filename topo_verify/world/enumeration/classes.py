@@ -14,12 +14,20 @@ from random import Random
 
 from topo_verify.errors import InputError, close_name, shown
 from topo_verify.world.enumeration import rank_order
-from topo_verify.world.enumeration.counts import count_genus, count_graphs
+from topo_verify.world.enumeration.counts import (
+    count_genus,
+    count_graphs,
+    count_planar_loopless,
+    count_planar_simple,
+)
 from topo_verify.world.families.random_maps import random_planar
 from topo_verify.world.rooted_map import World
 
 MAX_LISTED_EDGES = 7
 """Some classes are counted by listing: 1,708,394 worlds with 7 edges."""
+
+PLANAR = {"planar,loopless": count_planar_loopless, "planar,simple": count_planar_simple}
+"""The classes of a genus and a property of the graph that a formula counts."""
 
 MAX_BY_VERTICES = 100
 """Limit of `count_by_vertices`: a second for planar worlds."""
@@ -110,9 +118,11 @@ class WorldClass:
         """The number of worlds with this many edges in the class.
 
         Genera are counted by a formula, properties of the graph by `count_graphs`, both together by
-        listing. None uses the pruned search, so a search that reaches the number was complete.
+        listing, but for those of `PLANAR`. None uses the pruned search, so a search that reaches
+        the number was complete.
         """
-        return self._count(edges)
+        formula = PLANAR.get(str(self))
+        return formula(edges) if formula else self._count(edges)
 
     def count_by_vertices(self, edges: int) -> dict[int, int]:
         """The number of worlds in the class with each number of vertices, where there is one.
@@ -134,7 +144,7 @@ class WorldClass:
         """The sum of x^(number of vertices)."""
         if self._has_formula:
             return self._count_by_formula(edges, x)
-        if not self.is_mixed:
+        if not self.is_listed(by_vertices=True):
             return count_graphs(
                 edges, x, most_degree=self.most_degree, loopless=self.loopless, simple=self.simple
             )
@@ -146,13 +156,15 @@ class WorldClass:
             )
         return sum(x ** len(t[0]) for t in rank_order.tables(edges) if self.admits(t))
 
-    @property
-    def is_mixed(self) -> bool:
-        """Whether it asks for a genus and a property of the graph: no formula counts both."""
-        return not (self._has_formula or (self.genus is None and self.most_genus is None))
+    def is_listed(self, *, by_vertices: bool = False) -> bool:
+        """Whether its worlds are counted one by one: it has a genus and a property of the graph."""
+        mixed = not (self._has_formula or (self.genus is None and self.most_genus is None))
+        return mixed and (by_vertices or str(self) not in PLANAR)
 
     def most(self, edges: int) -> int:
         """A bound for `count`, quickly: the worlds of its genus, or with its graphs."""
+        if not self.is_listed():
+            return self.count(edges)
         by_genus = WorldClass(self.genus, self.most_genus)
         by_graph = replace(self, genus=None, most_genus=None)
         return min(by_genus.count(edges), by_graph.count(edges))
@@ -160,15 +172,16 @@ class WorldClass:
     def sample(self, edges: int, random: Random) -> World:
         """A world of the class, exactly uniform, by rejection; InputError if it is too rare."""
         tries = MAX_DRAWN_EDGES // max(edges, 1)
-        if self._has_formula and self.genus != 0 and self != WorldClass():
+        drawn = WorldClass(genus=0) if self.genus == 0 else WorldClass()
+        if self != drawn and (self._has_formula or str(self) in PLANAR):
             if edges > rank_order.MAX_ID_EDGES:
                 most = rank_order.MAX_ID_EDGES
                 raise InputError(self._too_rare(edges, f"none is tried above {most} edges"))
-            inside, total = self._count_by_formula(edges), rank_order.count(edges)
+            inside, total = self.count(edges), drawn.count(edges)
             if not inside:
                 raise InputError(f"class {self}: there is no world with {edges} edges in it")
             if total > inside * tries:
-                raise InputError(self._too_rare(edges, f"{inside / total:.0e} of all"))
+                raise InputError(self._too_rare(edges, f"{inside / total:.0e} of class {drawn}"))
         for _ in range(tries):
             if self.genus == 0:
                 table = random_planar(edges, seed=random.getrandbits(64)).code

@@ -59,9 +59,9 @@ def ranked_tables(
         yield from _grown(edges, kind, start, stop)
 
 
-def require_few(edges: int, kind: WorldClass) -> None:
-    """Raise an InputError if `count` would list too many worlds."""
-    most = kind.most(edges) if kind.is_mixed else 0
+def require_few(edges: int, kind: WorldClass, *, by_vertices: bool = False) -> None:
+    """Raise an InputError if counting would list too many worlds."""
+    most = kind.most(edges) if kind.is_listed(by_vertices=by_vertices) else 0
     if most > MOST_COUNTED:
         raise InputError(
             f"class {kind}: its worlds are counted one by one, and with {edges} edges there may be"
@@ -73,16 +73,16 @@ def require_few(edges: int, kind: WorldClass) -> None:
 @cache
 def count_by_vertices(edges: int, kind: WorldClass) -> dict[int, int]:
     """`kind.count_by_vertices`; a genus and a property of the graph together by listing."""
-    require_few(edges, kind)
-    if not kind.is_mixed:
+    require_few(edges, kind, by_vertices=True)
+    if not kind.is_listed(by_vertices=True):
         return kind.count_by_vertices(edges)
     numbers = Counter(len(degrees) for _, (degrees, _) in ranked_tables(edges, kind))
     return dict(sorted(numbers.items()))
 
 
 def count(edges: int, kind: WorldClass) -> int:
-    """`kind.count`; a genus and a property of the graph together by listing."""
-    return sum(count_by_vertices(edges, kind).values()) if kind.is_mixed else kind.count(edges)
+    """`kind.count`, or the number of those listed."""
+    return sum(count_by_vertices(edges, kind).values()) if kind.is_listed() else kind.count(edges)
 
 
 class _Partial(NamedTuple):
