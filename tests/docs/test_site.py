@@ -149,6 +149,26 @@ def test_the_line_of_a_definition_is_found() -> None:
     assert [line_of(source, name) for name in ("X", "A", "A.f", "f")] == [1, 4, 5, None]
 
 
+@pytest.mark.parametrize(
+    ("name", "file", "begins"),
+    [
+        ("algorithms/motion.py:Pilot.back", "topo_verify/algorithms/motion.py", "    def back("),
+        ("docs/test_site.py:part", "tests/docs/test_site.py", "def part("),
+        ("Embedding.confirm", "topo_verify/proofs/coq/Embedding.v", "Theorem confirm "),
+        ("World.marker", "topo_verify/proofs/coq/World.v", "Definition marker "),
+    ],
+)
+def test_code_that_the_page_names_is_linked_at_its_line(name: str, file: str, begins: str) -> None:
+    line = part("site/codelines.py").line_named(name)
+    assert line.file == file
+    assert (ROOT / file).read_text().splitlines()[line.number - 1].startswith(begins)
+
+
+@pytest.mark.parametrize("name", ["basic", "Embedding.confir", "CITATION.cff", "no/file.py:f"])
+def test_other_words_of_the_page_are_not_linked(name: str) -> None:
+    assert part("site/codelines.py").line_named(name) is None
+
+
 def test_the_gallery_has_every_family_and_the_first_genera() -> None:
     pictures = part("gallery.py").PICTURES
     assert FAMILIES.keys() <= pictures.keys()
