@@ -160,6 +160,7 @@ def test_the_schema_refuses_what_the_reader_refuses() -> None:
         (" \n", "world JSON is empty"),
         (EDGE[:-1], "is not valid JSON: input data was truncated; a world is one JSON object"),
         (EDGE + "{}", "is not valid JSON: trailing characters"),
+        ("door,degree,marker\n,2,0\n", "one JSON object (a log is judged by certify LOG, and"),
         (EDGE.replace("0", "00"), "is not valid JSON"),
         (EDGE.replace("0]", "NaN]"), "is not valid JSON: invalid character"),
         (EDGE.replace("0]", "Infinity]"), "is not valid JSON"),

@@ -112,7 +112,11 @@ def _parse(text: str | bytes, name: str) -> WorldFile:
         raise InputError(sentence) from error
     except msgspec.DecodeError as error:
         why = _lower(str(error).removeprefix("JSON is malformed: "))
-        raise InputError(f"{name} is not valid JSON: {why}; a world is one JSON object") from error
+        is_log = '"start"' in text[:200] or "degree" in text[:200].lower()
+        log = " (a log is judged by certify LOG, and by tour MAP --against LOG)" * is_log
+        raise InputError(
+            f"{name} is not valid JSON: {why}; a world is one JSON object{log}"
+        ) from error
     except RecursionError as error:
         raise InputError(
             f"{name}: expected a world, got lists that are nested too deeply: give one a vertex"
