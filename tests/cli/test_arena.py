@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shlex
 import signal
 import subprocess
@@ -224,6 +225,53 @@ def test_a_page_plays_each_beside_the_first_where_it_loses_most(call: Call) -> N
     assert f"<title>folding beside basic in {loss['world']}<" in page
 
 
+def test_a_page_says_what_the_moves_of_each_were_for(call: Call) -> None:
+    assert call(f"{LINE} --out here").exit_code == 0
+    table = Path("here/table.md").read_text()
+    (line,) = (line for line in table.splitlines() if line.startswith("basic in family:"))
+    spent = [int(number) for number in re.findall(r" (\d+)[,;]", line.partition("basic: ")[2])]
+    spent.append(int(line.rsplit(" ", 1)[1]))
+    cost = int(line.partition("loses most: ")[2].partition(" ")[0])
+    assert sum(spent) == cost
+    page = Path("here/report.html").read_text()
+    assert page.index('id="worlds"') < page.index('id="judged"')
+
+
+STRAYS = """
+from topo_verify import CATALOGUE
+from topo_verify.robot.events import Confirm, Pose
+
+def explore(robot):
+    robot.move(0)
+    robot.declare(Pose(0, (1,)))
+    robot.declare(Confirm(0, 1, "motion"))
+    while True:
+        robot.move(0)
+"""
+
+
+def test_a_counterexample_ends_soon_after_the_failing_claim(call: Call, results: Results) -> None:
+    Path("strays.py").write_text(STRAYS)
+    line = "arena basic strays.py:explore --worlds family:lattice(4,4) --workers 0 --out here"
+    *_, strays = results(line, code=1)["results"]
+    again = strays["counterexample"]["replay"]
+    assert again.endswith("--target strays.py:explore --budget 103")
+    assert strays["counterexample"]["claim"] in call(again.removeprefix("topo-verify ")).stdout
+    (page,) = Path("here/counterexamples").glob("*.html")
+    assert "asked for more than 103 moves" in page.read_text()
+    named = call(line)
+    assert "2 of 2 runs are in here/runs.db" in named.stderr
+
+
+def test_mappers_have_names_in_the_tables(call: Call, refused: Refused) -> None:
+    line = "arena basic folding --suite triangle --workers 0"
+    shown = call(f"{line} --name 'basic=Team A' --name folding=B").stdout
+    assert "Team A" in shown
+    assert "basic " not in shown.replace("--target basic ", "")
+    refused(f"{line} --name other=B", "expected TARGET=NAME with one of basic, folding")
+    refused(f"{line} --name basic=folding", "two mappers have one name")
+
+
 def test_a_program_takes_part_over_the_pipe_and_pays_what_its_twin_pays(results: Results) -> None:
     serve = shlex.quote(f"{sys.executable} -m topo_verify.programs.serve basic")
     program, twin = results(f"arena basic --cmd {serve} --suite small --workers 0")["results"]
@@ -364,6 +412,7 @@ def test_after_three_time_outs_a_mapper_plays_no_further(results: Results, call:
     line = "arena mappers.py:strolls --suite tiny --world-timeout 0.02 --workers 0"
     (entry,) = results(line, code=3)["results"]
     assert (entry["worlds"], entry["undecided"], entry["total"]) == (0, 3, 792)
-    assert "789 of 792 worlds not played, 3 worlds of 792 not decided" in " ".join(
-        call(line).stdout.split()
+    assert (
+        "789 of 792 worlds not played after three time-outs, 3 worlds of 792 not decided"
+        in " ".join(call(line).stdout.split())
     )

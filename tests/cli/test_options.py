@@ -21,7 +21,7 @@ REPEATABLE = {
     "world sample": {"--class"},
     "conform": {"--worlds"},
     "record": {"--worlds"},
-    "arena": {"--target", "--cmd", "--library", "--worlds"},
+    "arena": {"--target", "--cmd", "--library", "--name", "--worlds"},
     "prove": {"--kind"},
 }
 """The options of each command that may be given several times; every value counts."""

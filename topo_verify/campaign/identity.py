@@ -168,7 +168,7 @@ class MapperChanged(InputError):
     """What a mapper rests on has changed since its results were kept; `change` says how."""
 
     def __init__(self, where: str, change: str) -> None:
-        super().__init__(f"{where}: {change}; name another file, or remove this one to start anew")
+        super().__init__(f"{where}: {change}; name another file or folder, or remove this one")
         self.change = change
 
 

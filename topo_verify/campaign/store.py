@@ -178,7 +178,7 @@ class Store:
                 elif key == "toolkit":
                     change = "the source of topo-verify has changed since"
                 raise InputError(
-                    f"{where}: {change}; name another file, or remove this one to start anew"
+                    f"{where}: {change}; name another file or folder, or remove this one"
                 )
         if known.get("hash") != identity.get("hash"):
             raise MapperChanged(where, "the source of the mapper has changed since")
@@ -522,5 +522,5 @@ def explained(path: str) -> Generator[None]:
         elif "full" in message or "I/O" in message:
             message += "; what was recorded before is kept: make room and start again"
         else:
-            message += "; name another file, or remove this one to start anew"
+            message += "; name another file or folder, or remove this one"
         raise InputError(f"store {path}: {message}") from error

@@ -37,7 +37,7 @@ from topo_verify.studies.arena.suites import DEFAULT, SUITES, chosen_suites, own
     "arena basic,folding my_mapper.py:explore --suite lattices,regular",
     "arena basic,folding --worlds 'drawn:30:king(6,6)' --worlds worlds/",
     "arena --game 3",
-    "arena all --cmd './mapper --fast' --suite all --seed 20261 --out league",
+    "arena all --cmd './mapper --fast' --name './mapper --fast=Team A' --seed 20261 --out league",
     reports=True,
 )
 @click.argument("texts", nargs=-1, metavar="[TARGET]...")
@@ -57,6 +57,13 @@ from topo_verify.studies.arena.suites import DEFAULT, SUITES, chosen_suites, own
     multiple=True,
     metavar="FILE[:SYMBOL]",
     help="Also rank this native mapper; may be repeated.",
+)
+@click.option(
+    "--name",
+    "titles",
+    multiple=True,
+    metavar="TARGET=NAME",
+    help="The name of a TARGET, program or library in the tables; may be repeated.",
 )
 @options.in_process
 @click.option(
@@ -89,6 +96,7 @@ def arena(
     named: tuple[str, ...],
     commands: tuple[str, ...],
     libraries: tuple[str, ...],
+    titles: tuple[str, ...],
     in_process: bool,
     suite: str | None,
     worlds: tuple[str, ...],
@@ -116,7 +124,7 @@ def arena(
         watch()  # before a mapper is loaded
         output.ask(report=str(folder / files.REPORT))
     mappers = _loaded(asked, in_process=in_process)
-    league = League(mappers, suites, seed, limits)
+    league = League(mappers, suites, seed, limits, _names(titles, mappers))
     _require_players(league)
     played: list[acc.Exhibit] = []
 
@@ -127,13 +135,15 @@ def arena(
             yield from map(_result, league.entries())
             raise
         table = league.entries()
+        _add_timing(output, league, table)
+        yield from map(_result, table)
+        # An interruption from here on keeps the table.
         _run_again(output, league, table)
         if output.exhibits:
+            output.progress("playing runs for the pages", 0, 1)
             played.extend(files.exhibits(league, table))
         if folder is not None:
             files.write_folder(folder, league, table, played, output.found.exhibits)
-        _add_timing(output, league, table)
-        yield from map(_result, table)
         close(mappers)
 
     def account(table: Sequence[LeagueEntry]) -> acc.Account:
@@ -179,6 +189,23 @@ def _loaded(asked: Sequence[str], *, in_process: bool) -> tuple[Target, ...]:
     return tuple(loaded)
 
 
+def _names(titles: Sequence[str], mappers: Sequence[Target]) -> dict[str, str]:
+    names: dict[str, str] = {}
+    for title in titles:
+        target, _, name = title.rpartition("=")
+        found = [m.text for m in mappers if target in {m.text, m.text.partition(" ")[2]}]
+        if not (found and name.strip()):
+            known = ", ".join(mapper.text for mapper in mappers)
+            raise InputError(
+                f"--name {title}: expected TARGET=NAME with one of {known}, as in './mapper=Team A'"
+            )
+        names[found[0]] = name.strip()
+    shown = [names.get(mapper.text, mapper.text) for mapper in mappers]
+    if len(set(shown)) < len(shown):
+        raise InputError("--name: two mappers have one name: give each its own")
+    return names
+
+
 def _require_players(league: League) -> None:
     for mapper in league.mappers:
         if not any(league.plays(mapper, suite) for suite in league.suites):
@@ -213,11 +240,12 @@ def _run_again(output: Output, league: League, table: Sequence[LeagueEntry]) -> 
     for mapper in league.mappers:
         if (first := broken.get(mapper.text)) is not None:
             at = named_world(first.world)
-            _, report, undecided = judged(mapper, at, league.limits)
+            limits = league.limits_of_failure(league.rows[mapper.text, first.world])
+            _, report, undecided = judged(mapper, at, limits)
             if any(finding.claim == first.claim for finding in report.findings):
                 output.found.keep(report)
                 continue
-            title = target_title(mapper.text, at.text)
+            title = target_title(league.name(mapper.text), at.text)
             output.found.show(acc.Exhibit(title, at.world, at.text, (first.message,)))
             if not undecided:
                 league.remarks.append(
@@ -280,18 +308,19 @@ def _account(
     *,
     exact: bool,
 ) -> acc.Account:
-    mappers = list(dict.fromkeys(entry.mapper for entry in table))
-    broken = {entry.mapper for entry in table if entry.counterexample is not None}
+    mappers = list(dict.fromkeys(entry.name for entry in table))
+    broken = {entry.name for entry in table if entry.counterexample is not None}
     runs, planned = sum(e.worlds for e in table), sum(e.total for e in table)
     verdict: Verdict = "UNKNOWN" if runs < planned else "EXHAUSTED" if exact else "SAMPLED"
     judged = acc.JudgedExtent(verdict, acc.counted(runs, planned, "runs"))
     if broken:
         words = acc.counted(len(broken), len(mappers), "mappers break a claim")
+        words += f"; the others, by cost: {', '.join(m for m in mappers if m not in broken)}"
         judged = acc.JudgedExtent("REFUTED", words)
     return acc.Account(
         mappers[0] if len(mappers) == 1 else plural(len(mappers), "mapper"),
         judged,
-        acc.suites((f"{entry.mapper} in {entry.suite}", _cases(entry)) for entry in table),
+        acc.suites((f"{entry.name} in {entry.suite}", _cases(entry)) for entry in table),
         tuple(blocks),
         others=tuple(played),
         results_first=True,

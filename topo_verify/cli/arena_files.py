@@ -21,6 +21,7 @@ from pathlib import Path
 
 import msgspec
 
+from topo_verify.campaign.campaign import MAX_TIMEOUTS
 from topo_verify.campaign.judge import replay_line
 from topo_verify.campaign.run import explore
 from topo_verify.checkers import check
@@ -34,6 +35,8 @@ from topo_verify.report.account import Exhibit
 from topo_verify.report.blocks import Block, Bullets, Cell, Command, Text, TextTable
 from topo_verify.report.league import ratio_plot
 from topo_verify.report.markdown import markdown
+from topo_verify.robot.events import Event, Move
+from topo_verify.robot.percept import Purpose
 from topo_verify.studies.arena import league as lg
 from topo_verify.studies.arena.suites import Suite
 from topo_verify.studies.conform.conform import file_name
@@ -82,7 +85,7 @@ def standings(
     rows = [
         (
             f"{entry.place}{'=' * (places[entry.place] > 1)}",
-            entry.mapper,
+            entry.name,
             _figure(entry.ratio),
             _figure(entry.behind, sign="+"),
             _free(entry),
@@ -104,13 +107,14 @@ def suite_blocks(suite: Suite, table: Sequence[lg.LeagueEntry]) -> Iterator[Bloc
     for entry in table:
         if entry.suite == suite.name and entry.place is None and entry.counterexample is None:
             missing = entry.total - entry.worlds - entry.undecided
+            late = " after three time-outs" * (entry.undecided >= MAX_TIMEOUTS)
             worlds = plural(entry.undecided, "world")
             why = [
-                *([f"{missing} of {entry.total} worlds not played"] if missing else ()),
+                *([f"{missing} of {entry.total} worlds not played{late}"] if missing else ()),
                 *([f"{worlds} of {entry.total} not decided"] if entry.undecided else ()),
             ]
             yield Text("")
-            yield Text(f"{entry.mapper} has no place in {suite.name}: {', '.join(why)}")
+            yield Text(f"{entry.name} has no place in {suite.name}: {', '.join(why)}")
             if entry.why:
                 yield Bullets(entry.why)
 
@@ -118,14 +122,14 @@ def suite_blocks(suite: Suite, table: Sequence[lg.LeagueEntry]) -> Iterator[Bloc
 def _loss_blocks(suite: Suite, ranked: Sequence[lg.LeagueEntry]) -> Iterator[Block]:
     rows = [
         (
-            *(entry.mapper, lost.world, str(lost.edges), str(lost.cost), str(lost.other)),
+            *(entry.name, lost.world, str(lost.edges), str(lost.cost), str(lost.other)),
             f"+{lost.excess:.2f}",
         )
         for entry in ranked
         for lost in entry.losses
     ]
     if rows:
-        best = ranked[0].mapper
+        best = ranked[0].name
         columns = ("mapper", "world", ">edges", ">cost", f">{best}", ">behind")
         title = f"{suite.name}: where each loses most against {best}"
         yield Text("")
@@ -140,7 +144,7 @@ def _families(suite: Suite, ranked: Sequence[lg.LeagueEntry]) -> TextTable:
         (of_family[0].family, f"{of_family[0].edges:.0f}", *(_figure(f.ratio) for f in of_family))
         for of_family in zip(*(entry.families for entry in ranked), strict=True)
     ]
-    columns = ("family", ">edges", *(f">{entry.mapper}" for entry in ranked))
+    columns = ("family", ">edges", *(f">{entry.name}" for entry in ranked))
     return TextTable(columns, rows, f"{suite.name}: cost/LB by family")
 
 
@@ -173,7 +177,7 @@ def plot_of(league: lg.League, suite: Suite, table: Sequence[lg.LeagueEntry]) ->
     """The plot of a suite; "" if no mapper has a place in it."""
     ranked = ranked_in(suite, table)
     ratios = {
-        entry.mapper: [
+        entry.name: [
             [run.ratio for run in runs]
             for _, runs in lg.split(suite, league.runs(entry.mapper, suite))
         ]
@@ -184,12 +188,12 @@ def plot_of(league: lg.League, suite: Suite, table: Sequence[lg.LeagueEntry]) ->
 
 def broken_blocks(entries: Sequence[lg.LeagueEntry]) -> Iterator[Block]:
     """The mappers that broke a claim, each with its counterexample."""
-    broken = {e.mapper: e.counterexample for e in entries if e.counterexample is not None}
+    broken = {e.name: e.counterexample for e in entries if e.counterexample is not None}
     if broken:
         totals = Counter[str](), Counter[str]()
         for entry in entries:
             for total, worlds in zip(totals, (entry.worlds, entry.total), strict=True):
-                total[entry.mapper] += worlds
+                total[entry.name] += worlds
         rows = [
             (
                 *(mapper, Cell(example.claim, tone="failed"), example.ended),
@@ -223,7 +227,7 @@ def exhibits(league: lg.League, table: Sequence[lg.LeagueEntry]) -> Iterator[Exh
         lost = [(e.losses[0], e.behind.mapper) for e in entries if e.losses and e.behind]
         if lost:
             loss, best = max(lost, key=lambda pair: pair[0].excess)
-            words = f"loses most: {loss.cost} edge traversals, {best} {loss.other}"
+            words = f"loses most: {loss.cost} edge traversals, {league.name(best)} {loss.other}"
             yield _exhibit(league, loss, [targets[best], mapper], words, loss.show)
         elif entries:
             worst = max((e.dearest for e in entries if e.dearest), key=attrgetter("ratio"))
@@ -246,14 +250,30 @@ def _exhibit(
         judgements = check(world, run.trace, run.stopped)
         runs.append(PlayedRun(mapper.text, run.trace, tuple(judgements), run.stopped))
     return Exhibit(
-        title=target_title(mappers[-1].text, at.world),
+        title=target_title(league.name(mappers[-1].text), at.world),
         world=world,
         name=at.world,
-        notes=(f"{words}, LB {at.least}",),
+        notes=(f"{words}, LB {at.least}", *(_purposes(league.name(r.name), r.trace) for r in runs)),
         runs=tuple(runs),
         again=again,
         whole=True,
     )
+
+
+def _purposes(name: str, trace: Sequence[Event]) -> str:
+    """What a run's moves were for, in words."""
+    moves = Counter(event.purpose for event in trace if isinstance(event, Move))
+    spent = [f"{word} {moves[purpose]}" for purpose, word in PURPOSES.items() if moves[purpose]]
+    return f"{name}: {', '.join(spent)}"
+
+
+PURPOSES: dict[Purpose | None, str] = {
+    "walk": "walking to an edge",
+    "cross": "crossing a new edge",
+    "validate": "testing",
+    "retrace": "going back",
+    None: "for no declared purpose",
+}
 
 
 def write_folder(
@@ -263,7 +283,8 @@ def write_folder(
     played: Sequence[Exhibit],
     counterexamples: Sequence[Exhibit],
 ) -> None:
-    """Write all files of the league into the folder."""
+    """Write all files of the league but its page into the folder, and remove an old page."""
+    (folder / REPORT).unlink(missing_ok=True)
     files.write(folder / "table.csv", table_csv(table))
     files.write(folder / "runs.csv", runs_csv(league, table))
     files.write(folder / "results.json", _results(league, table))
@@ -333,7 +354,7 @@ def _table(
     if played:
         parts.append("## Where each loses most\n")
         for exhibit in played:
-            words = Text(f"{exhibit.title}, {exhibit.notes[0]}")
+            words = Text(f"{exhibit.title}, {'; '.join(exhibit.notes)}")
             parts.append(markdown([words, Command(exhibit.again, "again: ")]))
             parts.append(f"[Step by step](<players/{_stem(exhibit)}.html>)\n")
     if broken := list(broken_blocks(table)):
@@ -365,7 +386,7 @@ def _rows(entry: lg.LeagueEntry) -> Iterator[Sequence[object]]:
     broken = entry.counterexample
     alone = entry.families[0] if len(entry.families) == 1 else None
     yield (
-        *(entry.place, entry.mapper, entry.suite, alone.family if alone else "", entry.worlds),
+        *(entry.place, entry.name, entry.suite, alone.family if alone else "", entry.worlds),
         *((alone.edges, alone.least, alone.cost) if alone else (None, None, None)),
         *((ratio.mean, ratio.low, ratio.high) if ratio else (None, None, None)),
         *((behind.mean, behind.low, behind.high) if behind else (None, None, None)),
@@ -375,7 +396,7 @@ def _rows(entry: lg.LeagueEntry) -> Iterator[Sequence[object]]:
     for family in entry.families if alone is None else ():
         mean = family.ratio
         yield (
-            *(None, entry.mapper, entry.suite, family.family, family.worlds),
+            *(None, entry.name, entry.suite, family.family, family.worlds),
             *(family.edges, family.least, family.cost, mean.mean, mean.low, mean.high),
             *(None,) * (len(TABLE) - 11),
         )
@@ -393,7 +414,7 @@ def runs_csv(league: lg.League, table: Sequence[lg.LeagueEntry]) -> str:
         RUNS,
         [
             (
-                *(entry.mapper, suite.name, run.world, run.edges, run.least, run.cost),
+                *(entry.name, suite.name, run.world, run.edges, run.least, run.cost),
                 *(round(run.ratio, 6), run.free, run.moving),
             )
             for suite in league.suites

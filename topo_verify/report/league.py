@@ -112,7 +112,7 @@ def ratio_plot(suite: Suite, ranked: Sequence[LeagueEntry], ratios: Mapping[str,
     for number, entry in enumerate(ranked):
         for place, family in enumerate(order):
             at = frame.column(place, number)
-            parts += _dots(ratios[entry.mapper][family], at, _colour(number), y)
+            parts += _dots(ratios[entry.name][family], at, _colour(number), y)
             parts += _mean(entry.families[family].ratio, at, number, y)
         parts += _legend(entry, number, end)
     return with_dark_colours(
@@ -182,7 +182,7 @@ def _sign(x: float, y: float, number: int) -> str:
 def _legend(entry: LeagueEntry, number: int, end: float) -> Iterator[str]:
     height = TOP + LINE // 2 + LINE * number
     yield _sign(end + 18, height, number)
-    yield _text(end + 30, height + 4, _short(entry.mapper))
+    yield _text(end + 30, height + 4, _short(entry.name))
 
 
 def _short(name: str) -> str:

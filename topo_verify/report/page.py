@@ -86,8 +86,11 @@ def _header(account: Account, run: Ending) -> str:
     unfinished = "" if run.finished else f"<p>The run was {xml_text(UNFINISHED.message)}.</p>\n"
     found = {"counterexamples": "Counterexamples"} if account.exhibits else {}
     results, judged = {"results": "Results"}, {"judged": "What was judged"}
-    links = results | found | judged if account.results_first else found | judged | results
-    links |= {"worlds": "Worlds"} if account.others else {}
+    worlds = {"worlds": "Worlds"} if account.others else {}
+    if account.results_first:
+        links = results | found | worlds | judged
+    else:
+        links = found | judged | results | worlds
     links |= {"versions": "Versions", "timing": "Timing"}
     menu = " ".join(f'<a href="#{name}">{title}</a>' for name, title in links.items())
     return (
@@ -113,14 +116,17 @@ def _sections(account: Account, run: Ending) -> Iterator[str]:
         yield results
     if exhibits and refuted:
         yield _section("counterexamples", "Counterexamples", exhibits)
+    numbered = map(_exhibit, count(1 + len(account.exhibits)), account.others)
+    worlds = [_section("worlds", "Worlds to look at", numbered)] if account.others else []
+    if account.results_first:
+        yield from worlds
     yield _section("judged", "What was judged", map(_suite, account.suites))
     if not account.results_first:
         yield results
     if exhibits and not refuted:
         yield _section("counterexamples", "Counterexamples, as expected", exhibits)
-    if account.others:
-        numbered = map(_exhibit, count(1 + len(account.exhibits)), account.others)
-        yield _section("worlds", "Worlds to look at", numbered)
+    if not account.results_first:
+        yield from worlds
     yield _section("versions", "Versions", [_facts(run.versions.items())])
     times = (("written", f"{run.date:%Y-%m-%d %H:%M:%S} UTC"), ("took", f"{run.seconds:.1f} s"))
     yield _section("timing", "Timing", [_facts([*times, *_flat(run.timing)])])

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import sqrt
 from operator import attrgetter
 from statistics import fmean, variance
@@ -26,6 +26,7 @@ from typing import NamedTuple, TypeVar
 import msgspec
 
 from topo_verify.algorithms import Algorithm, Steered
+from topo_verify.campaign.judge import replay_line
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import Counts
 from topo_verify.checkers import Judgement, Status
@@ -115,6 +116,7 @@ class LeagueEntry(msgspec.Struct, frozen=True, kw_only=True):
     """A mapper in a suite.
 
     Attributes:
+        name: as the tables show it; the TARGET without --name.
         worlds, total: worlds judged, of how many.
         undecided: worlds that were out of time or declined; `why`: the first reasons.
         place: 1 is the best; null: no place. Mappers that cannot be told apart share one.
@@ -125,6 +127,7 @@ class LeagueEntry(msgspec.Struct, frozen=True, kw_only=True):
     """
 
     mapper: str
+    name: str
     suite: str
     worlds: int
     total: int
@@ -148,12 +151,16 @@ KEPT_REASONS = 3
 
 KEPT_LOSSES = 3
 
+MORE_MOVES = 100
+"""Moves of a counterexample's run after the failing event. A wrong mapper may make millions."""
+
 
 @dataclass(frozen=True)
 class League:
     """The mappers and suites, and the runs so far, by mapper and world.
 
     Attributes:
+        names: of mappers in tables, by TARGET.
         peaks: the most kibibytes of a mapper; None: unknown.
         remarks: sentences that the report shows below the standings.
     """
@@ -162,6 +169,7 @@ class League:
     suites: tuple[Suite, ...]
     seed: int
     limits: Limits = field(default_factory=Limits)
+    names: Mapping[str, str] = field(default_factory=dict[str, str])
     rows: dict[tuple[str, str], Row] = field(default_factory=dict[tuple[str, str], Row], repr=False)
     peaks: dict[tuple[str, str], int | None] = field(
         default_factory=dict[tuple[str, str], int | None], repr=False
@@ -191,6 +199,10 @@ class League:
                 if row.failed:  # what follows depends on the workers
                     break
         return rows
+
+    def name(self, mapper: str) -> str:
+        """The name of a mapper in tables."""
+        return self.names.get(mapper, mapper)
 
     def memory(self, entry: LeagueEntry) -> float | None:
         """The mebibytes of a mapper in its most expensive world, if known."""
@@ -241,6 +253,7 @@ class League:
         judgements = counts.tally().judgements()
         return LeagueEntry(
             mapper=mapper,
+            name=self.name(mapper),
             suite=suite.name,
             worlds=len(decided),
             total=suite.size,
@@ -286,12 +299,23 @@ class League:
                 costs = ours.least, ours.cost, theirs.cost
                 yield LostWorld(ours.world, ours.edges, *costs, round(excess, 6), show)
 
+    def limits_of_failure(self, failure: Row) -> Limits:
+        """Limits under which a run shows the failing claim again, and soon ends."""
+        event, budget = failure.findings[0].event, self.limits.budget
+        if event is None or failure.cost <= (enough := event + MORE_MOVES):
+            return self.limits
+        return replace(self.limits, budget=enough if budget is None else min(budget, enough))
+
     def _counterexample(self, failure: Row) -> LeagueCounterexample:
         finding = failure.findings[0]
+        replay = finding.replay
+        limits = self.limits_of_failure(failure)
+        if replay and limits is not self.limits:
+            replay = replay_line(failure.world, failure.mapper, failure.policies, limits.options)
         suite = next(part.name for part in self.suites if failure.world in part.worlds(self.seed))
         return LeagueCounterexample(
             *(suite, failure.world, failure.edges, failure.ended),
-            *(finding.claim, finding.message, finding.replay),
+            *(finding.claim, finding.message, replay),
         )
 
 
