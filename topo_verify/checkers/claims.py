@@ -17,7 +17,7 @@ from topo_verify.checkers.entailment import UNDECIDED, Conclusion, delivered_cod
 from topo_verify.checkers.excursions import Word
 from topo_verify.checkers.findings import Finding, Judgement, Status
 from topo_verify.checkers.replayed_trace import ReplayedTrace, Round
-from topo_verify.errors import map_size
+from topo_verify.errors import map_size, plural
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import World
@@ -160,7 +160,7 @@ def cost_honest(run: ReplayedTrace) -> Iterator[Finding]:
     """6. The reported cost, if one is reported, is the number of moves."""
     finish = run.trace[-1]
     if isinstance(finish, ev.Finish) and finish.cost not in (None, run.cost):
-        message = f"the mapper reports a cost of {finish.cost}, but made {run.cost} moves"
+        message = f"the mapper reports a cost of {finish.cost}, but made {plural(run.cost, 'move')}"
         yield Wrong(len(run.trace) - 1, run.cost, finish.cost, message)
 
 

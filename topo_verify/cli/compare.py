@@ -127,8 +127,8 @@ def _show(entries: Sequence[Comparison]) -> Iterator[Block]:
     for entry in entries:
         then = entry.baseline
         yield Text(
-            f"{entry.target} against {then.file}: {then.target} in {plural(entry.worlds, 'world')}"
-            f" ({then.corpus}), recorded with topo-verify {then.tool}"
+            f"{then.file}: {then.target} in {plural(entry.worlds, 'world')} ({then.corpus}),"
+            f" recorded with topo-verify {then.tool}; now {entry.target}"
         )
         rows = [(TITLES[kind], f"{entry.kinds[kind]:,}") for kind in KINDS]
         yield TextTable(("", ">worlds"), rows)
