@@ -165,7 +165,7 @@ def test_the_walk_cannot_begin_behind_its_end(refused: Refused, trace: Path) -> 
 
 
 def test_the_walk_is_a_block_of_code_in_markdown(call: Call, trace: Path) -> None:
-    assert "```\nv2:7 is dart 7" in call(f"replay {trace.name} --all --format markdown").stdout
+    assert "```\nA place is named by" in call(f"replay {trace.name} --all --format markdown").stdout
 
 
 def test_a_trace_keeps_why_the_run_ended_without_a_map(

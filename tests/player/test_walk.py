@@ -286,3 +286,12 @@ def test_a_way_back_alone_is_no_turn() -> None:
 def test_the_way_home_is_the_shortest_on_s() -> None:
     run = played("m4/41", "enhancement-ii")
     assert [way_home(run, KnownDart(dart), 10) for dart in (3, 4, 5, 0)] == [(3,), (2,), (1,), ()]
+
+
+def test_names_of_places_are_explained_as_far_as_they_occur() -> None:
+    declared, silent = text(played("m3/8", "basic"), extent=ALL), text(played("m3/8", walks))
+    assert "v2:7 is dart 7 of the map S" in declared
+    assert "w1:4 is dart 4 of the world" in silent
+    assert "map S, at" not in silent
+    standing = played("m3/8", lambda _robot: None)
+    assert "A place is named" not in text(standing)

@@ -37,11 +37,16 @@ MOST_VERTICES = 12
 
 MOST_DARTS = 40
 
-_LEGEND = (
-    "v2:7 is dart 7 of the map S, at its vertex v2; w1:4 is dart 4 of the world, at its vertex 1. A"
-    " place is named by the dart by which the robot came in, of S where S has it. Edge 7 is the"
-    " edge of dart 7 of S. sees: the degree, and the door of the marker."
+_ON_S = (
+    "A place is named by the dart by which the robot came in: v2:7 is dart 7 of the map S, at its"
+    " vertex v2; where S lacks it, w1:4 is dart 4 of the world, at its vertex 1. Edge 7 is the edge"
+    " of dart 7 of S."
 )
+_IN_WORLD = (
+    "A place is named by the dart by which the robot came in: w1:4 is dart 4 of the world, at its"
+    " vertex 1. v0 is the marker's vertex."
+)
+_SEES = "sees: the degree, and the door of the marker."
 
 _WIDE = ("event", "door", "out by", "sees", "arrives by", "in world", "cost", "for")
 _FEW = ("event", "door", "out by", "sees", "by", "cost")
@@ -73,8 +78,7 @@ def lines(playback: Playback, width: int = WIDTH, extent: Extent = BRIEF) -> Ite
     end = len(playback.trace) - 1
     last = end if extent.to_end else view.focus
     first = view.first if extent.first is None else min(extent.first, last)
-    yield from view.wrapped(_LEGEND)
-    yield ""
+    yield from view.legend(playback.moments[first : last + 1])
     yield from view.table(playback.moments[first : last + 1])
     yield from view.more(last)
     yield from view.end(at_end=last == end)
@@ -93,8 +97,7 @@ def parting(
         sides: the name of each mapper, and what it does.
     """
     view = _View(playback, max(width, NARROW), focus=at - 1)
-    yield from view.wrapped(_LEGEND)
-    yield ""
+    yield from view.legend(playback.moments[view.first : at])
     yield from view.table(playback.moments[view.first : at])
     yield "Here they part:"
     for name, does in sides:
@@ -132,6 +135,13 @@ class _View:
         return 0
 
     # ------------------------------------------------------------ the table
+
+    def legend(self, moments: Sequence[Moment]) -> Iterator[str]:
+        """What the places in the table are called, if the robot moves."""
+        if any(isinstance(moment.event, ev.Move) for moment in moments):
+            has_map = any(isinstance(event, ev.Augment) for event in self.playback.trace)
+            yield from self.wrapped(f"{_ON_S if has_map else _IN_WORLD} {_SEES}")
+            yield ""
 
     def table(self, moments: Sequence[Moment]) -> Iterator[str]:
         columns, gap, rows = self._laid_out(moments)
