@@ -261,7 +261,8 @@ world_class = click.option(
     show_default=True,
     callback=_joined,
     metavar="CLASS",
-    help="any, planar, genus:G, genus<=G, simple, loopless, max-degree:D; several with commas.",
+    help="any, planar, genus:G, genus<=G, simple, loopless, min-degree:D, max-degree:D, regular:D;"
+    " several with commas.",
 )
 
 

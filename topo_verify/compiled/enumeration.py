@@ -218,6 +218,7 @@ def prepare(
     walk.has_genus, walk.exact = most is not None, kind.genus is not None
     # No map has 2g > m.
     walk.most_genus = min(most or 0, edges)
+    walk.least_degree = min(kind.least_degree, m2 + 1)
     walk.most_degree = min(kind.most_degree or m2, m2)
     walk.loopless, walk.simple = kind.loopless or kind.simple, kind.simple
     return words

@@ -17,7 +17,7 @@ from topo_verify.compiled.workspace import *
 @inlined
 def begin_pruned(walk: WalkWords, degree: int, left: int) -> bool:
     """Begin; False: the class has no world with this root."""
-    if degree > walk.most_degree:
+    if not walk.least_degree <= degree <= walk.most_degree or 0 < left < walk.least_degree:
         return False
     walk.open_at[0] = degree
     walk.near[0] = 0
@@ -78,7 +78,7 @@ def hang_pruned(
     fresh: int,
 ) -> bool:
     """Hang vertex `fresh` on e, if a completion is left."""
-    if degree > walk.most_degree:
+    if not walk.least_degree <= degree <= walk.most_degree or 0 < left < walk.least_degree:
         return False
     if walk.has_genus != 0 and not genus_hang(walk, k, e, first, degree, opened, left):
         return False

@@ -321,6 +321,7 @@ class WalkWords(WordView):
     is_new: PerGrown
     after: PerGrown  # the rank after all completions
     pruned: int
+    least_degree: int
     most_degree: int
     has_genus: int
     most_genus: int

@@ -33,6 +33,9 @@ from topo_verify.world.enumeration.classes import WorldClass
         ("any,loopless,any", "loopless"),
         (" max-degree:5 , max-degree:3,simple", "simple,max-degree:3"),
         ("max-degree:3,genus:1,loopless", "genus:1,loopless,max-degree:3"),
+        ("min-degree:2,max-degree:4,min-degree:3", "min-degree:3,max-degree:4"),
+        ("max-degree:3,planar,min-degree:3", "planar,regular:3"),
+        ("regular:3,min-degree:0", "regular:3"),
     ],
 )
 def test_equal_classes_are_equal_and_print_alike(text: str, plain: str) -> None:
@@ -74,6 +77,7 @@ def test_two_genera_contradict_each_other(text: str) -> None:
     ("text", "sentence"),
     [
         ("max-degree:0", "at most 0 exits a vertex there is no world with an edge"),
+        ("regular:3,max-degree:2", "no vertex has at least 3 and at most 2 exits"),
         ("max-degree:2,genus:1", "at most 2 exits a vertex there is no world of genus 1"),
     ],
 )
@@ -100,6 +104,10 @@ def test_a_class_that_must_be_empty_is_refused(text: str, sentence: str) -> None
         ("simple", families.torus(3, 3), True),
         ("max-degree:4", families.torus(3, 3), True),
         ("max-degree:3", families.torus(3, 3), False),
+        ("min-degree:4", families.torus(3, 3), True),
+        ("min-degree:4", families.lattice(3, 3), False),
+        ("regular:4", families.torus(3, 3), True),
+        ("min-degree:1", EMPTY, False),
         ("simple,planar,max-degree:1", EMPTY, True),
         ("genus:1", EMPTY, False),
     ],
@@ -154,7 +162,8 @@ FORMULAS = (
     "genus<=9",
 )
 BY_DEGREES = ("simple", "loopless", "max-degree:1", "max-degree:2", "max-degree:3", "max-degree:4",
-              "simple,max-degree:3", "loopless,max-degree:4")  # fmt: skip
+              "simple,max-degree:3", "loopless,max-degree:4", "min-degree:1", "min-degree:3",
+              "regular:2", "regular:4", "simple,min-degree:2,max-degree:3")  # fmt: skip
 
 
 @pytest.mark.parametrize("text", FORMULAS + BY_DEGREES)

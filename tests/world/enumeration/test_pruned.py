@@ -23,7 +23,7 @@ from topo_verify.world.enumeration.pruned import ranked_tables
 CLASSES = (
     *("any", "planar", "genus:1", "genus:2", "genus<=1", "loopless", "simple", "max-degree:1"),
     *("max-degree:3", "simple,planar", "simple,max-degree:3", "planar,loopless,max-degree:4"),
-    "genus:1,loopless",
+    *("genus:1,loopless", "min-degree:2", "regular:3", "planar,simple,min-degree:2"),
 )
 
 

@@ -1,7 +1,8 @@
 """Classes of worlds, such as `planar` or `simple,max-degree:4`: membership, counts and samples.
 
 A class is terms joined with commas, which must all hold; none depends on the marker. They are
-`any`, `planar`, `genus:G`, `genus<=G`, `loopless`, `simple` and `max-degree:D`.
+`any`, `planar`, `genus:G`, `genus<=G`, `loopless`, `simple`, `min-degree:D`, `max-degree:D` and
+`regular:D`.
 
 Source: docs/semantics.md, section 16.
 """
@@ -37,7 +38,9 @@ MAX_DRAWN_EDGES = 500_000
 
 _WORDS = ("any", "planar", "simple", "loopless")
 
-_TERM = re.compile(rf"({'|'.join(_WORDS)})|(genus:|genus<=|max-degree:)([0-9]{{1,9}})")
+_BOUNDS = ("genus:", "genus<=", "min-degree:", "max-degree:", "regular:")
+
+_TERM = re.compile(rf"({'|'.join(_WORDS)})|({'|'.join(_BOUNDS)})([0-9]{{1,9}})")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +54,7 @@ class WorldClass:
 
     genus: int | None = None
     most_genus: int | None = None
+    least_degree: int = 0
     most_degree: int | None = None
     loopless: bool = False
     simple: bool = False
@@ -65,7 +69,6 @@ class WorldClass:
         words, bounds = _terms(text)
         exact = {*bounds["genus:"], *([0] if "planar" in words else [])}
         most = min(bounds["genus<="], default=None)
-        degree = min(bounds["max-degree:"], default=None)
         if most == 0:
             exact.add(0)
         if len(exact) > 1 or (exact and most is not None and max(exact) > most):
@@ -74,17 +77,12 @@ class WorldClass:
                 " name one or one bound"
             )
         genus = max(exact, default=None)
-        # paths and cycles have genus 0
-        if degree == 0 or (genus and degree in (1, 2)):
-            raise InputError(
-                f"class {shown(text, limit=80)!r} is empty: with at most {degree} exits a vertex"
-                " there is no world"
-                f" {f'of genus {genus}' if degree else 'with an edge'}; raise max-degree"
-            )
+        least_degree, most_degree = _degrees(text, bounds, genus)
         return cls(
             genus=genus,
             most_genus=most if genus is None else None,
-            most_degree=degree,
+            least_degree=least_degree,
+            most_degree=most_degree,
             loopless="loopless" in words and "simple" not in words,
             simple="simple" in words,
         )
@@ -96,7 +94,9 @@ class WorldClass:
             f"genus<={self.most_genus}": self.most_genus is not None,
             "loopless": self.loopless,
             "simple": self.simple,
-            f"max-degree:{self.most_degree}": self.most_degree is not None,
+            f"regular:{self.most_degree}": self.least_degree == self.most_degree,
+            f"min-degree:{self.least_degree}": 0 < self.least_degree != self.most_degree,
+            f"max-degree:{self.most_degree}": self.most_degree not in (None, self.least_degree),
         }
         return ",".join(term for term, holds in terms.items() if holds) or "any"
 
@@ -104,6 +104,8 @@ class WorldClass:
         """Whether the world with this table is in the class, without making a `World`."""
         # the genus walks every face, so it comes last
         if self.most_degree is not None and max(table[0]) > self.most_degree:
+            return False
+        if min(table[0]) < self.least_degree:
             return False
         if self.loopless or self.simple:
             ends = _ends(table)
@@ -146,7 +148,12 @@ class WorldClass:
             return self._count_by_formula(edges, x)
         if not self.is_listed(by_vertices=True):
             return count_graphs(
-                edges, x, most_degree=self.most_degree, loopless=self.loopless, simple=self.simple
+                edges,
+                x,
+                least_degree=self.least_degree,
+                most_degree=self.most_degree,
+                loopless=self.loopless,
+                simple=self.simple,
             )
         if edges > MAX_LISTED_EDGES:
             raise InputError(
@@ -193,7 +200,7 @@ class WorldClass:
 
     @property
     def _has_formula(self) -> bool:
-        return self.most_degree is None and not self.loopless and not self.simple
+        return self == WorldClass(self.genus, self.most_genus)
 
     def _count_by_formula(self, edges: int, x: int = 1) -> int:
         if self.genus == 0 and x == 1:
@@ -215,15 +222,15 @@ class WorldClass:
 
 def _terms(text: str) -> tuple[set[str], dict[str, list[int]]]:
     words: set[str] = set()
-    bounds: dict[str, list[int]] = {"genus:": [], "genus<=": [], "max-degree:": []}
+    bounds: dict[str, list[int]] = {bound: [] for bound in _BOUNDS}
     for term in text.split(","):
         match = _TERM.fullmatch(term.strip())
         if not match:
             name = shown(term.strip(), limit=80)
             raise InputError(
                 f"class {name!r}{close_name(name, _WORDS) or ':'} expected any, planar, genus:G,"
-                " genus<=G, simple, loopless or max-degree:D, or several of them joined with"
-                " commas, all of which hold"
+                " genus<=G, simple, loopless, min-degree:D, max-degree:D or regular:D, or several"
+                " of them joined with commas, all of which hold"
             )
         word, bound, number = match.groups()
         if bound:
@@ -231,6 +238,24 @@ def _terms(text: str) -> tuple[set[str], dict[str, list[int]]]:
         else:
             words.add(word)
     return words, bounds
+
+
+def _degrees(text: str, bounds: dict[str, list[int]], genus: int | None) -> tuple[int, int | None]:
+    """The least and the most degree; InputError if no world with an edge has such degrees."""
+    least = max(bounds["min-degree:"] + bounds["regular:"], default=0)
+    most = min(bounds["max-degree:"] + bounds["regular:"], default=None)
+    if most is not None and least > most:
+        raise InputError(
+            f"class {shown(text, limit=80)!r} contradicts itself: no vertex has at least {least}"
+            f" and at most {most} exits; lower the one or raise the other"
+        )
+    # paths and cycles have genus 0
+    if most == 0 or (genus and most in (1, 2)):
+        raise InputError(
+            f"class {shown(text, limit=80)!r} is empty: with at most {most} exits a vertex there is"
+            f" no world {f'of genus {genus}' if most else 'with an edge'}; raise max-degree"
+        )
+    return least, most
 
 
 def _ends(table: rank_order.Table) -> list[tuple[int, int]]:

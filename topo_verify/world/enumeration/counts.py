@@ -55,6 +55,7 @@ def count_graphs(
     edges: int,
     x: int = 1,
     *,
+    least_degree: int = 0,
     most_degree: int | None = None,
     loopless: bool = False,
     simple: bool = False,
@@ -73,31 +74,34 @@ def count_graphs(
             f"expected at most {most} edges, got {edges}: with more, worlds with a property of"
             " their graph are too many to count; ask for fewer edges"
         )
-    total = [_all_maps(m, x, highest, loopless=loopless, simple=simple) for m in range(edges + 1)]
+    bounds = max(least_degree, 1), highest
+    total = [_all_maps(m, x, bounds, loopless=loopless, simple=simple) for m in range(edges + 1)]
     # [z^m] log T(z)
     connected = [Fraction(0)]
     for m in range(1, edges + 1):  # T' = T·(log T)'
         known = sum((k * connected[k] * total[m - k] for k in range(1, m)), Fraction(0))
         connected.append(total[m] - known / m)
-    rooted = 2 * edges * connected[edges] if edges else Fraction(x)
+    rooted = 2 * edges * connected[edges] if edges else Fraction(x * (least_degree == 0))
     assert rooted.denominator == 1, "the number of worlds is an integer"
     return rooted.numerator
 
 
-def _all_maps(edges: int, x: int, highest: int, *, loopless: bool, simple: bool) -> Fraction:
+def _all_maps(
+    edges: int, x: int, bounds: tuple[int, int], *, loopless: bool, simple: bool
+) -> Fraction:
     number = Fraction(0)
-    for degrees in _partitions(2 * edges, highest):
+    for degrees in _partitions(2 * edges, *bounds):
         ways = _simple_wirings(degrees) if simple else _wirings(degrees, loopless=loopless)
         alike = prod(map(factorial, Counter(degrees).values()))
         number += Fraction(x ** len(degrees) * ways, prod(degrees) * alike)
     return number
 
 
-def _partitions(total: int, highest: int) -> Iterator[Degrees]:
+def _partitions(total: int, lowest: int, highest: int) -> Iterator[Degrees]:
     if total == 0:
         yield ()
-    for first in range(min(total, highest), 0, -1):
-        for rest in _partitions(total - first, first):
+    for first in range(min(total, highest), lowest - 1, -1):
+        for rest in _partitions(total - first, lowest, first):
             yield (first, *rest)
 
 

@@ -9,7 +9,7 @@ completion can have it. Pruners are immutable, so branches share them:
                      odd word and a handle: odd words <= darts to create + 2·(genus left).
     NeighbourPruner  loopless and simple: each open dart needs an end at another vertex with open
                      darts (simple: not a neighbour), or at a vertex still to come.
-    DegreePruner     max-degree: looks at the new vertex alone.
+    DegreePruner     min-degree, max-degree: looks at the new vertex, and at the darts to create.
 
 A pruned branch still counts with all its completions, so ranks are those among ALL worlds, and
 shards are cut by rank in every class. For `planar`, `genus<=G` and `loopless` alone every branch
@@ -157,10 +157,12 @@ def _all(pruners: Iterator[Pruner | None]) -> tuple[Pruner, ...] | None:
 def _pruners(kind: WorldClass, edges: int, degree: int) -> tuple[Pruner, ...] | None:
     pruners: list[Pruner] = []
     to_create = 2 * edges - degree
-    if kind.most_degree is not None:
-        if degree > kind.most_degree:
+    if kind.most_degree is not None or kind.least_degree:
+        most_degree = 2 * edges if kind.most_degree is None else kind.most_degree
+        degrees = DegreePruner(kind.least_degree, most_degree)
+        if not degrees.allows(degree, to_create):
             return None
-        pruners.append(DegreePruner(kind.most_degree))
+        pruners.append(degrees)
     if kind.loopless or kind.simple:
         neighbours = NeighbourPruner(kind.simple, (0,) * degree, (degree,), (0,))
         if not neighbours.feasible(to_create):
@@ -176,17 +178,22 @@ def _pruners(kind: WorldClass, edges: int, degree: int) -> tuple[Pruner, ...] | 
 
 
 class DegreePruner(NamedTuple):
-    """Allows vertices of at most this degree."""
+    """Allows vertices of these degrees."""
 
+    least: int
     most: int
+
+    def allows(self, degree: int, to_create: int) -> bool:
+        """Whether a vertex may have the degree, and another one the darts to create, if any."""
+        return self.least <= degree <= self.most and not 0 < to_create < self.least
 
     def join(self, dart: int, partner: int, to_create: int) -> DegreePruner | None:  # noqa: ARG002
         """This pruner, since a join changes no degree."""
         return self
 
     def hang(self, dart: int, first: int, degree: int, to_create: int) -> DegreePruner | None:  # noqa: ARG002
-        """None if the new vertex has more darts than allowed."""
-        return self if degree <= self.most else None
+        """None if the new vertex has a degree that is not allowed, or another one will."""
+        return self if self.allows(degree, to_create) else None
 
 
 class GenusPruner(NamedTuple):
