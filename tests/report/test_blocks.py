@@ -10,6 +10,7 @@ import pytest
 
 from topo_verify.player.page import part
 from topo_verify.report import blocks as bl
+from topo_verify.report.html import blocks_as_html
 from topo_verify.report.markdown import markdown
 from topo_verify.report.terminal import pretty
 
@@ -227,3 +228,10 @@ def test_every_tone_can_be_read_on_a_card() -> None:
         for ours, card in zip(bl.PALETTE[name], bl.PALETTE["card"], strict=True):
             low, high = sorted((_luminance(ours), _luminance(card)))
             assert (high + 0.05) / (low + 0.05) >= 4.5, name
+
+
+def test_rows_of_many_columns_are_stacked_on_a_phone() -> None:
+    many = bl.TextTable(("a", ">b", ">c", ">d", ">e"), [("1", "2", "3", "4", "5")])
+    few = bl.TextTable(("a", ">b"), [("1", "2")])
+    assert '<table class="many">' in "".join(blocks_as_html([many]))
+    assert "<table><thead>" in "".join(blocks_as_html([few]))

@@ -25,6 +25,9 @@ def xml_text(text: str, *, limit: int = LINE) -> str:
 LONG_CELL = 40
 """Characters beyond which a cell is prose."""
 
+MANY_COLUMNS = 5
+"""The least number of columns of a table whose rows are stacked on a phone."""
+
 
 def blocks_as_html(blocks: Iterable[bl.Block]) -> Iterator[str]:
     """The blocks as HTML, without empty paragraphs."""
@@ -113,9 +116,10 @@ def _table(table: bl.TextTable) -> str:
     )
     rows = "\n".join(f"<tr>{''.join(map(_cell, row, titles, right))}</tr>" for row in table.rows)
     title = f'<p class="title">{xml_text(bl.clean(table.title))}</p>\n' if table.title else ""
-    prose = ' class="prose"' if 'class="say"' in rows else ""
+    many = ' class="many"' if len(titles) >= MANY_COLUMNS else ""
+    stacked = ' class="prose"' if 'class="say"' in rows else many
     return (
-        f'{title}<div class="wide" tabindex="0"><table{prose}><thead><tr>{head}</tr></thead>\n'
+        f'{title}<div class="wide" tabindex="0"><table{stacked}><thead><tr>{head}</tr></thead>\n'
         f"<tbody>{rows}</tbody></table></div>"
     )
 
