@@ -114,8 +114,10 @@ def test_where_nothing_can_be_said_the_map_is_wrong_and_one_can_go_back(show: Op
     assert said(page) == "Your map contradicts what you see"
     assert page.locator('#walk .says [data-key="n"]').is_disabled()
     assert page.locator("#walk .badge").count() == 0
+    keys(page, "0 0")  # it stays until a decision is taken back
+    assert page.inner_text("#walk .says p").startswith("The road (?) that you took next ends at")
     back = page.locator("#walk .says button.main")
-    assert back.inner_text().startswith("Go back to the last decision")
+    assert back.inner_text().startswith("Take back the last decision")
     back.click()
     assert page.locator("#walk .badge").count() == 2
     assert not said(page).startswith("Your map contradicts")
@@ -125,7 +127,9 @@ def test_it_may_be_said_at_once_and_taken_back(show: Open, text: str) -> None:
     page = show(text, at="#walk")
     page.check("#walk input[type=checkbox]")
     keys(page, "0 n 1 n 1 n 1 a")
-    assert "Your last decision is wrong." in page.inner_text("#walk .says")
+    assert said(page) == "Your last decision is wrong"
+    main = page.locator("#walk .says.bad button.main")
+    assert main.inner_text().startswith("Take back the last decision")
     keys(page, "u n")
     assert "Your last decision is true, but did not follow" in page.inner_text("#walk .says")
     keys(page, "u 1 0 n")

@@ -33,7 +33,7 @@ function answer({ world, trace }) {
       walk.declare(event.kind === "new" ? null : event.dart);
     }
     at.push(walk.here);
-    if (walk.surprise) break;
+    if (walk.contradiction) break;
   }
   const { found, proved } = walk.judged();
   return { at, fates: found.map(({ fate }) => fate), proved, complete: walk.complete };
@@ -211,10 +211,10 @@ def test_an_unexpected_sight_says_that_the_map_is_wrong() -> None:
       for (const door of [0, 1, 1]) { walk.move(door); walk.declare(null); }
       walk.move(1); walk.declare(walk.hypotheses()[0]); // from here on the map is wrong
       walk.move(1);
-      return [walk.surprise, walk.judged().found.map(({ fate }) => fate)];
+      return [walk.contradiction, walk.judged().found.map(({ fate }) => fate)];
     }
     """
     world = families.lattice(2, 4, holes=0.1, seed=2)
     (told,) = answers(MODEL + wrong, [data(world)])
-    surprise = "After move 5 you saw 3 exits, where your map shows 2 exits and the marker."
-    assert told == [surprise, ["followed", "followed", "followed", "wrong"]]
+    contradiction = "After move 5 you saw 3 exits, where your map shows 2 exits and the marker."
+    assert told == [contradiction, ["followed", "followed", "followed", "wrong"]]

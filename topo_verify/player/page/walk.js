@@ -216,27 +216,33 @@ class WalkMode {
     const { walk, says } = this, { pending } = walk;
     says.className = 'card says';
     says.replaceChildren();
-    const [head, body] = this.told();
+    const last = this.atOnce.checked ? walk.judged().found.at(-1) : undefined;
+    const [head, body] = this.told(last), bad = Boolean(walk.contradiction) || last?.fate === 'wrong';
     html('h3', '', says, head);
     html('p', '', says, body);
     const row = html('div', 'bar', says);
     this.button(row, 'It is a new place', 'n', () => this.act(() => walk.declare(null))).disabled = !walk.mayBeNew();
     const declared = walk.events.some(({ type }) => type === 'augment');
-    const back = this.button(row, walk.contradiction ? 'Go back to the last decision' : 'Take back the last decision', 'u', () => this.act(() => walk.takeBack()));
+    const back = this.button(row, 'Take back the last decision', 'u', () => this.act(() => walk.takeBack()));
     back.disabled = !declared;
-    back.classList.toggle('main', Boolean(walk.contradiction));
+    back.classList.toggle('main', bad);
     const done = this.button(row, walk.complete ? 'The map is complete' : 'Stop and judge', '↵', () => this.end());
-    done.classList.toggle('main', walk.complete);
+    done.classList.toggle('main', walk.complete && !bad);
     html('span', 'end', row, `${walk.moves} move${walk.moves === 1 ? '' : 's'}`);
-    if (walk.contradiction) says.classList.add('bad');
+    if (bad) says.classList.add('bad');
     else if (walk.complete) says.classList.add('good');
     if (pending && walk.hypotheses().length > LETTERS.length) html('p', '', says, 'Not all exits have a letter: click them.');
   }
 
-  told() {
-    const { walk } = this, { pending } = walk, last = this.atOnce.checked && walk.judged().found.at(-1);
-    const fate = !last ? '' : { followed: 'Your last decision followed. ', luck: `Your last decision is true, but did not follow: ${WHY[last.event.kind]}. `, wrong: 'Your last decision is wrong. ' }[last.fate];
-    if (walk.contradiction) return ['Your map contradicts what you see', `${walk.contradiction} One of your decisions is wrong: go back to it, or stop and see which one.`];
+  /** What is said on the way, with what became of the last decision that was judged. */
+  told(last) {
+    const { walk } = this, { pending } = walk;
+    if (walk.contradiction) return ['Your map contradicts what you see', `${walk.contradiction} One of your decisions is wrong: take it back, or stop and see which one.`];
+    if (last?.fate === 'wrong') {
+      const later = walk.events.slice(last.when + 1).some(({ type }) => type === 'augment');
+      return [`${later ? 'An earlier' : 'Your last'} decision is wrong`, 'It is red on your map. Take it back, or walk on until your map contradicts what you see.'];
+    }
+    const fate = !last ? '' : last.fate === 'followed' ? 'Your last decision followed. ' : `Your last decision is true, but did not follow: ${WHY[last.event.kind]}. `;
     if (walk.complete) return ['Nothing on your map is unexplored', `${fate}Is every decision certain? Walk on, or have it judged.`];
     if (!pending) return ['You know where you are', `${fate}Choose a door, by click or by its number. Door 0 ${walk.moves ? 'leads back' : 'is the one at which the marker points'}; the others count clockwise.`];
     const guesses = walk.hypotheses().length, exits = guesses === 1 ? 'the exit with the letter' : `one of the ${guesses} exits with letters`;

@@ -13,12 +13,13 @@ class Walk {
   /** Find everything again from the events. */
   replay() {
     const { percept } = this.events[0];
-    Object.assign(this, { at: this.world.marker, percept, moves: 0, surprise: '' });
+    Object.assign(this, { at: this.world.marker, percept, moves: 0 });
     this.vertices = [{ first: 0, degree: percept.degree }];
     this.alpha = new Map(); // of S
     this.size = percept.degree;
     this.here = percept.degree ? 0 : null; // the reference dart on S; null: not on S
     this.pending = null; // the edge e behind which the robot is, with the doors from vu on
+    this.contradiction = ''; // why S cannot be right: from then on where the robot is on it is unknown
     for (const event of this.events.slice(1)) this[event.type === 'move' ? 'moved' : 'declared'](event);
   }
 
@@ -57,12 +58,6 @@ class Walk {
     return this.pending !== null && this.pending.percept.marker === null;
   }
 
-  /** Why what is seen cannot be, if S is right; empty: it can. */
-  get contradiction() {
-    if (this.surprise || !this.pending || this.mayBeNew() || this.hypotheses().length) return this.surprise;
-    return 'The new road ends at the marker, where no other exit of your map is unexplored.';
-  }
-
   // ---------------------------------------------------------------- what the reader does
 
   move(door) {
@@ -94,6 +89,7 @@ class Walk {
     this.at = this.world.other.get(this.world.turn(this.at, door));
     this.percept = percept;
     this.moves += 1;
+    if (this.contradiction) return;
     if (this.pending) this.behind(door, degree, percept);
     else if (this.here !== null) this.onward(this.turn(this.here, door), percept, this.moves);
   }
@@ -101,8 +97,10 @@ class Walk {
   /** Leave a place of S by this dart, with this move. */
   onward(exit, percept, move) {
     this.here = this.alpha.get(exit) ?? null;
-    if (this.here === null) this.pending = { edge: exit, percept, word: [], turned: 0 };
-    else this.compare(percept, move);
+    if (this.here !== null) return this.compare(percept, move);
+    this.pending = { edge: exit, percept, word: [], turned: 0 };
+    if (this.mayBeNew() || this.hypotheses().length) return;
+    this.contradiction = 'The road (?) that you took next ends at the marker, where no other exit of your map is unexplored.';
   }
 
   /** A move somewhere behind e: the doors from vu on are kept as a word, ways back cancel. */
@@ -130,7 +128,7 @@ class Walk {
     this.here = dart;
     for (const [place, { door, percept, move }] of word.entries()) {
       this.onward(this.turn(this.here, door), percept, move);
-      if (this.surprise) return;
+      if (this.contradiction) return;
       if (this.pending) {
         Object.assign(this.pending, { word: word.slice(place + 1), turned });
         return;
@@ -140,11 +138,11 @@ class Walk {
     this.compare(this.percept, this.moves);
   }
 
-  /** Whether a move showed what S shows; if not, S is wrong, and where the robot is on it unknown. */
+  /** Whether a move showed what S shows. */
   compare(percept, move) {
     const should = this.expected(this.here), { degree, marker } = percept;
     if (should.degree === degree && should.marker === marker) return;
-    this.surprise = should.degree !== degree || (should.marker === null) !== (marker === null)
+    this.contradiction = should.degree !== degree || (should.marker === null) !== (marker === null)
       ? `After move ${move} you saw ${seenAs(percept)}, where your map shows ${seenAs(should)}.`
       : `After move ${move} the marker pointed to another exit than on your map.`;
     this.here = null;
