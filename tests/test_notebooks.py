@@ -93,6 +93,23 @@ def test_two_runs_in_one_world_are_saved_side_by_side(tmp_path: Path) -> None:
     assert not (tmp_path / "other.html").exists()
 
 
+def test_a_run_without_its_trace_says_so(tmp_path: Path) -> None:
+    pytest.importorskip("numba")
+    run: Any = tv.explore("m3/5", "basic", trace=False, engine="compiled")
+    assert run._repr_html_() == "<p>basic in m3/5: no trace was kept: cost 7.</p>"
+    with pytest.raises(tv.InputError, match="trace=False keeps nothing to play"):
+        run.save(tmp_path / "run.html")
+    assert not (tmp_path / "run.html").exists()
+
+
+def test_a_long_run_is_shown_as_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    run: Any = tv.explore("m3/5", "basic")
+    monkeypatch.setattr("topo_verify.campaign.run.MOST_SHOWN", len(run.trace) - 1)
+    assert "events take long to show; <code>run.save('run.html')</code>" in run._repr_html_()
+    monkeypatch.setattr("topo_verify.campaign.run.MOST_SHOWN", len(run.trace))
+    assert "<iframe " in run._repr_html_()
+
+
 def test_a_log_that_proves_nothing_shows_no_size_of_its_map() -> None:
     log = tv.explore("m3/5", "basic").trace[:3]
     assert repr(tv.certify(log)).startswith(

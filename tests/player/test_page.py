@@ -95,6 +95,17 @@ def test_a_notebook_shows_a_run_in_a_frame_that_may_run_scripts_and_nothing_else
     assert tags[1][1]["srcdoc"] == page.replace("<html ", '<html class="framed" ', 1)
 
 
+def test_the_frame_follows_the_theme_of_the_notebook_and_else_of_the_system() -> None:
+    run = explore(families.lattice(2, 2), "basic")
+    style, _, _ = run._repr_html_().partition("<iframe")  # pyright: ignore[reportPrivateUsage]
+    assert style == (
+        "<style>.tv-frame{height:640px}"
+        ":is([data-jp-theme-light=false],.vscode-dark,[theme=dark],[data-theme=dark]) .tv-frame"
+        "{height:641px}"
+        "@media(prefers-color-scheme:dark){[data-theme=auto] .tv-frame{height:641px}}</style>"
+    )
+
+
 def test_a_run_is_saved_as_a_page(tmp_path: Path) -> None:
     run = explore(families.lattice(2, 2), "basic")
     run.save(tmp_path / "run.html")

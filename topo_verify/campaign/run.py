@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from html import escape
 from itertools import pairwise
 from os import PathLike
 from typing import TYPE_CHECKING, Literal, get_args
@@ -27,7 +28,7 @@ from topo_verify.algorithms import CATALOGUE, NAMED, REFERENCE, Algorithm
 from topo_verify.campaign.targets import one_target
 from topo_verify.checkers import check
 from topo_verify.compiled import require
-from topo_verify.errors import InputError, InternalError
+from topo_verify.errors import InputError, InternalError, shown
 from topo_verify.programs.delivery import Undelivered, deliver, stopped_at
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loader import Mapper, Target
@@ -52,6 +53,10 @@ from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
     from topo_verify.player.recording import PlayedRun
+
+
+MOST_SHOWN = 10_000
+"""Most events of a run that a notebook plays: about two seconds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +126,8 @@ class Exploration:
         Args:
             beside: another run in the same world, to play beside this one.
         Raises:
-            InputError: the file cannot be written, or the other run has another world.
+            InputError: the file cannot be written, no trace was kept, or the other run has another
+                world.
         """
         from topo_verify.player.page import player_page
         from topo_verify.world.formats import files
@@ -129,12 +135,25 @@ class Exploration:
         runs = [self] if beside is None else [self, beside]
         if any(run.world != self.world for run in runs):
             raise InputError("beside: a run in another world; explore this run's world with both")
+        if not all(run.trace for run in runs):
+            raise InputError("trace=False keeps nothing to play: explore without it, then save")
         played = [*map(Exploration._played, runs)]
         files.write(path, player_page(self.world, played, name=self.world.name))
 
     def _repr_html_(self) -> str:
         from topo_verify.player.page import framed
 
+        reason = ""
+        if not self.trace:
+            reason = f"no trace was kept: cost {self.cost}"
+        elif len(self.trace) > MOST_SHOWN:
+            reason = (
+                f"over {MOST_SHOWN:,} events take long to show;"
+                " <code>run.save('run.html')</code> does it"
+            )
+        if reason:
+            run = f"{self.algorithm} in {self.world.name or 'a world'}"
+            return f"<p>{escape(shown(run))}: {reason}.</p>"
         return framed(self.world, self._played())
 
     def _played(self) -> PlayedRun:

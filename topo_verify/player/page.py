@@ -102,10 +102,10 @@ def framed(world: World, run: PlayedRun) -> str:
     from topo_verify.world.drawing import IN_NOTEBOOKS
 
     page = html.escape(player_page(world, [run]).replace("<html ", '<html class="framed" ', 1))
-    dark = IN_NOTEBOOKS.replace("color-scheme:light", "height:640px")
+    style = IN_NOTEBOOKS.replace("{color-scheme:light}", "{height:640px}")
+    style = style.replace("{color-scheme:dark}", "{height:641px}").replace("tv-themed", "tv-frame")
     return (
-        f"{dark.replace('color-scheme:dark', 'height:641px').replace('tv-themed', 'tv-frame')}"
-        f'<iframe class="tv-frame" sandbox="allow-scripts" srcdoc="{page}"'
+        f'{style}<iframe class="tv-frame" sandbox="allow-scripts" srcdoc="{page}"'
         ' title="A run, step by step" width="100%" height="640" style="border:0"></iframe>'
     )
 
