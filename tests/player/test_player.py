@@ -239,15 +239,18 @@ def test_two_mappers_go_in_step_by_cost_or_by_edge(show: Open, two: str) -> None
     assert page.locator("main h2 span").all_inner_texts() == ["basic", "folding"]
     assert "basic 10 of" in page.inner_text("#key")
     assert "folding 10 of" in page.inner_text("#key")
+    for purpose in ("walking", "new", "testing", "back"):
+        assert purpose in page.inner_text("#key")
     page.select_option("#clock", "edge")
     page.fill("#slider", "9")
     costs = page.evaluate(
         "Array.from(document.querySelectorAll('#key b'), (b) => parseInt(b.textContent))"
     )
     assert costs[0] != costs[1]
-    assert page.locator(".world").count() == 2  # it opens on what both runs show
-    page.select_option("#view", "map")
+    assert page.locator(".map").count() == 2  # the sentences tell of badges and rings on it
     assert page.locator(".map .stub:not(.off)").count() > 0
+    page.select_option("#view", "world")
+    assert page.locator(".world").count() == 2
     page.select_option("#second", "")
     assert page.locator(".world").count() == 1
     assert page.locator(".map").count() == 1

@@ -74,6 +74,10 @@ def test_who_guesses_right_is_told_that_it_was_luck(show: Open, text: str) -> No
     page.keyboard.press("s")
     assert page.inner_text("#walk .pane h2 span") == "Another world"
     assert page.locator("#walk .pane").nth(0).locator(".vertex").count() > len(WORLD.vertices)
+    walked = {event.edge for event in trace[: last + 1] if isinstance(event, Augment)}
+    taken = page.locator("#walk .pane").nth(0).locator(".road:not(.far)")
+    assert taken.count() >= len(walked)
+    assert page.locator("#walk .pane").nth(0).locator(".road.far").count() > 0
     page.keyboard.press("s")
     assert page.inner_text("#walk .pane h2 span") == "The world"
 

@@ -18,6 +18,7 @@ letter and numbers:
 from __future__ import annotations
 
 import json
+import re
 import string
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -117,7 +118,7 @@ def pictured(world: World) -> dict[str, Any]:
         "height": layout.height,
         "radius": layout.radius,
         "centres": rounded(layout.centres),
-        "paths": ["".join(parts) for parts in layout.paths],
+        "paths": [re.sub(r"(\.\d)\d", r"\1", "".join(parts)) for parts in layout.paths],
         "bridges": [[bridge.path, bridge.over, bridge.under] for bridge in layout.bridges],
     }
     if layout.cell is not None:

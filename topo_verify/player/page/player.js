@@ -10,7 +10,7 @@ class Player {
     this.recording = recording;
     this.runs = recording.runs.map((run) => new Run(this.pictures[0], run));
     this.chosen = this.runs.length === 2 ? [0, 1] : [0];
-    this.view = this.chosen.length > 1 ? 'world' : 'best';
+    this.view = 'best';
     this.kind = this.chosen.length > 1 ? 'cost' : 'event';
     this.speed = 1;
     this.tick = 0;
@@ -409,15 +409,16 @@ class Player {
       const span = html('span', '', key);
       if (className) html('i', className, span);
       span.append(`${name} `);
+      if (!value) return;
       const b = html('b', '', span);
       this.cells.push(() => (b.textContent = value()));
     };
-    if (runs.length === 1) {
-      const used = PURPOSES.filter((_, k) => runs[0].costs[k].at(-1));
-      const alone = used.length === 1 && used[0] === 'other' ? used.pop() : '';
-      for (const name of used) cell(name, PURPOSE_NAMES[name], () => runs[0].costs[PURPOSES.indexOf(name)][this.at(0)]);
-      cell(alone, 'moves', () => `${runs[0].costOf(this.at(0))} of ${runs[0].cost}`);
-    } else runs.forEach((run, index) => cell('', run.name, () => `${run.costOf(this.at(index))} of ${run.cost} moves`));
+    const one = runs.length === 1;
+    const used = PURPOSES.filter((_, k) => runs.some((run) => run.costs[k].at(-1)));
+    const alone = used.length === 1 && used[0] === 'other' ? used.pop() : '';
+    for (const name of used) cell(name, PURPOSE_NAMES[name], one && (() => runs[0].costs[PURPOSES.indexOf(name)][this.at(0)]));
+    if (one) cell(alone, 'moves', () => `${runs[0].costOf(this.at(0))} of ${runs[0].cost}`);
+    else runs.forEach((run, index) => cell('', run.name, () => `${run.costOf(this.at(index))} of ${run.cost} moves`));
     if (this.recording.least_cost) cell('least', 'least', () => this.recording.least_cost);
     const unit = { event: 'step', cost: 'move', edge: 'edge' }[this.clock.kind];
     cell('', unit, () => `${this.tick} of ${this.clock.last}`);

@@ -149,7 +149,7 @@ class Builder {
   show() {
     const { left, right } = this.mode, { book } = this, world = book.world;
     left.title.textContent = 'Your world';
-    left.note.textContent = `${world.vertices.length} place${world.vertices.length === 1 ? '' : 's'}, ${world.edges.length} road${world.edges.length === 1 ? '' : 's'}, genus ${world.genus()}`;
+    left.note.textContent = world.words;
     const grown = this.sketch && this.sketch.vertices.length <= book.vertices.length;
     this.sketch = sketchOf(book, grown ? this.sketch : null);
     this.sketch.show(left.svg, { marker: book.marker });

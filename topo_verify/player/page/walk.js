@@ -170,20 +170,21 @@ class WalkMode {
       draw('text', { x: cx, y: cy }, group, door).style.fontSize = `${1.1 * size}px`;
     }
     draw('g', { class: 'vertex' }, svg).append(draw('circle', { r: 30 }));
-    drawRobot(svg, 20).setAttribute('transform', 'rotate(90)');
+    drawRobot(svg, 20).setAttribute('transform', `rotate(${this.walk.moves ? -90 : 90})`);
   }
 
   /** S as declared, with the robot where it is on it, and the exits where e may end. */
   map() {
     const { walk } = this, { svg, title, note } = this.right;
     title.textContent = 'Your map';
-    note.textContent = walk.open().length ? `${walk.open().length} unexplored exit${walk.open().length === 1 ? '' : 's'}` : 'no unexplored exit';
+    note.textContent = walk.open().length ? many(walk.open().length, 'unexplored exit') : 'no unexplored exit';
     this.sketch = this.sketchOfMap();
     const drawn = this.sketch.show(svg, { marker: walk.size ? 0 : null, kinds: this.atOnce.checked ? this.kinds(walk.judged().found) : undefined });
     const stand = walk.here ?? null;
     if (stand !== null || !walk.size) {
       const { x, y } = this.sketch.spots[walk.size ? walk.vertices.indexOf(walk.vertexOf(stand)) : 0];
-      const turn = walk.size ? (this.sketch.angle(stand) * 180) / Math.PI : 0;
+      const turn = walk.size ? (this.sketch.angle(stand) * 180) / Math.PI + (walk.moves ? 180 : 0) : 0;
+      if (walk.size) draw('path', { class: 'tick', d: `M${pair(this.sketch.out(stand, ROUND))}L${pair(this.sketch.out(stand, 1.6 * ROUND))}` }, svg);
       drawRobot(svg, 11).setAttribute('transform', `translate(${pair([x, y])}) rotate(${short(turn)})`);
     }
     if (!walk.pending) return;
@@ -228,7 +229,7 @@ class WalkMode {
     back.classList.toggle('main', bad);
     const done = this.button(row, walk.complete ? 'The map is complete' : 'Stop and judge', '↵', () => this.end());
     done.classList.toggle('main', walk.complete && !bad);
-    html('span', 'end', row, `${walk.moves} move${walk.moves === 1 ? '' : 's'}`);
+    html('span', 'end', row, many(walk.moves, 'move'));
     if (bad) says.classList.add('bad');
     else if (walk.complete) says.classList.add('good');
     if (pending && walk.hypotheses().length > LETTERS.length) html('p', '', says, 'Not all exits have a letter: click them.');
@@ -248,7 +249,7 @@ class WalkMode {
     const guesses = walk.hypotheses().length, exits = guesses === 1 ? 'the exit with the letter' : `one of the ${guesses} exits with letters`;
     const alone = guesses + walk.mayBeNew() === 1;
     const places = !walk.mayBeNew() ? `You see the marker, so no place is new here: the road ends at ${exits}` : guesses ? `It may be a new place, or ${exits}` : 'No unexplored exit of your map looks like it, so it is a new place';
-    if (pending.word.length) return [`You are ${pending.word.length} door${pending.word.length === 1 ? '' : 's'} past the end of the new road`, `${fate}If you know now where the road (?) ends, say so: ${walk.mayBeNew() ? 'it is a new place, or an exit of your map' : 'it is an exit at the marker'}.`];
+    if (pending.word.length) return [`You are ${many(pending.word.length, 'door')} past the end of the new road`, `${fate}If you know now where the road (?) ends, say so: ${walk.mayBeNew() ? 'it is a new place, or an exit of your map' : 'it is an exit at the marker'}.`];
     return ['A new road: where does it end?', `${fate}${places}. ${alone ? 'Say so' : 'Walk on to find out, or say so'}: ${guesses ? 'choose a letter on your map' : 'press “It is a new place”'}${guesses && walk.mayBeNew() ? ', or “It is a new place”' : ''}.`];
   }
 
@@ -275,10 +276,11 @@ class WalkMode {
     const list = html('ol', '', says);
     for (const one of found) html('li', one.fate, list, this.fate(one));
     if (wrong && walk.events.slice(wrong.when + 1).some(({ type }) => type === 'augment')) html('p', '', says, 'What came later is not judged: it stands on a wrong map.');
-    const key = html('p', '', says);
+    const key = html('p', 'kinds', says);
     for (const [kind, text] of [['followed', 'followed'], ['luck', 'true by luck'], ['wrong', 'wrong']]) {
-      html('i', `swatch ${kind === 'wrong' ? 'false' : kind}`, key);
-      key.append(` ${text}  `);
+      const part = html('span', '', key);
+      html('i', `swatch ${kind === 'wrong' ? 'false' : kind}`, part);
+      part.append(text);
     }
     const row = html('div', 'bar', says);
     this.button(row, 'Walk it again', 'w', () => this.begin(walk.world));
@@ -291,7 +293,7 @@ class WalkMode {
     const { walk, ended } = this, roads = walk.world.edges.length;
     if (wrong) return 'A decision is wrong';
     if (good) return 'All of it followed: your walk proves this map';
-    const part = walk.complete ? 'The map is right' : `So far it is right, with ${ended.found.length} of ${roads} road${roads === 1 ? '' : 's'} on it`;
+    const part = walk.complete ? 'The map is right' : `So far it is right, with ${ended.found.length} of ${many(roads, 'road')} on it`;
     if (luck.length) return `${part}, but ${luck.length} of ${ended.found.length} decisions ${luck.length === 1 ? 'was' : 'were'} luck`;
     return walk.complete ? `${part}, but the walk does not prove it` : part;
   }
@@ -300,7 +302,7 @@ class WalkMode {
     const { walk } = this, least = walk.world.leastCost();
     const runs = walk.world !== this.page.world ? [] : this.recording.runs.map((run) => `${run.name} takes ${run.events.replace(/[^wcvtm]/g, '').length}`);
     const proof = this.ended.proved ? 'The history proves the world.' : 'The history does not prove the world: exits are left that may lead anywhere.';
-    return `You made ${walk.moves} move${walk.moves === 1 ? '' : 's'}. With the map in hand, a proof of this world takes ${least}${runs.length ? `; ${runs.join(', ')}` : ''}. ${proof}`;
+    return `You made ${many(walk.moves, 'move')}. With the map in hand, a proof of this world takes ${least}${runs.length ? `; ${runs.join(', ')}` : ''}. ${proof}`;
   }
 
   fate({ event, fate, truth, given }) {
@@ -314,11 +316,25 @@ class WalkMode {
   reveal() {
     const { walk, ended } = this, { svg, title, note } = this.left, { phi } = ended;
     const kinds = new Map(ended.found.map(({ event, fate }) => [phi.get(event.edge), fate]));
-    const { vertices, edges, marker } = ended.other ?? walk.world;
     title.textContent = ended.other ? 'Another world' : 'The world';
-    note.textContent = ended.other ? 'the same doors show the same there' : `${vertices.length} place${vertices.length === 1 ? '' : 's'}, ${edges.length} road${edges.length === 1 ? '' : 's'}, genus ${walk.world.genus()}`;
-    if (!ended.other && walk.world.drawn) return this.picture(svg, kinds);
-    sketchOf({ vertices, edges }).show(svg, { marker, kinds: ended.other ? new Map() : kinds });
+    note.textContent = ended.other ? 'the same doors show the same there; dotted: never walked' : walk.world.words;
+    if (ended.other) sketchOf(ended.other).show(svg, { marker: ended.other.marker, kinds: this.untaken(new WalkWorld(ended.other)) });
+    else if (walk.world.drawn) this.picture(svg, kinds);
+    else sketchOf(walk.world).show(svg, { marker: walk.world.marker, kinds });
+  }
+
+  /** The darts of another world that the same doors do not cross. */
+  untaken(world) {
+    const kinds = new Map(world.edges.flat().map((dart) => [dart, 'far']));
+    let at = world.marker;
+    for (const { type, door } of this.walk.events) {
+      if (type !== 'move') continue;
+      const exit = world.turn(at, door);
+      at = world.other.get(exit);
+      kinds.delete(exit);
+      kinds.delete(at);
+    }
+    return kinds;
   }
 
   /** A world whose drawing the page has, as the player draws it. */

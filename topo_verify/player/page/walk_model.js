@@ -198,5 +198,5 @@ const sizes = ({ vertices, edges }) => [vertices.length, edges.length];
 
 /** A percept in words. */
 function seenAs({ degree, marker }) {
-  return `${degree} exit${degree === 1 ? '' : 's'}${marker === null ? '' : ' and the marker'}`;
+  return `${many(degree, 'exit')}${marker === null ? '' : ' and the marker'}`;
 }

@@ -1,5 +1,8 @@
 /* A world that a reader walks, and what is needed of it: percepts, doors, costs; and new worlds. */
 
+/** A number of things in words. */
+const many = (count, thing) => `${count} ${thing}${count === 1 ? '' : 's'}`;
+
 /** A rotation system: {vertices, edges, marker}, as in a world file. The marker is a dart or null.
     `drawn`: its drawing, if the page has one. */
 class WalkWorld {
@@ -36,6 +39,10 @@ class WalkWorld {
     }
     faces = Math.max(faces, 1);
     return (2 - this.vertices.length + this.edges.length - faces) / 2;
+  }
+
+  get words() {
+    return `${many(this.vertices.length, 'place')}, ${many(this.edges.length, 'road')}, genus ${this.genus()}`;
   }
 
   /** The least cost of a proof of this world (world/least_cost.py says why). */
@@ -107,14 +114,16 @@ function lots(seed) {
   };
 }
 
-/** A random world with this number of edges; any rotation system is possible. */
+/** A random world with this number of edges, and at most 5 exits at a place. */
 function randomWorld(seed, edges) {
   const draw = lots(seed);
   const pick = (list) => list[Math.floor(draw() * list.length)];
   let book = new Sketchbook();
   while (book.edges.length < edges) {
-    const corners = book.corners();
-    book = book.withEdge(pick(corners), draw() < 0.5 ? null : pick(corners));
+    const { vertices, edges: roads } = book, free = book.corners().filter(([v]) => vertices[v].length < 5);
+    const [from, to] = [pick(free), pick(free)], isLoop = from[0] === to[0];
+    const fits = 5 * vertices.length - 2 * roads.length > 2 && !(isLoop && vertices[from[0]].length === 4); // and leaves a place free
+    book = book.withEdge(from, fits && draw() < 0.5 ? to : null);
   }
   return book.withMarker(pick(book.corners())).world;
 }
