@@ -67,7 +67,19 @@ def test_a_wrong_mapper_exits_1_and_the_line_shows_it_again(results: Results, ca
     text = call("compare basic.gz mappers.py:guesses").stdout
     assert "a claim fails: 88, smallest worlds first" in text
     assert "again: topo-verify replay m1/1 --target mappers.py:guesses" in text
-    assert "A regression: in 88 worlds a claim fails." in text
+    assert "A regression: in 88 worlds a claim fails, in 1 world the mapper declares" in text
+
+
+def test_a_silent_mapper_exits_1_against_a_baseline_with_decisions(
+    call: Call, results: Results
+) -> None:
+    Path("silent.py").write_text(
+        "from topo_verify.faults import FAULTS\nexplore = FAULTS['declares-nothing']\n"
+    )
+    (entry,) = results("compare basic.gz silent.py:explore", code=1)["results"]
+    assert entry["undeclared"] == 89
+    text = call("compare basic.gz silent.py:explore").stdout
+    assert "A regression: in 89 worlds the mapper declares nothing and the baseline" in text
 
 
 def test_workers_and_a_store_change_nothing(results: Results) -> None:

@@ -89,7 +89,8 @@ def compare(
 ) -> int:
     """Run a mapper in the worlds of a BASELINE, under its limits, and show what has changed.
 
-    Exit 1: in some world a claim fails, or the cost exceeds the tolerance. An algorithm of the
+    Exit 1: in some world a claim fails, the cost exceeds the tolerance, or nothing is declared
+    where the baseline declares decisions. An algorithm of the
     catalogue runs with the policies of the baseline unless others are given.
     """
 
@@ -102,8 +103,7 @@ def compare(
             entry = join(then, target, rows, tolerance=tolerance, name=baseline)
             if output.exhibits:
                 _run_again(output, then, target, entry)
-        regressed = entry.wrong > 0 or entry.beyond > 0
-        yield Result(entry, failed=regressed, incomplete=entry.undecided > 0)
+        yield Result(entry, failed=entry.regressed, incomplete=entry.undecided > 0)
 
     return output.run("compare", compared, _show, account=_account, in_process=mappers.in_process)
 
@@ -198,6 +198,11 @@ def _conclusion(entry: Comparison) -> str:
     if entry.beyond:
         verb = "exceeds" if entry.beyond == 1 else "exceed"
         bad.append(f"{plural(entry.beyond, 'world')} {verb} the tolerance of {entry.tolerance} %")
+    if entry.undeclared:
+        bad.append(
+            f"in {plural(entry.undeclared, 'world')} the mapper declares nothing and the baseline"
+            " does, so that claims about decisions are not judged"
+        )
     if bad:
         return f"A regression: {', '.join(bad)}."
     rest = f"; {plural(entry.undecided, 'world')} not decided" if entry.undecided else ""
@@ -210,7 +215,7 @@ def _conclusion(entry: Comparison) -> str:
 def _account(entries: Sequence[Comparison]) -> acc.Account:
     checked = sum(entry.worlds - entry.undecided for entry in entries)
     total = sum(entry.worlds for entry in entries)
-    regressed = sum(entry.wrong + entry.beyond for entry in entries)
+    regressed = sum(entry.wrong + entry.beyond + entry.undeclared for entry in entries)
     verdict: Verdict = "SAMPLED" if checked == total and entries else "UNKNOWN"
     things = f"{acc.worlds(total)} without regression" if verdict == "SAMPLED" else ""
     extent = acc.extent(verdict, checked, total, regressed, things)
@@ -247,4 +252,6 @@ def _cases(entry: Comparison) -> Iterator[acc.JudgedCase]:
     yield case(
         f"no cost exceeds the tolerance of {entry.tolerance} %", entry.beyond, decided, beyond
     )
+    silent = next((change for change in entry.examples if change.undeclared), None)
+    yield case("decisions declared as in the baseline", entry.undeclared, decided, silent)
     yield case("every world decided", entry.undecided, entry.worlds, late, "undecided")

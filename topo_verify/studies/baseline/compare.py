@@ -11,7 +11,7 @@ Each world is of the first kind that fits:
 | `other_decisions` | right in both, at the same cost, by other moves or decisions |
 | `equal` | nothing has changed |
 
-If either run declares nothing, only moves are compared. The tolerance of P percent is exceeded
+If the baseline declares nothing in a world, only moves are compared there. The tolerance of P percent is exceeded
 where 100·after > (100 + P)·before, in exact arithmetic. Source: docs/baselines.md.
 """
 
@@ -58,6 +58,7 @@ class Change(msgspec.Struct, frozen=True):
         before, after: costs, in edge traversals; null where the run was not right.
         percent: the increase, to a tenth; null without both costs.
         beyond: it exceeds the tolerance.
+        undeclared: right in both, and declares nothing where the baseline does.
         message: what is wrong or has changed; "" where the costs say it.
     """
 
@@ -69,6 +70,7 @@ class Change(msgspec.Struct, frozen=True):
     after: int | None
     percent: float | None
     beyond: bool
+    undeclared: bool
     message: str
     replay: str
 
@@ -129,6 +131,8 @@ class Comparison(msgspec.Struct, frozen=True, kw_only=True):
         worlds: those of the baseline; the sum of the seven numbers that follow.
         tolerance: in percent, as given.
         beyond: the number of worlds whose cost exceeds the tolerance.
+        undeclared: where it is right and declares nothing, and the baseline does: claims about
+            decisions are not judged there any more.
         groups: the same numbers by class of worlds.
         examples: of each kind but `equal`, largest changes of cost first, else smallest worlds.
         wrong: where a claim fails.
@@ -150,6 +154,7 @@ class Comparison(msgspec.Struct, frozen=True, kw_only=True):
     undecided: int
     tolerance: str
     beyond: int
+    undeclared: int
     cost: CostChange
     baseline: BaselineSummary
     groups: tuple[Group, ...]
@@ -159,6 +164,11 @@ class Comparison(msgspec.Struct, frozen=True, kw_only=True):
     def kinds(self) -> dict[ChangeKind, int]:
         """The number of worlds of each kind."""
         return {kind: getattr(self, kind) for kind in KINDS}
+
+    @property
+    def regressed(self) -> bool:
+        """Whether a claim fails, a cost is too high, or declared decisions are missing."""
+        return self.wrong > 0 or self.beyond > 0 or self.undeclared > 0
 
 
 class BaselineWorlds:
@@ -204,6 +214,7 @@ def compare(
         **kinds,
         tolerance=str(tolerance),
         beyond=sum(change.beyond for change in changes),
+        undeclared=sum(change.undeclared for change in changes),
         cost=CostChange(before, after),
         baseline=BaselineSummary(
             name, header.target, header.tool, header.policies, header.corpus, header.digest
@@ -247,6 +258,7 @@ def _change(
     kind = _kind(then, now)
     before = then.cost if then.right else None
     after = now.cost if now is not None and now.right else None
+    undeclared = now is not None and _undeclared(then, now)
     percent, beyond = None, False
     if before and after is not None:
         increase = Fraction(100 * (after - before), before)
@@ -260,7 +272,8 @@ def _change(
         after=after,
         percent=percent,
         beyond=beyond,
-        message=_message(kind, then, row),
+        undeclared=undeclared,
+        message=_message(kind, then, row, undeclared=undeclared),
         replay=replay,
     )
 
@@ -274,16 +287,21 @@ def _kind(then: BaselineEntry, now: BaselineEntry | None) -> ChangeKind:
         return "newly_right"
     if now.cost != then.cost:
         return "dearer" if now.cost > then.cost else "cheaper"
-    declared = then.decisions is not None and now.decisions is not None
-    if then.moves != now.moves or (declared and then.decisions != now.decisions):
+    if then.moves != now.moves or then.decisions not in (None, now.decisions):
         return "other_decisions"
     return "equal"
 
 
-def _message(kind: ChangeKind, then: BaselineEntry, row: Row | None) -> str:
+def _undeclared(then: BaselineEntry, now: BaselineEntry) -> bool:
+    return then.right and now.right and then.decisions is not None and now.decisions is None
+
+
+def _message(kind: ChangeKind, then: BaselineEntry, row: Row | None, *, undeclared: bool) -> str:
     if row is None:
         return f"not run: the mapper was out of time {MAX_TIMEOUTS} times before"
     if kind == "other_decisions":
+        if undeclared:
+            return "declares nothing now"
         return "the same moves, other decisions" if then.moves == row.moves else "other moves"
     return row.findings[0].message if row.findings else row.undecided or ""
 
