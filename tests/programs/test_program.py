@@ -22,6 +22,7 @@ from tests.helpers import worlds
 from tests.programs.programs import ROOT, misbehaving, python, ran, served
 from tests.studies.conform.test_misbehaviour import alive, gone
 from topo_verify import World, examine, explore
+from topo_verify.campaign.run import HUNG
 from topo_verify.campaign.targets import target_arguments, target_text, targets
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS
@@ -189,8 +190,22 @@ def test_limits_hold_in_other_threads_too() -> None:
     thread = threading.Thread(target=play)
     thread.start()
     thread.join(30)
-    flush = "an endless loop, or an answer that was not flushed"
-    assert stopped == [f"the mapper did not move for 0.5 s; {flush}"]
+    assert stopped == [f"the mapper did not move for 0.5 s; {HUNG}"]
+
+
+def test_a_map_that_was_not_flushed_is_among_the_causes() -> None:
+    lines = (
+        "import sys, time",
+        "input()",
+        'print(\'{"type": "move", "door": 0}\', flush=True)',
+        "input()",
+        'sys.stdout.write(\'{"type": "done"\')',
+        "time.sleep(60)",
+    )
+    with program(python("-c", "\n".join(lines))) as player:
+        stopped = explore(EDGE, player.target, limits=Limits(move_timeout=0.5)).stopped
+    assert stopped is not None
+    assert "not flushed" in stopped
 
 
 KILLED = """

@@ -163,6 +163,13 @@ class Exploration:
         return PlayedRun(self.algorithm, self.trace, judgements, self.stopped)
 
 
+HUNG = (
+    "an endless loop, an answer that was not flushed, or it waits for an answer to a message that"
+    " has none"
+)
+"""Why a program may have stood still; the harness cannot tell them apart."""
+
+
 def explore(
     world: World | str,
     mapper: Mapper | str | Target = "basic",
@@ -203,9 +210,7 @@ def explore(
     if limit in ("move-timeout", "world-timeout"):
         robot.settle()
     if limit == "move-timeout" and target.text.startswith(PREFIX):
-        flush = "an endless loop, or an answer that was not flushed"
-        why = "it computes on, or waits for an answer" if robot.events else flush
-        stopped = f"{stopped}; {why}"
+        stopped = f"{stopped}; {HUNG}"
     misbehaved = None
     if isinstance(target.mapper, Program):
         misbehaved = target.mapper.misbehaved

@@ -11,8 +11,9 @@ Each world is of the first kind that fits:
 | `other_decisions` | right in both, at the same cost, by other moves or decisions |
 | `equal` | nothing has changed |
 
-If the baseline declares nothing in a world, only moves are compared there. The tolerance of P percent is exceeded
-where 100·after > (100 + P)·before, in exact arithmetic. Source: docs/baselines.md.
+If the baseline declares nothing in a world, only moves are compared there. The tolerance of P
+percent is exceeded where 100·after > (100 + P)·before, in exact arithmetic.
+Source: docs/baselines.md.
 """
 
 from __future__ import annotations
