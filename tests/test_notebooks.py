@@ -57,7 +57,16 @@ def test_a_search_without_a_counterexample_has_no_picture() -> None:
 def test_no_command_is_shown_for_what_no_command_finds() -> None:
     entry = search(lambda _robot: None, edges=1)
     assert "again:" not in str(entry)
+    assert 'look closer: tv.examine(mapper, "m1/0")' in str(entry)
     assert "again:" in str(search(guess, edges=1))
+    assert "look closer:" not in str(search(guess, edges=1))
+
+
+def test_a_mapper_of_a_notebook_is_called_by_its_name() -> None:
+    def lazy(_robot: tv.Robot) -> None: ...
+
+    lazy.__module__, lazy.__qualname__ = "__main__", "lazy"
+    assert 'look closer: tv.examine(lazy, "m1/0")' in str(search(lazy, edges=1))
 
 
 def test_a_report_names_a_large_world_by_its_name() -> None:
@@ -66,6 +75,28 @@ def test_a_report_names_a_large_world_by_its_name() -> None:
     assert str(report) == "basic in nyc_osmnx, 1468 edge traversals: 10 of 10 claims hold"
     assert repr(report) == f"<Report: {report}>"
     assert tv.examine("basic", "m3/5").head.startswith("basic in m3/5, ")
+
+
+def test_a_report_names_a_world_without_an_id_by_its_name() -> None:
+    head = tv.examine("basic", tv.families.path(202)).head
+    assert head.startswith("basic in path(202), ")
+
+
+def test_what_is_shown_of_limits_and_classes_can_be_evaluated() -> None:
+    for value in (tv.Limits(budget=3), tv.WorldClass.parse("planar,simple")):
+        assert eval(repr(value)) == value  # noqa: S307  our own text
+
+
+@pytest.mark.parametrize("edges", [2.5, "3", 0])
+def test_a_search_refuses_what_is_no_number_of_edges(edges: Any) -> None:
+    with pytest.raises(tv.InputError, match="expected an integer, 1 or more"):
+        search("basic", edges=edges)
+
+
+def test_an_id_that_is_no_text_is_refused() -> None:
+    number: Any = 3
+    with pytest.raises(tv.InputError, match="expected a world id"):
+        tv.World.from_id(number)
 
 
 def test_a_headline_counts_the_claims_with_nothing_to_judge() -> None:

@@ -3,8 +3,11 @@
 `print(entry)` shows the report of the command line, and so does a notebook.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from io import StringIO
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from topo_verify.studies.search.choices import Choices
 from topo_verify.studies.search.search import (
@@ -18,6 +21,9 @@ from topo_verify.studies.search.search import (
     SearchInterrupted,
     search,
 )
+
+if TYPE_CHECKING:
+    from topo_verify.report.blocks import Block
 
 __all__ = [
     "ByEdges",
@@ -33,24 +39,34 @@ __all__ = [
 ]
 
 
-def _as_text(entry: SearchEntry) -> str:
+def _blocks(entry: SearchEntry) -> Iterator[Block]:
     from topo_verify.cli.search import shown
+    from topo_verify.report.blocks import Command
+
+    yield from shown(entry)
+    first = entry.counterexample
+    if first is not None and not first.replay:
+        name = entry.target.removeprefix("<").removesuffix(">")
+        mapper = name if name.isidentifier() and name != "lambda" else "mapper"
+        yield Command(f'tv.examine({mapper}, "{first.world}")', "look closer: ")
+
+
+def _as_text(entry: SearchEntry) -> str:
     from topo_verify.report.terminal import pretty
 
     out = StringIO()
-    pretty(shown(entry), out)
+    pretty(_blocks(entry), out)
     return out.getvalue().rstrip()
 
 
 def _as_html(entry: SearchEntry) -> str:
-    from topo_verify.cli.search import shown
     from topo_verify.report.html import blocks_as_html
     from topo_verify.world.io import notebook
     from topo_verify.world.rooted_map import World
 
     first = entry.counterexample
     picture = "" if first is None else notebook(World.from_id(first.world))
-    return "".join(blocks_as_html(shown(entry))) + picture
+    return "".join(blocks_as_html(_blocks(entry))) + picture
 
 
 def _to_printer(entry: SearchEntry, printer: Any, _: bool) -> None:  # noqa: FBT001  by IPython

@@ -58,7 +58,7 @@ def words(page: str) -> str:
 def test_it_is_committed_without_outputs() -> None:
     cells = json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"]
     code = [cell for cell in cells if cell["cell_type"] == "code"]
-    assert len(code) == 8
+    assert len(code) == 9
     assert all((cell["outputs"], cell["execution_count"]) == ([], None) for cell in code)
 
 
@@ -90,3 +90,4 @@ def test_the_hunt_ends_in_the_world_of_docs_search(outputs: Cells) -> None:
     assert outputs["town"]["stdout"] == "every claim holds: True\n"
     assert "undirected in m4/183, " in words(outputs["smallest"]["text/html"])
     assert "!! no-false-confirm: edge 6 leads to dart 2" in outputs["smallest"]["text/html"]
+    assert "smallest counterexample: m4/183" in words(outputs["search"]["text/html"])

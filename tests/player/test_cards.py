@@ -86,6 +86,15 @@ def test_a_report_with_a_finding_shows_the_world_and_the_walk_to_it() -> None:
     assert "– not-declared" in page
 
 
+def test_a_report_of_a_crash_says_that_there_is_no_map() -> None:
+    def crash(_robot: tv.Robot) -> None:
+        raise ValueError("lost")
+
+    assert "map-isomorphic ✗ failed no map" in re.sub(
+        r"\s+", " ", words(card(tv.examine(crash, WORLD)))
+    )
+
+
 def test_a_report_that_was_read_again_shows_what_it_holds() -> None:
     page = card(tv.examine(one_edge, WORLD).of(None))
     assert "✗ failed" in page

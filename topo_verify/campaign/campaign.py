@@ -97,8 +97,11 @@ class Ranks(msgspec.Struct, frozen=True, tag="ranks"):
     shard: int = 400
 
     def __post_init__(self) -> None:
-        if self.edges < 1:
-            raise InputError(f"edges={self.edges}: a search goes through worlds of 1 edge and more")
+        if type(self.edges) is not int or self.edges < 1:
+            raise InputError(
+                f"edges={self.edges!r}: expected an integer, 1 or more; a search goes through"
+                " worlds of 1 edge and more"
+            )
 
     @property
     def world_class(self) -> WorldClass:

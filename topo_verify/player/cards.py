@@ -86,11 +86,17 @@ def _claims(judgements: Sequence[Judgement]) -> str:
     rows = (
         f"<tr><td {_LEFT}>{_text(judgement.claim)}</td>"
         f"<td {_LEFT}>{_SIGNS.get(judgement.status, '–')} {_text(judgement.status)}</td>"
-        f"<td>{judgement.judged} of {judgement.of}</td></tr>"
+        f"<td>{_coverage(judgement)}</td></tr>"
         for judgement in judgements
     )
     head = f"<tr><th {_LEFT}>claim</th><th {_LEFT}>status</th><th>judged</th></tr>"
     return f"<table><thead>{head}</thead><tbody>{''.join(rows)}</tbody></table>"
+
+
+def _coverage(judgement: Judgement) -> str:
+    if judgement.claim == "map-isomorphic" and not judgement.judged:
+        return "no map"
+    return f"{judgement.judged} of {judgement.of}"
 
 
 def _picture(world: World, label: str) -> str:

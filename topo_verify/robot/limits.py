@@ -81,6 +81,12 @@ class Limits:
     move_timeout: float = MOVE_TIMEOUT
     world_timeout: float = WORLD_TIMEOUT
 
+    def __repr__(self) -> str:
+        return (
+            f"tv.Limits(budget={self.budget}, move_timeout={self.move_timeout},"
+            f" world_timeout={self.world_timeout})"
+        )
+
     def __post_init__(self) -> None:
         for name in ("move_timeout", "world_timeout"):
             seconds = getattr(self, name)

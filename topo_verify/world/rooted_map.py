@@ -150,7 +150,7 @@ class World:
         Raises:
             InputError: the text is no id, or its rank does not exist.
         """
-        return cls.from_code(rank_order.unrank(*rank_order.id_parts(text)), name=text)
+        return cls.from_code(rank_order.unrank(*rank_order.id_parts(str(text))), name=text)
 
     @classmethod
     def load(cls, path: str | PathLike[str], *, graph: int | None = None) -> Self:

@@ -253,11 +253,13 @@ def search(  # noqa: PLR0913  an argument an option
 
     Args:
         target: a callable or a TARGET, which may name several mappers.
-        world_class: a class, or its text as on the command line; default: every world.
+        world_class: a class, or its text as in `worlds(cls=...)`; default: every world.
         keep_going: do not stop at the first counterexample.
         policies: which choices a catalogue algorithm is tried with; `choices.py`.
         workers: number of worker processes; 0: this one.
         dask: the address of a Dask scheduler, or `local`.
+        tell: a progress callback, called with the name of the work, the amount done and the total;
+            default: silent. (To resume a search, use the command line with `--ledger`.)
     Raises:
         InputError: no such mapper; no formula counts the class; and the like.
         SearchInterrupted: Ctrl-C; its `entry` is the result so far. After it, in a notebook:

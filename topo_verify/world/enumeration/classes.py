@@ -87,6 +87,9 @@ class WorldClass:
             simple="simple" in words,
         )
 
+    def __repr__(self) -> str:
+        return f"tv.WorldClass.parse({str(self)!r})"
+
     def __str__(self) -> str:
         genus = "planar" if self.genus == 0 else f"genus:{self.genus}"
         terms = {
