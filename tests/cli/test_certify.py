@@ -117,7 +117,9 @@ def test_an_incomplete_log_gets_advice(call: Call, results: Results) -> None:
     (entry,) = results("certify short.jsonl", code=3)["results"]
     assert entry["advice"] == {"walk": [1], "home": [0]}
     text = " ".join(call("certify short.jsonl").stdout.split())
-    assert "Next, from where the log ends: take door 1, and certify the longer log." in text
+    assert (
+        "Next, from where the log ends (place 1): take door 1, and certify the longer log." in text
+    )
     assert "Back to the marker, from where the log ends: take door 0." in text
 
 
@@ -153,9 +155,13 @@ def test_a_picture_shows_what_is_known_and_each_open_door_dotted(
     assert "2 places, 2 open doors" in known
     assert known.count('class="tv-stub"') == 2
     assert known.count("data-vertex=") == 2
+    assert known.count("<title>here</title>") == 1
     call("certify ring.jsonl --draw whole.svg")
     assert 'class="tv-stub"' not in Path("whole.svg").read_text()
     refused("certify short.jsonl ring.jsonl --draw known.svg", "expected one TRACE, got 2")
+    done = call("certify ring.jsonl --draw missing/known.svg")
+    assert done.exit_code == 0
+    assert "--draw missing/known.svg: not written: " in done.stderr
     refused("certify ring.jsonl -o map.svg", "expected a name for data, as w.json")
 
 
@@ -164,6 +170,8 @@ def test_a_contradiction_in_a_table_names_its_row(call: Call) -> None:
     text = " ".join(call("certify t.csv").stdout.split())
     assert "map-entailed, event 2: no world shows this history" in text
     assert "Event 2 is row 6 of t.csv." in text
+    Path("t.jsonl").write_text(RING.replace('"marker": 1', '"marker": 7') + "\n")
+    assert "Event 2 is line 3 of t.jsonl." in " ".join(call("certify t.jsonl").stdout.split())
     assert "t.csv ! REFUTED - - - none declared" in text
 
 

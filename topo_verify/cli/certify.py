@@ -22,7 +22,7 @@ from topo_verify.robot.events import Move
 from topo_verify.robot.limits import MOST_SECONDS
 from topo_verify.studies import certificates as study
 from topo_verify.studies.advice import Advice
-from topo_verify.studies.log_file import read_log, row_of
+from topo_verify.studies.log_file import line_of, read_log
 from topo_verify.studies.log_report import Certificate, OpenDoor
 from topo_verify.studies.log_report import certify as judge
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
@@ -51,6 +51,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
         vertices, edges: of the proved map, else of the smaller witness.
         moves: of the log, in edge traversals.
         least_cost: of a proof of this map, in edge traversals; null unless it is proved.
+        place: where the log ends: the number of places reached before; null if no world shows it.
         open_doors: at most 100, nearest to the end of the log first.
         advice: how to go on to prove the map; null: nothing is left to walk.
         witnesses: two different worlds that show this log: files if written, else ids.
@@ -66,6 +67,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     moves: int
     least_cost: int | None
     open_darts: int
+    place: int | None
     open_doors: tuple[OpenDoor, ...]
     advice: Advice | None
     decisions: DecisionCount
@@ -157,7 +159,7 @@ def certify(
                 elif map_file is not None:
                     output.note(f"-o {map_file}: not written, for the log proves no map")
                 if picture is not None and certificate.shown:
-                    certificate.draw(picture, doors=True)
+                    _draw(output, certificate, picture)
                 elif picture is not None:
                     output.note(f"--draw {picture}: not written, for no world shows the log")
                 proof = None
@@ -167,6 +169,13 @@ def certify(
                 yield _result(trace, certificate, folder, proof)
 
     return output.run("certify", certified, _show)
+
+
+def _draw(output: Output, certificate: Certificate, picture: str) -> None:
+    try:
+        certificate.draw(picture, doors=True)
+    except InputError as error:  # the verdict is not lost
+        output.note(f"--draw {picture}: not written: {error}")
 
 
 def _require_one_task(
@@ -236,9 +245,9 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield Text(f"{entry.trace}:")
             yield Bullets(tuple(map(finding_line, entry.findings[:5])))
             event = entry.findings[0].event
-            if event is not None and (row := row_of(entry.trace, event)) is not None:
-                yield Text(f"Event {event} is row {row} of {entry.trace}.")
-            if not entry.decisions.total:
+            if event is not None and (line := line_of(entry.trace, event)):
+                yield Text(f"Event {event} is {line} of {entry.trace}.")
+            if entry.open_darts or not entry.decisions.total:
                 yield Text(
                     "There it shows; the wrong reading may be an earlier one. If you have a map:"
                     " topo-verify tour MAP --against LOG names the first reading that does not fit."
@@ -280,8 +289,8 @@ def _show_open(entry: CertifyEntry, advice: Advice) -> Iterator[Block]:
     home = f"take {_doors(advice.home)}" if advice.home else "it is here"
     if advice.walk:
         yield Text(
-            f"Next, from where the log ends: take {_doors(advice.walk)}, and certify the longer"
-            " log. A robot that goes on in this way proves the map in the end."
+            f"Next, from where the log ends (place {entry.place}): take {_doors(advice.walk)}, and"
+            " certify the longer log. A robot that goes on in this way proves the map in the end."
         )
     else:
         yield Text("Next: go back to the marker, and certify the longer log from there.")

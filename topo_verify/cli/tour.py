@@ -15,7 +15,7 @@ from topo_verify.player.recording import PlayedRun
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.events import Event, Move, Start, Trace
 from topo_verify.robot.percept import Door, Percept
-from topo_verify.studies.log_file import read_log, write_log
+from topo_verify.studies.log_file import line_of, read_log, write_log
 from topo_verify.studies.map_check import check_map, tour_log
 from topo_verify.world.rooted_map import Dart, World
 
@@ -174,7 +174,10 @@ def _sentence(entry: TourEntry) -> str:
     head = f"{against.verdict}: {against.log} and the map {entry.world}:"
     match against.verdict:
         case "REFUTED":
-            return f"{head} event {against.event} refutes the map: {against.message}."
+            assert against.event is not None
+            line = line_of(against.log, against.event)
+            at = f"{against.event} ({line})" if line else f"{against.event}"
+            return f"{head} event {at} refutes the map: {against.message}."
         case "PROVED":
             return f"{head} no other world shows this log of {plural(against.moves, 'move')}."
         case _:

@@ -47,13 +47,16 @@ def read_log(path: str | PathLike[str]) -> Trace:
         )
 
 
-def row_of(path: str, event: int) -> int | None:
-    """The row of a CSV file that holds this event; None: it is no such file."""
+def line_of(path: str, event: int) -> str:
+    """Where in its file an event stands, as `row 7` or `line 7`; "" for standard input."""
     if path == "-":
-        return None
+        return ""
     with _opened(path) as (lines, name, is_table):
-        rows = (row for row, _ in table_events(lines, name))
-        return next(islice(rows, event, None)) if is_table else None
+        if is_table:
+            rows = (row for row, _ in table_events(lines, name))
+            return f"row {next(islice(rows, event, None))}"
+        filled = (number for number, line in enumerate(lines, 1) if line.strip())
+        return f"line {next(islice(filled, event, None))}"
 
 
 def write_log(path: str, trace: Trace) -> None:

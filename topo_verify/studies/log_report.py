@@ -70,6 +70,15 @@ class Certificate:
         return None if self.fold is None or self.map is not None else advice(self.fold)
 
     @property
+    def place(self) -> int | None:
+        """The place at which the log ends, a vertex of `known`; None if no world shows it."""
+        if self.fold is None:
+            return None
+        if not any(isinstance(event, Move) for event in self.log):
+            return 0
+        return len(_reached(self.log, self.fold, {self.fold.find(self.fold.at)[0]})) - 1
+
+    @property
     def known(self) -> World:
         """What the log shows of the world: its places, in the order in which it reached them.
 
@@ -84,7 +93,8 @@ class Certificate:
     def draw(self, path: str | PathLike[str], *, doors: bool = False) -> str:
         """The picture of `known` as SVG, also written to a .svg, .png, .pdf or .html file.
 
-        Open doors are dotted. `doors=True` numbers the doors of each place.
+        Open doors are dotted; a blue ring is where the log ends. `doors=True` numbers the doors of
+        each place.
 
         Raises:
             InputError: no world shows the log, it has over about 1,000 edges, or the file cannot
@@ -94,8 +104,8 @@ class Certificate:
 
         kind, known = format_of(fspath(path)), self.known
         layout = lay_out_known(known, len(known.vertices) - self.open_darts)
-        files.write(path, document(known, layout, kind, doors=doors))
-        return to_svg(known, layout, doors=doors)
+        files.write(path, document(known, layout, kind, doors=doors, here=self.place))
+        return to_svg(known, layout, doors=doors, here=self.place)
 
     @property
     def witnesses(self) -> tuple[World, ...]:

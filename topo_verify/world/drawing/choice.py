@@ -64,7 +64,7 @@ def lay_out_known(world: World, places: int) -> Layout:
         if whole is not None and not untrue(world, whole, None):
             return whole
     raise InputError(
-        f"no picture: {len(world.edges):,} edges, expected up to about {WHOLE:,}; draw the map"
+        f"no picture of {len(world.edges):,} edges, expected up to about {WHOLE:,}: draw the map"
         " when it is proved"
     )
 

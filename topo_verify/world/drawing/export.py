@@ -36,14 +36,20 @@ def format_of(name: str) -> Format:
 
 
 def document(
-    world: World, layout: Layout, kind: Format, *, doors: bool = False, darts: bool = False
+    world: World,
+    layout: Layout,
+    kind: Format,
+    *,
+    doors: bool = False,
+    darts: bool = False,
+    here: int | None = None,
 ) -> bytes:
-    """The picture as the content of a file.
+    """The picture as the content of a file; arguments as of `to_svg`.
 
     Raises:
         InputError: PNG or PDF, and the extra `draw` is not installed.
     """
-    svg = to_svg(world, layout, doors=doors, darts=darts)
+    svg = to_svg(world, layout, doors=doors, darts=darts, here=here)
     match kind:
         case "svg":
             return svg.encode()

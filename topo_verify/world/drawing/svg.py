@@ -40,9 +40,29 @@ SIDES = "abcd"
 FONT = "system-ui,-apple-system,'Segoe UI',Helvetica,Arial,sans-serif"
 
 
-def to_svg(world: World, layout: Layout, *, doors: bool = False, darts: bool = False) -> str:
-    """The picture of the world, the same bytes for the same arguments; marks as in `World.draw`."""
-    return "\n".join([*_head(world, layout), *_body(world, layout, doors, darts), "</svg>\n"])
+def to_svg(
+    world: World,
+    layout: Layout,
+    *,
+    doors: bool = False,
+    darts: bool = False,
+    here: int | None = None,
+) -> str:
+    """The picture of the world, the same bytes for the same arguments; marks as in `World.draw`.
+
+    The vertex `here` has a second circle.
+    """
+    body = [*_body(world, layout, doors, darts)]
+    if here is not None:
+        body[0:0] = _ring(layout, here)
+    return "\n".join([*_head(world, layout), *body, "</svg>\n"])
+
+
+def _ring(layout: Layout, vertex: int) -> Iterator[str]:
+    x, y = layout.centres[vertex]
+    at = f'cx="{number(x)}" cy="{number(y)}" r="{number(1.5 * layout.radius)}"'
+    wide = number(0.2 * layout.radius)
+    yield f'<circle class="tv-side-a" stroke-width="{wide}" {at}><title>here</title></circle>'
 
 
 def text(words: str, *, limit: int = 200) -> str:
