@@ -367,6 +367,31 @@ def test_the_first_example_of_a_property_test_imports_nothing(
 # ---------------------------------------------------------------- tracebacks
 
 
+def test_where_a_build_server_runs_a_property_of_a_mapper_nothing_is_explained(
+    session: Session, pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("CI", "true")  # so Hypothesis loads its profile `ci`
+    pytester.makepyfile(
+        test_a="""
+        from hypothesis import Phase, given, settings, strategies as st
+        import topo_verify
+
+        @given(st.just(0))
+        def test_one(_number):
+            pass
+
+        def test_its_settings():
+            own = test_one._hypothesis_internal_use_settings
+            assert own.deadline is None and own.derandomize
+            assert Phase.explain not in own.phases
+
+        def test_others():
+            assert settings.get_current_profile_name() == "ci"
+        """
+    )
+    session("-p", "no:cacheprovider").assert_outcomes(passed=3)
+
+
 @pytest.mark.parametrize(
     ("of_the_user", "ours", "others"),
     [("", "None", "0:00:00.200000"), ('settings.load_profile("mine")', "0:00:03", "0:00:03")],

@@ -355,3 +355,9 @@ def test_an_algorithm_of_the_catalogue_below_it_is_a_bug_of_ours_in_a_named_worl
 def test_a_run_at_the_least_cost_of_a_proof_is_right() -> None:
     for world in (EMPTY, *worlds([1, 2, 3])):
         assert tv.examine(steps(world, world.least_cost()), world).ok
+
+
+def test_a_report_on_a_world_without_an_id_says_how_to_write_its_file() -> None:
+    report = tv.examine("basic", path(300, marker=0), limits=tv.Limits(budget=1))
+    assert "(write the file first: world.save('world.json'))" in str(report)
+    assert "world.save" not in str(tv.examine("basic", "m2/4", limits=tv.Limits(budget=1)))

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from hypothesis import find
 
-from topo_verify import InputError, strategies
+from topo_verify import InputError, World, strategies
 from topo_verify.strategies import tree_worlds, worlds
 from topo_verify.strategies.sample import WORLDS, resolve_strategy, sample
 
@@ -91,3 +91,13 @@ def test_what_names_no_strategy_is_told_why(text: str, sentence: str) -> None:
     with pytest.raises(InputError) as refusal:
         resolve_strategy(text)
     assert sentence in str(refusal.value)
+
+
+@pytest.mark.parametrize("name", WORLDS)
+def test_a_drawn_world_equals_the_world_of_its_id(name: str) -> None:
+    call = f"{name}(edges=9)" if name == "uniform_worlds" else name
+    drawn = sample(resolve_strategy(call), 60)
+    small = [world for world in drawn if len(world.edges) <= 200]
+    assert small
+    assert [world for world in small if world != World.from_id(world.id)] == []
+    assert all(len(world.positions) in {0, len(world.vertices)} for world in drawn)

@@ -152,6 +152,8 @@ class Report(msgspec.Struct, frozen=True, dict=True):
         lines += self.walk()
         if self.findings and self.findings[0].replay:
             lines.append(f"  again: {self.findings[0].replay}")
+            if self.run is not None and self.world == file_of(self.run.world):
+                lines.append(f"  (write the file first: world.save({self.world!r}))")
         return "\n".join(shown(line, limit=LINE) for line in lines)
 
 
@@ -481,9 +483,12 @@ def _with_run_in_witness(
 
 def world_argument(world: World) -> str:
     """The world's argument on a command line: its id, or a file if that is too large."""
-    return (
-        world.id if len(world.edges) <= rank_order.MAX_ID_EDGES else f"{world.name or 'world'}.json"
-    )
+    return world.id if len(world.edges) <= rank_order.MAX_ID_EDGES else file_of(world)
+
+
+def file_of(world: World) -> str:
+    """The file that a user may write a world into."""
+    return f"{world.name or 'world'}.json"
 
 
 def strict_option(world: World, *, strict: bool) -> tuple[str, ...]:

@@ -118,10 +118,8 @@ class Fold:
     def move(self, door: Door, percept: Percept) -> None:
         """Let the robot leave by a door and sense this behind it. Raises Contradiction."""
         (here, dart), marker, back = self.at, percept.marker, percept.degree
-        if not 0 <= door < self._seen[here].degree or back < 1:
-            raise Contradiction(
-                f"door {door} of {self._seen[here].degree} cannot lead to {back} doors"
-            )
+        if not 0 <= door < (doors := self._seen[here].degree) or back < 1:
+            raise Contradiction(f"no door {door} of {doors} leads to a place of {back} doors")
         if marker is not None and not 0 <= marker < percept.degree:
             raise Contradiction(f"the marker cannot point at door {marker} of {percept.degree}")
         exit_place = self.find((here, dart + door))

@@ -90,7 +90,7 @@ def _grown(
     if grown is None:  # rare: tight bounds on degrees, loops or parallel edges
         reject()
     darts = marked_darts(grown.vertex, marker)
-    return World(grown.alpha, grown.sigma, darts[nth(place, len(darts))])
+    return canonical(World(grown.alpha, grown.sigma, darts[nth(place, len(darts))]))
 
 
 def draw_bytes(draw: st.DrawFn, least: int, most: int) -> bytes:
@@ -149,3 +149,11 @@ def marked_darts(vertex: Sequence[int], marker: MarkerPlace) -> Sequence[Dart]:
 def draw_dart(draw: st.DrawFn, darts: Sequence[Dart], bound: int) -> Dart:
     """One of these darts; Hypothesis keeps the choice below `bound` while their number changes."""
     return darts[nth(draw(st.integers(0, bound - 1)), len(darts))]
+
+
+def canonical(world: World) -> World:
+    """The same world, its darts numbered as in `World.from_id(world.id)`, which is its repr."""
+    numbers = [0] * len(world.alpha)
+    for number, dart in enumerate(world.discovery[0]):
+        numbers[dart] = number
+    return world.renumbered(numbers)

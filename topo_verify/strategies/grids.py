@@ -17,6 +17,7 @@ from topo_verify.strategies.draws import (
     AT_MOST,
     Sizes,
     at_most,
+    canonical,
     draw_dart,
     marked_darts,
     scaled,
@@ -148,4 +149,5 @@ def _world(grid: Grid, draw_root: Callable[[list[int]], Dart]) -> World:
     order = {node: v for v, node in enumerate(grid)}
     root = draw_root([order[u] for u, _ in number]) if number else None
     alpha = tuple(number[v, u] for u, v in number)
-    return World(alpha, tuple(sigma), root, positions=tuple((float(x), float(-y)) for y, x in grid))
+    positions = tuple((float(x), float(-y)) for y, x in grid)
+    return canonical(World(alpha, tuple(sigma), root, positions=positions))

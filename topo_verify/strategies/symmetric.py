@@ -32,6 +32,7 @@ from topo_verify.strategies.draws import (
     AT_MOST,
     Sizes,
     at_most,
+    canonical,
     draw_dart,
     marked_darts,
     shown_as_called,
@@ -109,8 +110,9 @@ def _symmetric(draw: st.DrawFn, shape: Shape, least: int, most: int, marker: Mar
     if not small.alpha:
         return World((), (), None)
     if marker == "leaf":  # dart 0 leaves a leaf
-        return cover(small, sheets, 0)
-    return cover(small, sheets, draw_dart(draw, marked_darts(small.vertex, marker), 2 * most))
+        return canonical(cover(small, sheets, 0))
+    root = draw_dart(draw, marked_darts(small.vertex, marker), 2 * most)
+    return canonical(cover(small, sheets, root))
 
 
 def cover(small: Small, sheets: int, root: Dart) -> World:

@@ -75,8 +75,8 @@ class World:
     def __post_init__(self) -> None:
         vars(self).update(alpha=tuple(self.alpha), sigma=tuple(self.sigma))
         validation.require_permutations(self.alpha, self.sigma, self.root)
-        if len(self._discovery[0]) != len(self.alpha):
-            lost = min(set(range(len(self.alpha))) - set(self._discovery[0]))
+        if len(self.discovery[0]) != len(self.alpha):
+            lost = min(set(range(len(self.alpha))) - set(self.discovery[0]))
             raise InputError(
                 f"the world is not connected: no way leads from the marker (dart {self.root}) to"
                 f" dart {lost}; give one world a file, or join the parts"
@@ -264,7 +264,7 @@ class World:
         return proof_tour(self.code)
 
     @cached_property
-    def _discovery(self) -> tuple[tuple[Dart, ...], tuple[int, ...]]:
+    def discovery(self) -> tuple[tuple[Dart, ...], tuple[int, ...]]:
         """Darts in breadth-first order from the root, and the degrees of the vertices met."""
         if self.root is None:
             return (), (0,)
@@ -287,7 +287,7 @@ class World:
     @cached_property
     def code(self) -> Code:
         """The canonical code. O(m)."""
-        order, degrees = self._discovery
+        order, degrees = self.discovery
         number = {dart: place for place, dart in enumerate(order)}
         return degrees, tuple([number[self.alpha[dart]] for dart in order])
 
