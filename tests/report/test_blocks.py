@@ -202,7 +202,7 @@ def test_markdown_joins_blocks_with_blank_lines() -> None:
 
 
 def test_the_palette_is_that_of_the_player() -> None:
-    colour = r"--([a-z]+): light-dark\((#[0-9a-f]{6}),(#[0-9a-f]{6})\)"
+    colour = r"--([a-z]+): ?light-dark\((#[0-9a-f]{6}),(#[0-9a-f]{6})\)"
     assert {name: pair for name, *pair in re.findall(colour, part("page.css"))} == {
         name: [*pair] for name, pair in bl.PALETTE.items()
     }
