@@ -159,15 +159,22 @@ def listed_shards(worlds: NamedWorlds) -> Iterator[Shard]:
 
 
 class Stop(msgspec.Struct, frozen=True):
-    """Numbers of failing worlds and of time-outs that end a campaign."""
+    """Numbers of failing worlds and of time-outs that end a campaign.
+
+    Attributes:
+        still: all worlds so far, and at least so many, ended in a mapper that stood still.
+    """
 
     failing: int | None = None
     timeouts: int | None = None
+    still: int | None = None
 
     def reached(self, numbers: Tally | Counts) -> bool:
         """Whether these numbers end the campaign."""
         fails = self.failing is not None and numbers.failing >= self.failing
-        return fails or (self.timeouts is not None and numbers.timeouts >= self.timeouts)
+        slow = self.timeouts is not None and numbers.timeouts >= self.timeouts
+        hangs = numbers.worlds == numbers.timeouts and not numbers.undecided
+        return fails or slow or (self.still is not None and hangs and numbers.worlds >= self.still)
 
 
 class Campaign(msgspec.Struct, frozen=True, kw_only=True):

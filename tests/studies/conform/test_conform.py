@@ -109,11 +109,23 @@ def test_a_python_mapper_that_ends_its_worker_is_a_finding(tmp_path: Path) -> No
     assert "exit code 9" in found["result"].findings[0].message
 
 
-def test_after_many_time_outs_the_rest_is_not_tried() -> None:
+def test_a_program_that_hangs_in_each_of_the_first_worlds_is_not_tried_in_the_rest() -> None:
     limits = Limits(move_timeout=0.06)
-    texts = ["m1/1"] * (MOST_TIMEOUTS + 5)
-    found = standings(misbehaving("hangs"), *texts, limits=limits)
-    assert found["result"].failed == MOST_TIMEOUTS
+    found = standings(misbehaving("hangs"), *["m1/1"] * 8, limits=limits)
+    assert (found["result"].failed, found["result"].not_tried) == (3, 5)
+
+
+def test_after_many_time_outs_the_rest_is_not_tried(tmp_path: Path) -> None:
+    mapper = tmp_path / "stuck.py"
+    mapper.write_text(
+        "import time\nimport topo_verify as tv\n"
+        "def explore(robot):\n"
+        "    if robot.percept.degree == 2:\n        time.sleep(60)\n"
+        "    return tv.CATALOGUE['basic'](robot)\n"
+    )
+    texts = ["m1/0", *["m1/1"] * (MOST_TIMEOUTS + 5)]
+    found = standings(f"{mapper}:explore", *texts, limits=Limits(move_timeout=0.06))
+    assert (found["result"].passed, found["result"].failed) == (1, MOST_TIMEOUTS)
     assert found["result"].not_tried == 5
 
 

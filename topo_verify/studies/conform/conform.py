@@ -334,7 +334,7 @@ class Conform:
             campaign,
             worlds=c.ListedWorlds(corpus.total),
             record=bool(asked.transcript),
-            stop=c.Stop(timeouts=MOST_TIMEOUTS),
+            stop=c.Stop(timeouts=MOST_TIMEOUTS, still=c.MAX_TIMEOUTS),
             look=f"{__name__}:{look.__name__}",
             asked=tuple(asked),
         )

@@ -1,8 +1,8 @@
 """Runs worlds again, alone and in another order: does the mapper remember earlier worlds?
 
-The counterexample (`REPEATS` times), up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn
-by a seed, are run again, each in a fresh process. If none fails, one process runs `ROW` worlds in a
-shuffled order.
+The counterexample (`REPEATS` times; once if it was out of time), up to `SAMPLE` more failing worlds
+and `SAMPLE` others, drawn by a seed, are run again, each in a fresh process. If none fails, one
+process runs `ROW` worlds in a shuffled order.
 
     a failing world passes alone    `not-deterministic`
     another world fails alone       `not-deterministic`, too; likewise in the row
@@ -108,9 +108,10 @@ def run_again(campaign: c.Campaign, rows: Sequence[Row], tell: Progress | None =
     tell = tell or no_progress
 
     def report(_work: str, done: int, _total: int) -> None:
-        tell(f"{campaign.mappers[0]}, again", done, 2 * MOST + REPEATS + ROW)
+        tell(f"{campaign.mappers[0]}, worlds run again", done, 2 * MOST + REPEATS + ROW)
 
-    runs = [row for row in before[:1] if row.failed] * (REPEATS - 1) + before
+    repeated = [row for row in before[:1] if row.failed and not row.timed_out]
+    runs = repeated * (REPEATS - 1) + before
     alone = _rows(campaign, [row.world for row in runs], _alone, report)
     unlike: dict[str, tuple[Row, Row]] = {}
     others: list[str] = []
