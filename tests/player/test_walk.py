@@ -293,5 +293,6 @@ def test_names_of_places_are_explained_as_far_as_they_occur() -> None:
     assert "v2:7 is dart 7 of the map S" in declared
     assert "w1:4 is dart 4 of the world" in silent
     assert "map S, at" not in silent
+    assert "not on S" not in silent
     standing = played("m3/8", lambda _robot: None)
     assert "A place is named" not in text(standing)

@@ -139,8 +139,8 @@ class _View:
     def legend(self, moments: Sequence[Moment]) -> Iterator[str]:
         """What the places in the table are called, if the robot moves."""
         if any(isinstance(moment.event, ev.Move) for moment in moments):
-            has_map = any(isinstance(event, ev.Augment) for event in self.playback.trace)
-            yield from self.wrapped(f"{_ON_S if has_map else _IN_WORLD} {_SEES}")
+            names = _ON_S if _declares_map(self.playback) else _IN_WORLD
+            yield from self.wrapped(f"{names} {_SEES}")
             yield ""
 
     def table(self, moments: Sequence[Moment]) -> Iterator[str]:
@@ -235,7 +235,7 @@ class _View:
             yield from self.wrapped(never_crossed(self.playback) or "")
 
     def map(self) -> Iterator[str]:
-        if not any(isinstance(event, ev.Augment) for event in self.playback.trace):
+        if not _declares_map(self.playback):
             yield "The mapper has declared nothing about its map S."
             return
         head = f"S after event {self.focus}, vertex by vertex, clockwise; in brackets what is so"
@@ -348,7 +348,13 @@ def doors_of(playback: Playback, number: int) -> Iterator[str]:
 def _named(playback: Playback, dart: WorldDart, number: int) -> str:
     known = playback.known(dart, number)
     there = world_place(playback, dart)
-    return f"{there}, not on S" if known is None else f"{map_place(playback, known)} ({there})"
+    if known is None:
+        return f"{there}, not on S" if _declares_map(playback) else there
+    return f"{map_place(playback, known)} ({there})"
+
+
+def _declares_map(playback: Playback) -> bool:
+    return any(isinstance(event, ev.Augment) for event in playback.trace)
 
 
 def never_crossed(playback: Playback) -> str | None:
