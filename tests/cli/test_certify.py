@@ -170,6 +170,11 @@ def test_a_contradiction_in_a_table_names_its_row(call: Call) -> None:
     text = " ".join(call("certify t.csv").stdout.split())
     assert "map-entailed, event 2: no world shows this history" in text
     assert "Event 2 is row 6 of t.csv." in text
+    assert "The readings of event 0 (row 2) and event 2 (row 6) would be of one place." in text
+    Path("turned.csv").write_text("door,degree,marker\n,2,0\n0,2,\n0,2,1\n")
+    text_of_turned = " ".join(call("certify turned.csv").stdout.split())
+    assert "perhaps the marker pointed at another door" in text_of_turned
+    assert "The readings of" not in text_of_turned
     Path("t.jsonl").write_text(RING.replace('"marker": 1', '"marker": 7') + "\n")
     assert "Event 2 is line 3 of t.jsonl." in " ".join(call("certify t.jsonl").stdout.split())
     assert "t.csv ! REFUTED - - - none declared" in text

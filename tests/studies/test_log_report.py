@@ -10,6 +10,7 @@ import topo_verify as tv
 from topo_verify.robot.events import Event, Move, Start
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import SimulatedRobot
+from topo_verify.studies.log_report import readings_apart
 from topo_verify.studies.map_check import check_map
 from topo_verify.world.enumeration.classes import WorldClass
 
@@ -66,3 +67,16 @@ def test_nothing_is_known_of_a_log_that_no_world_shows() -> None:
     ]
     with pytest.raises(tv.InputError, match="no world shows this log, so nothing is known"):
         _ = tv.certify(log).known
+
+
+def test_a_contradiction_names_the_two_readings_that_are_of_one_place() -> None:
+    world = tv.World.from_id("m4/87")  # a ring of four
+    robot = SimulatedRobot(world, 100)
+    log: list[Event] = [Start(percept=robot.percept)]
+    for door in (1, 1, 1, 1, 1, 1):
+        seen = robot.move(door)
+        log.append(Move(door, Percept(seen.degree, seen.marker)))
+    assert readings_apart(log) is None
+    log[5] = Move(1, Percept(3, None))  # the place of event 1, seen again
+    assert tv.certify(log).verdict == "REFUTED"
+    assert readings_apart(log) == (1, 5)

@@ -12,6 +12,7 @@ import click
 import msgspec
 
 from topo_verify.checkers import Finding
+from topo_verify.checkers.folding import TURNED
 from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.cli.runs import finding_line
@@ -23,7 +24,7 @@ from topo_verify.robot.limits import MOST_SECONDS
 from topo_verify.studies import certificates as study
 from topo_verify.studies.advice import Advice
 from topo_verify.studies.log_file import line_of, read_log
-from topo_verify.studies.log_report import Certificate, OpenDoor
+from topo_verify.studies.log_report import Certificate, OpenDoor, readings_apart
 from topo_verify.studies.log_report import certify as judge
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
@@ -51,6 +52,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
         vertices, edges: of the proved map, else of the smaller witness.
         moves: of the log, in edge traversals.
         least_cost: of a proof of this map, in edge traversals; null unless it is proved.
+        apart: the events of two readings of one place that differ; null unless that refutes it.
         place: where the log ends: the number of places reached before; null if no world shows it.
         open_doors: at most 100, nearest to the end of the log first.
         advice: how to go on to prove the map; null: nothing is left to walk.
@@ -67,6 +69,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     moves: int
     least_cost: int | None
     open_darts: int
+    apart: tuple[int, int] | None
     place: int | None
     open_doors: tuple[OpenDoor, ...]
     advice: Advice | None
@@ -207,6 +210,7 @@ def _result(
         least_cost=None if certificate.map is None else certificate.map.least_cost(),
         open_doors=tuple(certificate.open_doors(MOST_OPEN_DOORS)),
         advice=certificate.advice,
+        apart=None if certificate.shown else readings_apart(certificate.log),
         decisions=DecisionCount(certificate.entailed, certificate.decisions),
         witnesses=_witnesses(trace, certificate, folder),
         findings=findings,
@@ -247,6 +251,14 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             event = entry.findings[0].event
             if event is not None and (line := line_of(entry.trace, event)):
                 yield Text(f"Event {event} is {line} of {entry.trace}.")
+            if entry.apart is not None:
+                readings = " and ".join(_event(entry.trace, when) for when in entry.apart)
+                yield Text(f"The readings of {readings} would be of one place.")
+            elif any(TURNED in finding.message for finding in entry.findings):
+                yield Text(
+                    "Two visits to one place differ in which door is which: perhaps the marker"
+                    " pointed at another door, or a door was counted from another edge."
+                )
             if entry.open_darts or not entry.decisions.total:
                 yield Text(
                     "There it shows; the wrong reading may be an earlier one. If you have a map:"
@@ -264,6 +276,11 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield Bullets(entry.witnesses)
         if entry.kernel is not None:
             yield from _show_proof(entry.kernel)
+
+
+def _event(trace: str, when: int) -> str:
+    line = line_of(trace, when)
+    return f"event {when} ({line})" if line else f"event {when}"
 
 
 def _sizes(entry: CertifyEntry) -> tuple[str, str, str]:

@@ -21,10 +21,10 @@ import msgspec
 from topo_verify.checkers.certificate import judge_log, showing
 from topo_verify.checkers.entailment import CONCLUDED
 from topo_verify.checkers.findings import Finding
-from topo_verify.checkers.folding import Fold
+from topo_verify.checkers.folding import UNLIKE, Contradiction, Fold
 from topo_verify.errors import InputError
-from topo_verify.robot.events import Event, Move
-from topo_verify.robot.percept import Door
+from topo_verify.robot.events import Event, Move, Start
+from topo_verify.robot.percept import Door, Percept
 from topo_verify.studies.advice import Advice, advice, doors_of, places_from
 from topo_verify.studies.log_file import read_log
 from topo_verify.world.formats import files
@@ -169,6 +169,34 @@ def _known(certificate: Certificate) -> World:
                 edges.append((dart, other))
     rotations += [[leaf] for dart, leaf in edges if leaf == doors + dart]
     return World.from_rotations(rotations, edges, 0)
+
+
+class _Noting(Fold):
+    """A fold that notes the percepts that it compared last."""
+
+    compared: tuple[Percept, Percept] | None = None
+
+    def _require_alike(self, one: Percept, other: Percept) -> None:
+        self.compared = one, other
+        super()._require_alike(one, other)
+
+
+def readings_apart(log: Sequence[Event]) -> tuple[int, int] | None:
+    """The events of two readings that would be of one place, and differ; None: no such pair."""
+    start = log[0]
+    assert isinstance(start, Start), "it was judged"
+    fold, events = _Noting(start.percept), {id(start.percept): 0}
+    for when, event in enumerate(log):
+        if isinstance(event, Move):
+            events.setdefault(id(event.percept), when)
+            try:
+                fold.move(event.door, event.percept)
+            except Contradiction as why:
+                if not str(why).startswith(UNLIKE) or fold.compared is None:
+                    return None
+                first, second = sorted(events[id(percept)] for percept in fold.compared)
+                return first, second
+    return None
 
 
 # ---------------------------------------------------------------- open doors
