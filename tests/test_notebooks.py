@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -26,11 +27,20 @@ class Printer:
         self.printed += text
 
 
-def test_an_input_error_is_one_line() -> None:
+def test_an_input_error_is_its_message_and_the_line_of_the_cell() -> None:
+    cell = compile('edges = 99\ntv.explore(f"m3/{edges}", "basic")', "/no/ipykernel_1/2.py", "exec")
+    with pytest.raises(tv.InputError) as refused:
+        exec(cell, {"tv": tv})  # noqa: S102  our own text
+    error: Any = refused.value
+    assert error._render_traceback_() == ["cell, line 2: ", f"InputError: {error}"]
+
+
+def test_an_input_error_in_a_file_names_it() -> None:
     with pytest.raises(tv.InputError) as refused:
         tv.explore("m3/99", "basic")
-    stack: Any = refused.value
-    assert stack._render_traceback_() == [f"InputError: {refused.value}"]
+    error: Any = refused.value
+    (place, _) = error._render_traceback_()
+    assert re.fullmatch(r".*test_notebooks\.py, line \d+: tv\.explore\(\"m3/99\", .*", place)
 
 
 def test_a_search_shows_its_verdict_its_table_and_its_counterexample() -> None:

@@ -10,6 +10,11 @@ import os
 import re
 from collections.abc import Iterable
 from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from traceback import FrameSummary
 
 LINE = 4000
 """Most characters of a line in a report."""
@@ -25,11 +30,22 @@ class TopoVerifyError(Exception):
     """Base of every exception that topo_verify raises on purpose."""
 
 
-class ShortTraceback:
-    """An exception whose message says all: a notebook shows it without the stack."""
+class ShortTraceback(BaseException):
+    """An exception whose message says all: a notebook shows it with one line of your code."""
 
     def _render_traceback_(self) -> list[str]:  # called by IPython
-        return [f"{type(self).__name__}: {self}"]
+        from traceback import extract_tb
+
+        package = Path(__file__).parent
+        frames = extract_tb(self.__traceback__)
+        yours = [frame for frame in frames if package not in Path(frame.filename).parents]
+        return [*map(_place, yours[-1:]), f"{type(self).__name__}: {self}"]
+
+
+def _place(frame: FrameSummary) -> str:
+    # The name that IPython gives to a cell is no file.
+    where = frame.filename if Path(frame.filename).is_file() else "cell"
+    return f"{where}, line {frame.lineno}: {frame.line}"
 
 
 class InputError(ShortTraceback, TopoVerifyError, ValueError):
