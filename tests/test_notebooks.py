@@ -43,6 +43,18 @@ def test_an_input_error_in_a_file_names_it() -> None:
     assert re.fullmatch(r".*test_notebooks\.py, line \d+: tv\.explore\(\"m3/99\", .*", place)
 
 
+def test_an_interrupted_examination_is_the_line_of_the_mapper() -> None:
+    def endless(_robot: tv.Robot) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt) as ctrl_c:
+        tv.examine(endless, "m1/0")
+    interrupted: Any = ctrl_c.value
+    (place, text) = interrupted._render_traceback_()
+    assert place.endswith(": raise KeyboardInterrupt")
+    assert text == "ExaminationInterrupted: the mapper is not judged"
+
+
 def test_a_search_shows_its_verdict_its_table_and_its_counterexample() -> None:
     entry: Any = search(guess, edges=2)
     printer = Printer()

@@ -58,6 +58,10 @@ class InputError(ShortTraceback, TopoVerifyError, ValueError):
         super().__init__(shown(sentence, limit=LINE))
 
 
+class ExaminationInterrupted(ShortTraceback, KeyboardInterrupt):
+    """Ctrl-C during `examine`; a notebook shows where your code was."""
+
+
 class ClaimFailed(TopoVerifyError, AssertionError):
     """At least one claim does not hold for the mapper; the text is the report."""
 

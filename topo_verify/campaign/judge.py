@@ -23,6 +23,7 @@ from topo_verify.errors import (
     LINE,
     ClaimFailed,
     ClaimUndecided,
+    ExaminationInterrupted,
     InputError,
     InternalError,
     plural,
@@ -203,9 +204,14 @@ def examine(
         strict: judge claim 10 also in worlds with more than 2,000 edges.
     Raises:
         InputError: there is no such mapper or policy.
+        ExaminationInterrupted: Ctrl-C, a KeyboardInterrupt.
     """
-    run = explore(world, mapper, pick=pick, order=order, limits=limits)
-    return judge(run, where=where, options=limits.options if limits else (), strict=strict)
+    try:
+        run = explore(world, mapper, pick=pick, order=order, limits=limits)
+        return judge(run, where=where, options=limits.options if limits else (), strict=strict)
+    except KeyboardInterrupt as ctrl_c:
+        stopped = ExaminationInterrupted("the mapper is not judged")
+        raise stopped.with_traceback(ctrl_c.__traceback__) from None
 
 
 def assert_maps(
