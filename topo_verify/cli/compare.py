@@ -19,6 +19,7 @@ from topo_verify.errors import plural
 from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
+from topo_verify.robot.events import Policies
 from topo_verify.studies.baseline import file
 from topo_verify.studies.baseline.compare import (
     KINDS,
@@ -127,8 +128,9 @@ def _show(entries: Sequence[Comparison]) -> Iterator[Block]:
     for entry in entries:
         then = entry.baseline
         yield Text(
-            f"{then.file}: {then.target} in {plural(entry.worlds, 'world')} ({then.corpus}),"
-            f" recorded with topo-verify {then.tool}; now {entry.target}"
+            f"{then.file}: {then.target}{_policies(then.policies)} in"
+            f" {plural(entry.worlds, 'world')} ({then.corpus}), recorded with topo-verify"
+            f" {then.tool}; now {entry.target}"
         )
         rows = [(TITLES[kind], f"{entry.kinds[kind]:,}") for kind in KINDS]
         yield TextTable(("", ">worlds"), rows)
@@ -142,6 +144,10 @@ def _show(entries: Sequence[Comparison]) -> Iterator[Block]:
             yield from _examples(kind, entry)
         yield Text("")
         yield Text(_conclusion(entry))
+
+
+def _policies(policies: Policies | None) -> str:
+    return "" if policies is None else f" (--pick {policies.pick} --order {policies.order})"
 
 
 def _table(groups: Sequence[Group]) -> TextTable:

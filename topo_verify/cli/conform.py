@@ -112,7 +112,9 @@ def conform(
             options.make_folder(transcript, "--transcript")
         # The results do not depend on the order.
         output.timing["seed"] = f"{seed}:{order_seed}"
-        output.note(f"seed {seed}:{order_seed}: give it to --seed for the same order of the worlds")
+        if corpus.total > 1:
+            words = "give it to --seed for the same order of the worlds"
+            output.note(f"seed {seed}:{order_seed}: {words}")
         flags = dict(batch=batch, validate=validate, strict=strict, in_process=mappers.in_process)  # noqa: C408
         for text in _texts(mappers.texts[0]):
             campaign = Campaign(
@@ -130,10 +132,12 @@ def conform(
             yield from _tried(output, study, backend, shared)
 
     shared: dict[str, Playback] = {}
+    given = (("--pick", pick), ("--order", order))
+    chosen = "".join(f" {option} {value}" for option, value in given if value is not None)
     return output.run(
         "conform",
         standings,
-        partial(_show, shared=shared),
+        partial(_show, shared=shared, chosen=chosen),
         account=_account,
         seed=seed,
         corpus=list(texts) or ["corpus"],
@@ -194,9 +198,12 @@ def _replay_command(
 # ---------------------------------------------------------------- for people
 
 
-def _show(entries: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Iterator[Block]:
+def _show(
+    entries: Sequence[LevelResult], shared: Mapping[str, Playback], chosen: str
+) -> Iterator[Block]:
     for target in dict.fromkeys(entry.target for entry in entries):
-        yield from _shown([entry for entry in entries if entry.target == target], shared)
+        of_target = [entry for entry in entries if entry.target == target]
+        yield from _shown(of_target, shared, chosen)
 
 
 _COLUMNS = ("level", "verdict", ">passed", ">failed", ">not decided", ">of worlds")
@@ -208,7 +215,9 @@ def _judged(level: LevelResult) -> tuple[str, ...]:
     return level.verdict, str(level.passed), str(level.failed)
 
 
-def _shown(levels: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Iterator[Block]:
+def _shown(
+    levels: Sequence[LevelResult], shared: Mapping[str, Playback], chosen: str
+) -> Iterator[Block]:
     rows = [
         (
             *(level.level, *_judged(level)),
@@ -216,8 +225,10 @@ def _shown(levels: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Ite
         )
         for level in levels
     ]
-    yield TextTable(_COLUMNS, rows, title=f"{levels[0].target}, like {levels[0].like}")
     first = levels[0]
+    asked_like = any(level.level == "decisions" for level in levels)
+    beside = "like" if asked_like else "costs beside"
+    yield TextTable(_COLUMNS, rows, title=f"{first.target}, {beside} {first.like}{chosen}")
     gone = {
         "skipped": first.skipped,
         "given up": first.errored,
@@ -229,9 +240,15 @@ def _shown(levels: Sequence[LevelResult], shared: Mapping[str, Playback]) -> Ite
         words = ", ".join(f"{number} {state}" for state, number in gone.items() if number)
         yield Text(f"Not decided: {words}.")
         yield Bullets(first.why[:SHOWN])
+    if silent := sum(level.not_declared for level in levels):
+        yield Text("")
+        yield Text(
+            f"decisions: not decided in {plural(silent, 'world')}, because {first.target} declares"
+            " nothing; leave out --like, or declare."
+        )
     for level in levels:
         yield from _findings(level, shared)
-    yield from _costs(levels[-1])
+    yield from _costs(levels[-1], chosen)
     judgements = [judgement for level in levels for judgement in level.judgements]
     for sentence in runs.unjudged(first.target, "these worlds", judgements) if first.passed else ():
         yield Text("")
@@ -274,21 +291,21 @@ def _shared(study: Conform, level: LevelResult) -> dict[str, Playback]:
     return {}
 
 
-def _costs(level: LevelResult) -> Iterator[Block]:
+def _costs(level: LevelResult, chosen: str) -> Iterator[Block]:
     if level.level != "cost" or level.cost.ratio is None:
         return
     cost = level.cost
     yield Text("")
     yield Text(
         f"Cost over {plural(level.passed, 'world')}: {plural(cost.mapper, 'edge traversal')},"
-        f" {level.like} {cost.reference}: {cost.ratio:.3f} of it."
+        f" {level.like}{chosen} {cost.reference}: {cost.ratio:.3f} of it."
     )
     other = [price for price in level.priced if price.ratio not in (1.0, None)]
     if not other:
         return
     ranked = sorted(other, key=lambda price: -(price.ratio or 0))
-    chosen = list(dict.fromkeys([*ranked[:SHOWN], *ranked[-SHOWN:]]))
-    rows = [(o.world, str(o.mapper), str(o.reference), f"{o.ratio:.3f}") for o in chosen]
+    outer = list(dict.fromkeys([*ranked[:SHOWN], *ranked[-SHOWN:]]))
+    rows = [(o.world, str(o.mapper), str(o.reference), f"{o.ratio:.3f}") for o in outer]
     yield TextTable(("world", ">cost", f">{level.like}", ">ratio"), rows)
 
 

@@ -184,7 +184,9 @@ def unjudged(mapper: str, world: str, judgements: Iterable[Judgement]) -> Iterat
 
 _REASONS: dict[Status, str] = {
     "not-declared": "Not judged, because {mapper} declares nothing about it",
-    "partial": "Judged in part, because {mapper} left decisions undeclared in {world}",
+    "partial": (
+        "Judged in part, because {mapper} left decisions undeclared or ended early in {world}"
+    ),
     "undecided": "Neither proved nor refuted in {world}",
     "not-asked": "Not asked in worlds over {size} edges without --strict",
 }

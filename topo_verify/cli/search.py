@@ -288,6 +288,7 @@ def shown(entry: study.SearchEntry, *, worst: bool = False) -> Iterator[Block]:
                 *(">B costs more", "A costs more, first"),
             ),
             pairs,
+            title="costs in edge traversals",
         )
     yield from _every(entry, worst=worst)
     yield Text("")
@@ -304,6 +305,12 @@ def shown(entry: study.SearchEntry, *, worst: bool = False) -> Iterator[Block]:
             "Run again, alone or in another order, it takes other doors in"
             f" {_some(others, len(others))}: it draws lots, or keeps something from world to world."
             " Seed it anew in each world, and the verdict can stand."
+        )
+    elif entry.run_again is not None and entry.verdict != "REFUTED":
+        alone, row = entry.run_again.worlds, entry.run_again.row
+        yield Text(
+            f"Run again without another result: {plural(alone, 'world')}, each in a fresh process;"
+            f" {plural(row, 'world')} in one process, in another order."
         )
     if entry.engine != "reference":
         yield Text(f"judged by {entry.judged_by}: {plural(entry.by_checkers, 'world')}")

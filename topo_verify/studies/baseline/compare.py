@@ -304,7 +304,9 @@ def _message(kind: ChangeKind, then: BaselineEntry, row: Row | None, *, undeclar
         if undeclared:
             return "declares nothing now"
         return "the same moves, other decisions" if then.moves == row.moves else "other moves"
-    return row.findings[0].message if row.findings else row.undecided or ""
+    for finding in row.findings:
+        return f"{finding.claim}: {finding.message}"
+    return row.undecided or ""
 
 
 def _weight(change: Change) -> tuple[float, int]:
