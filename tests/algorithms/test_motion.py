@@ -135,6 +135,11 @@ def test_after_going_back_doors_mean_what_they_meant_before(
     for door in other:
         assert pilot.forward(door % robot.percept.degree) == fresh.move(door % fresh.percept.degree)
     assert pilot.cost == robot.cost
+    # The percepts of the kept doors and of the new ones are those of one walk from vu.
+    straight = motion.Pilot(SimulatedRobot(world, 100))
+    for door in pilot.doors:
+        straight.forward(door)
+    assert pilot.executed() == straight.executed()
 
 
 def fresh_walk(robot: SimulatedRobot, word: list[int]) -> list[int]:

@@ -107,6 +107,7 @@ STATEMENTS = [
     ("II-A", "embedded graph"),
     ("II-A", "leaves by an exit"),
     ("II-A", "senses the marker"),
+    ("II-A", "future research"),
     ("II-B", "number of edge traversals"),
     ("II-C", "map S grows"),
     ("II-C", "traverses S to vk"),
@@ -123,6 +124,7 @@ STATEMENTS = [
     ("III-A", "Stage 1"),
     ("III-A", "Stage 2"),
     ("III-A", "after (2,1,3,1,2)"),
+    ("III-A", "Pnon-overlap"),
     ("III-A", "Two traversals"),
     ("III-A", "greedy"),
     ("III-A", "no movement"),
@@ -161,7 +163,8 @@ def test_no_statement_of_the_paper_is_missing() -> None:
 
 
 def test_the_page_counts_its_outcomes() -> None:
-    counts = Counter(row[7] for row in SENTENCES)
+    # "measured for II and III; open for I" counts as measured
+    counts = Counter(row[7].partition(" for ")[0] for row in SENTENCES)
     outcomes = ("followed", "proved", "measured", "on average", "not reproduced")
     assert set(counts) == {*outcomes}
     (said,) = re.findall(

@@ -1,4 +1,6 @@
-"""The basic algorithm (listing 1): every hypothesis is walked, none is rejected without motion.
+"""The basic algorithm (listing 1): no rule rejects; each hypothesis is walked until it differs.
+
+Only where vu shows the marker, the percept at vu itself may differ, before the first move.
 
 Source: H. Wang, M. Jenkin, P. Dymond, "The relative power of immovable markers in topological
     mapping", ICRA 2011. Cost O(m²n) edge traversals.

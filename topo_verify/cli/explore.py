@@ -55,7 +55,8 @@ class ExploreEntry(msgspec.Struct, frozen=True):
         place: the vertex of the marker.
         same_as: with `--marker all`, a smaller dart from which the world looks the same; this
             run is that one's.
-        rejected_free, rejected_moving: hypotheses rejected without motion, and by motion.
+        rejected_free: hypotheses rejected without a move since the decision before.
+        rejected_moving: hypotheses rejected by a move.
         confirmed: hypotheses confirmed.
         by_compiled_judge: the compiled judge, which is not trusted, judged the run; the checkers
             judged it only if that convicted it or left it open.

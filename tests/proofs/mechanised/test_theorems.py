@@ -96,9 +96,11 @@ def test_the_symbols_are_the_statement_in_its_file_with_the_variables_of_its_sec
         "r j : a < darts W -> h < darts M -> walk W a w = Some c -> walk M h w = Some r -> marker "
         "M r = Some j -> marker W c = Some j -> a = phi h."
     )
-    assert symbols["coq-basic"].endswith(
-        "in proofs/coq/Algorithms.v: basic_correct : maps_all basic."
-    )
+    assert (
+        "in proofs/coq/Algorithms.v: basic_correct : maps_all basic. Definition maps_all (A : "
+        "algorithm) := forall pick path order W, good_pick pick -> "
+    ) in symbols["coq-basic"]
+    assert symbols["coq-basic"].endswith(" (vertices W + (2 * m - 1) * (2 * (vertices W - 1))).")
     for text in symbols.values():
         assert text.endswith(".")
         assert not {"(*", "Proof", "Theorem", "Lemma", "Qed"} & {*text.split()}

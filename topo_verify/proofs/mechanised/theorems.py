@@ -137,7 +137,11 @@ def summary(output: str) -> str:
 
 
 def in_coq(file: str, theorem: str) -> str:
-    """The statement of a theorem as its file has it, and the variables of its section."""
+    """The statement of a theorem as its file has it, with the variables of its section.
+
+    If the statement starts with a name that the file defines, as `maps_all basic`, the definition
+    follows.
+    """
     source = (toolchain.SOURCES / f"{file}.v").read_text(encoding="utf-8")
     before, _, after = re.split(
         rf"^(Theorem|Lemma|Example|Corollary) {theorem}\b",
@@ -150,7 +154,12 @@ def in_coq(file: str, theorem: str) -> str:
         "" if "\nEnd " in section else section,
         re.MULTILINE | re.DOTALL,
     )
-    return " ".join(" ".join([*given, theorem + after.partition("Proof.")[0]]).split())
+    statement = theorem + after.partition("Proof.")[0]
+    name = re.split(r" :\s+", statement, maxsplit=1)[-1].split()[0]
+    definition = re.findall(
+        rf"^Definition {re.escape(name)}\b.*?\.\s*$", before, re.MULTILINE | re.DOTALL
+    )
+    return " ".join(" ".join([*given, statement, *definition]).split())
 
 
 def theorem(statement: MechanisedStatement) -> Theorem:

@@ -105,13 +105,15 @@ def _order(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
         equal = [s for s in both if differ[s] == 0]
         costlier = [s for s in both if differ[s] < 0]
         claim = f"{SHORT[after]} costs less than {SHORT[before]}"
-        ties = f" (the same at {_sizes(equal)})" if equal else ""
+        ties = f", and the same at {_sizes(equal)}" if equal else ""
         if costlier:
             yield (
                 f"Does not agree: the paper says that {claim}; in the mean it costs more at"
                 f" {_sizes(costlier)}{ties}."
             )
         elif both:
+            if equal:
+                claim = f"{SHORT[after]} costs no more than {SHORT[before]}"
             yield f"Agrees: {claim} in the mean at every size{ties}."
 
 

@@ -122,7 +122,8 @@ class LeagueEntry(msgspec.Struct, frozen=True, kw_only=True):
         place: 1 is the best; null: no place. Mappers that cannot be told apart share one.
         ratio: cost / LB, the mean over families.
         losses: where it loses most against the first of the table.
-        rejected_free, rejected_moving: hypotheses, over all worlds.
+        rejected_free: hypotheses rejected without a move since the decision before, in all worlds.
+        rejected_moving: hypotheses rejected by a move, in all worlds.
         ms_per_move: milliseconds of processor time; varies from run to run.
     """
 

@@ -31,7 +31,8 @@ class MapperCost(msgspec.Struct, frozen=True):
     Attributes:
         ratio: relative to the cost of `basic`; null if a claim fails in this world.
         of_least: relative to the least cost of a proof.
-        rejected_free, rejected_moving: hypotheses rejected without and by motion.
+        rejected_free: hypotheses rejected without a move since the decision before.
+        rejected_moving: hypotheses rejected by a move.
         confirmed: hypotheses confirmed.
         reference: a catalogue algorithm beside a user's mapper.
     """
