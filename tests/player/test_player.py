@@ -421,3 +421,8 @@ def test_a_wrong_confirmation_is_drawn_as_wrong(show: Open, wrong: str) -> None:
     assert title(page) == "Guess 1 is right, it says"
     assert page.locator(".ghost.bad, .badge.hot").count() == 2
     assert not page.locator(".badge.kept").count()
+
+
+def test_two_runs_in_a_large_world_open_on_the_world(show: Open) -> None:
+    page = show(page_of(families.lattice(6, 6), "basic", "folding"))
+    assert page.input_value("#view") == "world"

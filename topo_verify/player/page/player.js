@@ -2,6 +2,7 @@
 
 const CALM = matchMedia('(prefers-reduced-motion: reduce)');
 const WAIT = { move: 520, pose: 1700, reject: 1700, confirm: 1700 };
+const LARGE = 40;
 const VIEWS = { world: 'the world', map: 'its map', witness: 'the witness' };
 
 class Player {
@@ -10,7 +11,8 @@ class Player {
     this.recording = recording;
     this.runs = recording.runs.map((run) => new Run(this.pictures[0], run));
     this.chosen = this.runs.length === 2 ? [0, 1] : [0];
-    this.view = 'best';
+    // A large map begins as a dot.
+    this.view = this.chosen.length > 1 && recording.worlds[0].edges.length > LARGE ? 'world' : 'best';
     this.kind = this.chosen.length > 1 ? 'cost' : 'event';
     this.speed = 1;
     this.tick = 0;
