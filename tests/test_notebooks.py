@@ -3,18 +3,32 @@
 from __future__ import annotations
 
 import re
+from html import escape
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import topo_verify as tv
+from topo_verify.robot.events import Move, Start
 from topo_verify.search import search
 
 
 def guess(_robot: tv.Robot) -> dict[str, Any]:
     """A mapper that says without a move that the world is one edge."""
     return {"vertices": [[0], [1]], "edges": [[0, 1]], "marker": 0}
+
+
+def loop_after_a_look(robot: tv.Robot) -> dict[str, Any]:
+    """A mapper that looks behind door 0, and says that the world is one loop."""
+    robot.move(0)
+    return {"vertices": [[0, 1]], "edges": [[0, 1]], "marker": 0}
+
+
+def html_of(thing: Any) -> str:
+    """What a notebook shows."""
+    page: str = thing._repr_html_()
+    return page
 
 
 class Printer:
@@ -168,3 +182,37 @@ def test_a_log_that_proves_nothing_shows_no_size_of_its_map() -> None:
     assert repr(tv.certify(log)).startswith(
         "Certificate(verdict='UNKNOWN', map=None, open_darts=3, e"
     )
+
+
+def test_a_certificate_shows_what_the_log_proves_and_where_to_go_next() -> None:
+    trace = tv.explore("m3/5", "basic").trace
+    proved, open_log = tv.certify(trace), tv.certify(trace[:8])
+    assert str(proved) == "PROVED: one world alone shows this log: 3 vertices, 3 edges"
+    assert str(open_log).splitlines() == [
+        "UNKNOWN: several worlds show this log, with 7 doors not known to have been crossed",
+        "door 1 of place 3: from where the log ends, take 1",
+        "door 2 of place 3: from where the log ends, take 2",
+        "door 3 of place 3: from where the log ends, take 3",
+        "door 3 of place 2: from where the log ends, take 0, 1",
+        "door 1 of place 2: from where the log ends, take 0, 3",
+        "Next: from where the log ends, take 1, and certify the longer log.",
+    ]
+    for certificate in (proved, open_log):
+        page: str = html_of(certificate)
+        assert escape(str(certificate).splitlines()[-1]) in page
+        assert page.count("<img ") == 1
+
+
+def test_a_refuted_certificate_shows_its_findings() -> None:
+    impossible = tv.certify([Start(percept=tv.Percept(1, 0)), Move(0, tv.Percept(0, None))])
+    assert str(impossible).startswith("REFUTED: no world shows this log\nmap-entailed, event 1: ")
+    assert "<img " not in html_of(impossible)
+    wrong = tv.certify(tv.explore("m1/0", loop_after_a_look).trace)
+    assert "; a map or decision in it does not follow\nmap-" in str(wrong)
+
+
+def test_a_certificate_of_a_large_map_is_shown_as_text(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("topo_verify.studies.log_report.MOST_DRAWN", 2)
+    page = html_of(tv.certify(tv.explore("m3/5", "basic").trace))
+    assert "<code>certificate.draw('known.svg')</code>" in page
+    assert "<img " not in page

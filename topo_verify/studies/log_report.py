@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
+from html import escape
 from itertools import islice
 from os import PathLike, fspath
 from typing import Literal
@@ -22,7 +23,7 @@ from topo_verify.checkers.certificate import judge_log, showing
 from topo_verify.checkers.entailment import CONCLUDED
 from topo_verify.checkers.findings import Finding
 from topo_verify.checkers.folding import UNLIKE, Contradiction, Fold
-from topo_verify.errors import InputError
+from topo_verify.errors import LINE, InputError, map_size, plural, shown
 from topo_verify.robot.events import Event, Move, Start
 from topo_verify.robot.percept import Door, Percept
 from topo_verify.studies.advice import Advice, advice, doors_of, places_from
@@ -90,7 +91,7 @@ class Certificate:
         """
         return _known(self)
 
-    def draw(self, path: str | PathLike[str], *, doors: bool = False) -> str:
+    def draw(self, path: str | PathLike[str] | None = None, *, doors: bool = False) -> str:
         """The picture of `known` as SVG, also written to a .svg, .png, .pdf or .html file.
 
         Open doors are dotted; a blue ring is where the log ends. `doors=True` numbers the doors of
@@ -102,10 +103,26 @@ class Certificate:
         """
         from topo_verify.world.drawing import document, format_of, lay_out_known, to_svg
 
-        kind, known = format_of(fspath(path)), self.known
+        kind = None if path is None else format_of(fspath(path))
+        known = self.known
         layout = lay_out_known(known, len(known.vertices) - self.open_darts)
-        files.write(path, document(known, layout, kind, doors=doors, here=self.place))
+        if path is not None and kind is not None:
+            files.write(path, document(known, layout, kind, doors=doors, here=self.place))
         return to_svg(known, layout, doors=doors, here=self.place)
+
+    def __str__(self) -> str:
+        return "\n".join([_headline(self), *_next_steps(self)])
+
+    def _repr_html_(self) -> str:
+        from topo_verify.world.drawing import IN_NOTEBOOKS, image
+
+        said = f"<p>{'<br>'.join(map(escape, str(self).splitlines()))}</p>"
+        if not self.shown:
+            return said
+        if self.edges > MOST_DRAWN:
+            much = f"over {MOST_DRAWN} edges take long to draw"
+            return f"{said}<p>{much}; <code>certificate.draw('known.svg')</code> does it.</p>"
+        return f"{said}{IN_NOTEBOOKS}{image(self.draw(doors=True), 'what the log shows')}"
 
     @property
     def witnesses(self) -> tuple[World, ...]:
@@ -197,6 +214,47 @@ def readings_apart(log: Sequence[Event]) -> tuple[int, int] | None:
                 first, second = sorted(events[id(percept)] for percept in fold.compared)
                 return first, second
     return None
+
+
+# ---------------------------------------------------------------- what is shown
+
+MOST_DRAWN = 200
+"""Most edges of a picture in a notebook: about a second."""
+
+MOST_LISTED = 5
+"""Most findings and open doors that a certificate lists."""
+
+
+def _headline(certificate: Certificate) -> str:
+    if not certificate.shown:
+        proves = "no world shows this log"
+    elif certificate.map is not None:
+        size = map_size(certificate.vertices, certificate.edges)
+        proves = f"one world alone shows this log: {size}"
+    else:
+        doors = plural(certificate.open_darts, "door")
+        proves = f"several worlds show this log, with {doors} not known to have been crossed"
+    wrong = certificate.shown and certificate.findings
+    does_not_follow = "; a map or decision in it does not follow" if wrong else ""
+    return f"{certificate.verdict}: {proves}{does_not_follow}"
+
+
+def _next_steps(certificate: Certificate) -> Iterator[str]:
+    for finding in certificate.findings[:MOST_LISTED]:
+        event = "" if finding.event is None else f", event {finding.event}"
+        yield shown(f"{finding.claim}{event}: {finding.message}", limit=LINE)
+    for door in certificate.open_doors(MOST_LISTED):
+        yield f"door {door.door} of place {door.place}: {_by_doors(door.walk)}"
+    if (advice := certificate.advice) is None:
+        return
+    if advice.walk:
+        yield f"Next: {_by_doors(advice.walk)}, and certify the longer log."
+    else:
+        yield f"Next: go back to the marker, {_by_doors(advice.home)}, and certify the longer log."
+
+
+def _by_doors(walk: Sequence[Door]) -> str:
+    return shown(f"from where the log ends, take {', '.join(map(str, walk))}")
 
 
 # ---------------------------------------------------------------- open doors
