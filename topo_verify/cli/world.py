@@ -316,9 +316,8 @@ def _show_counted(entries: Sequence[CountEntry]) -> Iterator[Block]:
     )
     if any(entry.unrooted is None for entry in entries):
         yield Text(
-            f"-: not counted without the marker. The formula for `any` goes to {unrooted.SIZES[-1]}"
-            " edges, that for `planar` on; in other classes"
-            f" {unrooted.MOST_LISTED:,} worlds at most are compared."
+            f"-: not counted. Unrooted counts: `any` to {unrooted.SIZES[-1]} edges, `planar` to"
+            f" {options.MAX_EDGES:,}; other classes up to {unrooted.MOST_LISTED:,} worlds."
         )
 
 

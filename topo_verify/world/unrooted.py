@@ -21,13 +21,14 @@ from math import comb, factorial, gcd
 
 from topo_verify.errors import InputError
 from topo_verify.world.enumeration.classes import WorldClass
-from topo_verify.world.enumeration.pruned import count, worlds
+from topo_verify.world.enumeration.pruned import count, ranked_tables
+from topo_verify.world.rooted_map import Code, World
 
 SIZES = (20, 60, 200)
 """The first formula is evaluated for all sizes up to one of these."""
 
-MOST_LISTED = 5000
-"""Classes other than `any` and `planar` are counted by listing at most this many worlds."""
+MOST_LISTED = 250_000
+"""Classes other than `any` and `planar` are counted by listing at most this many: 20 seconds."""
 
 PLANAR = WorldClass(genus=0)
 
@@ -46,8 +47,14 @@ def unrooted_count(edges: int, kind: WorldClass) -> int | None:
             return None
     except InputError:
         return None
-    listed = worlds(edges, cls=str(kind))
-    return len({min(w.with_marker(d).code for d in range(2 * edges)) for w in listed})
+    codes: set[Code] = set()  # of all maps that were counted, with each marker
+    number = 0
+    for _, code in ranked_tables(edges, kind):
+        if code not in codes:
+            number += 1
+            world = World.from_code(code)
+            codes.update(world.with_marker(dart).code for dart in range(2 * edges))
+    return number
 
 
 def _planar(edges: int) -> int:
