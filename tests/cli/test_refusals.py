@@ -49,7 +49,7 @@ REFUSED = [
     ("search basic --edges 0", "invalid value for '--edges'"),
     ("search basic --class tidy", "class 'tidy': expected any, planar"),
     ("search basic --class simple,planer", "class 'planer'; did you mean 'planar'? expected any"),
-    ("search basic --class simple,genus:1 --edges 9", "it is counted by looking at all worlds"),
+    ("search basic --class simple,genus:1 --edges 9", "no formula counts a genus and a property"),
     ("search basic,folding --ledger L", "--ledger L: expected one TARGET, got 2"),
     ("search basic --ledger mappers.py", "it is no store of topo-verify: name"),
     ("search basic --policies every --edges 7", "for basic it goes to 6 edges"),

@@ -91,6 +91,9 @@ def search(
     The search stops at the smallest counterexample (REFUTED) or after the last world (EXHAUSTED).
     TARGET is a name of the catalogue, several with commas, all, module:attribute or
     file.py:attribute.
+
+    Classes of a genus and a property of the graph end at 7 edges, except planar,loopless and
+    planar,simple.
     """
 
     def searches() -> Iterator[Result[study.SearchEntry]]:

@@ -320,7 +320,7 @@ class World:
     def dual(self) -> Self:
         """The dual map, unnamed: dart d leaves the face on its left, across its own edge.
 
-        The dual of the dual is this map with the marker at the other end of its edge.
+        The dual of the dual is isomorphic to this map with the marker at the other end of its edge.
         """
         back = self.mirror().sigma  # along a face: counterclockwise
         return type(self)(self.alpha, tuple([self.alpha[dart] for dart in back]), self.root)

@@ -160,9 +160,10 @@ class WorldClass:
             )
         if edges > MAX_LISTED_EDGES:
             raise InputError(
-                f"class {self}: it is counted by looking at all worlds, and with {edges} edges"
-                f" there are {rank_order.count(edges)}: ask for {MAX_LISTED_EDGES} edges or fewer;"
-                f" in Python tv.worlds({edges}, cls={str(self)!r}) lists its worlds"
+                f"class {self}: expected at most {MAX_LISTED_EDGES} edges, got {edges}: no formula"
+                " counts a genus and a property of the graph together, and a count from the list of"
+                " the class would not prove the list complete; in Python"
+                f" tv.worlds({edges}, cls={str(self)!r}) lists its worlds"
             )
         return sum(x ** len(t[0]) for t in rank_order.tables(edges) if self.admits(t))
 
@@ -216,10 +217,11 @@ class WorldClass:
         return rank_order.count(edges) if x == 1 else rank_order.count_by_recurrence(edges, x)
 
     def _too_rare(self, edges: int, evidence: str) -> str:
+        family = ", or draw from the family random_genus, whose worlds are not equally likely"
         return (
             f"class {self}: too few of the worlds with {edges} edges are in it to draw one"
-            f" ({evidence}): ask for fewer edges or a wider class, or draw from a family such as"
-            " random_genus, whose worlds are not equally likely"
+            f" ({evidence}): ask for fewer edges or a wider class"
+            f"{family if self._has_formula else ''}"
         )
 
 

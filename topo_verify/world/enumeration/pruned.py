@@ -63,8 +63,9 @@ def require_few(edges: int, kind: WorldClass, *, by_vertices: bool = False) -> N
     """Raise an InputError if counting would list too many worlds."""
     most = kind.most(edges) if kind.is_listed(by_vertices=by_vertices) else 0
     if most > MOST_COUNTED:
+        there_are = "there may be" if kind.is_listed() else "there are"
         raise InputError(
-            f"class {kind}: its worlds are counted one by one, and with {edges} edges there may be"
+            f"class {kind}: its worlds are counted one by one, and with {edges} edges {there_are}"
             f" {most}: expected {MOST_COUNTED} at most, ask for fewer edges; in Python"
             f" tv.worlds({edges}, cls={str(kind)!r}) lists them"
         )
