@@ -121,15 +121,20 @@ class Foreign(Program):
         """The user's file and line at which a time limit stopped it, or "" if nothing tells."""
         if self._child is None or self._idle or self._halted or not self._says_line:
             return ""
-        frames = _FRAME.findall(self._child.after_signal(WHERE, WHERE_SECONDS))
-        return users_line([(os.fsdecode(file), int(line)) for file, line in reversed(frames)])
+        return _users_line(self._child.after_signal(WHERE, WHERE_SECONDS))
 
     def _play(self, child: Child, robot: Robot) -> Finish | Misbehaved:
         try:
             return super()._play(child, robot)
         except Misbehaved as why:
-            if why.kind != "crashed" or not self.text.startswith(LIBRARY):
+            if why.kind != "crashed":
                 raise
+            if not self.text.startswith(LIBRARY):
+                line = _users_line(os.fsencode(child.stderr())) if why.signal else ""
+                if not line:
+                    raise
+                words = f"the mapper was ended by {why.signal} at {line}"
+                raise Misbehaved(why.kind, words, signal=why.signal) from None
             path, symbol = library_file(self.text)
             words = str(why).replace("the program", f"{symbol} of {path}", 1)
             if isinstance(robot, SimulatedRobot):
@@ -187,3 +192,9 @@ class Foreign(Program):
         else:
             return message
         raise Misbehaved(why.kind, str(why).replace("the program", "its process", 1))
+
+
+def _users_line(stack: bytes) -> str:
+    """The innermost line of the user's files in a stack that faulthandler wrote, or ""."""
+    frames = _FRAME.findall(stack)
+    return users_line([(os.fsdecode(file), int(line)) for file, line in reversed(frames)])
