@@ -101,7 +101,8 @@ def printed(line: str) -> str:
 
 
 def steady(text: str) -> str:
-    """A text without what differs from run to run: seconds, and the version of the solver."""
+    """A text without what differs here: seconds, the solver's version, worlds run again."""
+    text = re.sub(r"Run again: \d+ worlds? alone, \d+ in a row", "Run again: N", text)
     return re.sub(r"z3 [\d.]+", "z3 VERSION", re.sub(r"\d+\.\d\d s\b", "0.00 s", text))
 
 

@@ -312,8 +312,7 @@ def shown(entry: study.SearchEntry, *, worst: bool = False) -> Iterator[Block]:
     elif entry.run_again is not None and entry.verdict != "REFUTED":
         alone, row = entry.run_again.worlds, entry.run_again.row
         yield Text(
-            f"Run again without another result: {plural(alone, 'world')}, each in a fresh process;"
-            f" {plural(row, 'world')} in one process, in another order."
+            f"Run again: {plural(alone, 'world')} alone, {row} in a row, without another result."
         )
     if entry.engine != "reference":
         yield Text(f"judged by {entry.judged_by}: {plural(entry.by_checkers, 'world')}")
