@@ -65,7 +65,7 @@ EXPECTED = {
     "delivers a map of nonsense": ("map-isomorphic", "dart 0 stands at two places"),
     "delivers another map": ("map-isomorphic", "not isomorphic to the world"),
     "delivers too early": ("cost-within-bound", "a cost of 0 is outside"),
-    "lies about its cost": ("cost-honest", "a cost of 5, but made 1 moves"),
+    "lies about its cost": ("cost-honest", "a cost of 5, but made 1 move"),
     "goes on after the end": ("out-of-turn", "went on after the world's end"),
     "goes on later": ("out-of-turn", "went on after the world's end: and another thing"),
     "goes on in halves": ("out-of-turn", "went on after the world's end: and another"),
