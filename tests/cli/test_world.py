@@ -61,9 +61,15 @@ def test_show_says_one_edge_traversal(call: Call) -> None:
     assert "least cost  1 edge traversal\n" in call("world show m1/0").stdout
 
 
-def test_a_world_too_large_for_an_id_has_none(results: Results) -> None:
+def test_a_world_too_large_for_an_id_has_none_and_its_darts_are_in_json(
+    call: Call, results: Results
+) -> None:
     (entry,) = results("world show 'family:lattice(12,12)'")["results"]
     assert entry["id"] is None
+    assert len(entry["rotation"]) == 144
+    lines = call("world show 'family:lattice(12,12)'").stdout.splitlines()
+    assert len(lines) == 13
+    assert lines[-1] == "The darts of a world this large: --format json."
 
 
 def test_show_for_people_tells_degrees_marker_and_licence(call: Call) -> None:

@@ -167,7 +167,10 @@ def _show(entries: Sequence[ShowEntry]) -> Iterator[Block]:
         yield TextTable(("property", "value"), rows, headed=False)
         if entry.edges:
             yield Text("")
-            yield rotation_table(entry.rotation, entry.edge_darts, entry.vertex_names)
+            if entry.edges <= MAX_ID_EDGES:
+                yield rotation_table(entry.rotation, entry.edge_darts, entry.vertex_names)
+            else:
+                yield Text("The darts of a world this large: --format json.")
         if entry.twin is not None:
             yield from twin_blocks(entry.name, entry.twin)
 
