@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shlex
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -129,10 +130,12 @@ def test_the_replay_line_carries_policies_limits_and_odd_names() -> None:
     assert finding.replay == ("topo-verify replay m2/5 --target basic --pick first --budget 1")
 
 
-def test_a_large_world_is_named_by_a_file() -> None:
+def test_a_large_world_is_named_by_its_family_or_a_file() -> None:
     assert world_argument(path(300, marker=0)) == "world.json"
     lattice = tv.families.lattice(12, 12)
-    assert world_argument(lattice) == f"{lattice.name}.json"
+    assert world_argument(lattice) == f"family:{lattice.name}"
+    other = replace(lattice, name="lattice(12,13)")
+    assert world_argument(other) == "lattice(12,13).json"
     assert world_argument(WORLD) == "m2/5"
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import shlex
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
@@ -34,6 +35,7 @@ from topo_verify.programs.program import OPTIONS
 from topo_verify.robot.events import Event, MapData, Move, Policies
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration import rank_order
+from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
@@ -488,8 +490,15 @@ def _with_run_in_witness(
 
 
 def world_argument(world: World) -> str:
-    """The world's argument on a command line: its id, or a file if that is too large."""
-    return world.id if len(world.edges) <= rank_order.MAX_ID_EDGES else file_of(world)
+    """The world as an argument of a command: its id, else its family, else a file."""
+    if len(world.edges) <= rank_order.MAX_ID_EDGES:
+        return world.id
+    if "(" in world.name:
+        with suppress(InputError):
+            text = f"family:{world.name}"
+            if resolve_world(text).code == world.code:
+                return text
+    return file_of(world)
 
 
 def file_of(world: World) -> str:
