@@ -259,8 +259,13 @@ def test_a_counterexample_ends_soon_after_the_failing_claim(call: Call, results:
     assert strays["counterexample"]["claim"] in call(again.removeprefix("topo-verify ")).stdout
     (page,) = Path("here/counterexamples").glob("*.html")
     assert "asked for more than 103 moves" in page.read_text()
-    named = call(line)
+    named = call(f"{line} --name strays.py:explore=Team")
     assert "2 of 2 runs are in here/runs.db" in named.stderr
+    assert "Team in family:lattice(4,4): the run ended by budget; it is shown to soon" in " ".join(
+        named.stdout.split()
+    )
+    assert "The walk of Team in" in named.stdout
+    assert [*Path("here/counterexamples").glob("Team*.html")]
 
 
 def test_mappers_have_names_in_the_tables(call: Call, refused: Refused) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import click
+import msgspec
 
 from topo_verify.campaign.campaign import close
 from topo_verify.campaign.targets import targets as targets_of
@@ -242,10 +243,16 @@ def _run_again(output: Output, league: League, table: Sequence[LeagueEntry]) -> 
             at = named_world(first.world)
             limits = league.limits_of_failure(league.rows[mapper.text, first.world])
             _, report, undecided = judged(mapper, at, limits)
-            if any(finding.claim == first.claim for finding in report.findings):
-                output.found.keep(report)
-                continue
             title = target_title(league.name(mapper.text), at.text)
+            if any(finding.claim == first.claim for finding in report.findings):
+                named = msgspec.structs.replace(report, target=league.name(mapper.text))
+                output.found.keep(named.of(report.run))
+                if limits is not league.limits and first.ended in {"budget", "world-timeout"}:
+                    league.remarks.append(
+                        f"{title}: the run ended by {first.ended}; it is shown to soon after the"
+                        f" failing claim (--budget {limits.budget})."
+                    )
+                continue
             output.found.show(acc.Exhibit(title, at.world, at.text, (first.message,)))
             if not undecided:
                 league.remarks.append(

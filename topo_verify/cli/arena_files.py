@@ -57,8 +57,9 @@ Memory = Callable[[lg.LeagueEntry], float | None]
 
 LEGEND = (
     "LB: the least cost of a proof of the map. behind: the mean difference to the first of the"
-    " table, in the same worlds, in LB. ±: half of a 95 % confidence interval. =: a shared place,"
-    " for the difference is not significant. free: hypotheses rejected without motion."
+    " table, in the same worlds, in LB. ±: half of a 95 % confidence interval; exact: every world"
+    " was played. =: a shared place, for the difference is not significant. free: hypotheses"
+    " rejected without motion."
 )
 
 VARYING = (
@@ -248,12 +249,13 @@ def _exhibit(
     for mapper in mappers:
         run = explore(world, mapper, limits=league.limits)
         judgements = check(world, run.trace, run.stopped)
-        runs.append(PlayedRun(mapper.text, run.trace, tuple(judgements), run.stopped))
+        name = league.name(mapper.text)
+        runs.append(PlayedRun(name, run.trace, tuple(judgements), run.stopped))
     return Exhibit(
         title=target_title(league.name(mappers[-1].text), at.world),
         world=world,
         name=at.world,
-        notes=(f"{words}, LB {at.least}", *(_purposes(league.name(r.name), r.trace) for r in runs)),
+        notes=(f"{words}, LB {at.least}", *(_purposes(r.name, r.trace) for r in runs)),
         runs=tuple(runs),
         again=again,
         whole=True,

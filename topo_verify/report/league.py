@@ -31,8 +31,8 @@ COLOURS = (
 )
 """After M. Okabe and K. Ito, in the table's order; then they repeat."""
 
-CORNERS = (0, 4, 3, 5, 8, 6, 7)
-"""The corners of the signs in the same order; 0: a circle."""
+CORNERS = (0, 4, 3, 5)
+"""The corners of the signs in the same order; 0: a circle. More corners look like one."""
 
 NAME = 26
 """Most characters of a name."""
