@@ -69,7 +69,10 @@ def searched(text: str = "mine.py:explore", *, workers: int = 0, depends: Any = 
     [
         ("mine.py", "the source of the mapper has changed since"),
         ("elsewhere/aside.py", r"elsewhere/aside\.py, which the mapper read, has changed; name an"),
-        ("data.txt", r"data\.txt, which the mapper read, has changed; name another file, or remov"),
+        (
+            "data.txt",
+            r"data\.txt, which the mapper read, has changed; name another file or folder, or remov",
+        ),
     ],
 )
 def test_a_store_is_refused_once_a_file_has_changed(here: Path, file: str, words: str) -> None:

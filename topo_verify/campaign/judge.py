@@ -129,8 +129,8 @@ class Report(msgspec.Struct, frozen=True, dict=True):
     def head(self) -> str:
         """World, mapper, cost, and how many claims hold."""
         name = "" if self.run is None else self.run.world.name
-        no_file = self.world == f"{name}.json"  # as `world_argument` names a world without an id
-        world = name if name and (no_file or len(self.world) > _LONG_ID) else self.world
+        no_id = self.world in {f"{name}.json", f"family:{name}"}  # by `world_argument`
+        world = name if name and (no_id or len(self.world) > _LONG_ID) else self.world
         ran = f"{self.target} in {world}, {plural(self.cost, 'edge traversal')}"
         idle = sum(judgement.status == "ok" and not judgement.of for judgement in self.judgements)
         hold = f"claims hold ({idle} with nothing to judge)" if idle else "claims hold"

@@ -241,7 +241,10 @@ def test_tallies_add_up_in_any_grouping() -> None:
     [
         ({"edges": 0}, "worlds of 1 edge and more"),
         ({"edges": 2, "policies": "some"}, "no policies 'some'"),
-        ({"edges": 9, "world_class": of_class("simple,genus:1")}, "it is counted by looking"),
+        (
+            {"edges": 9, "world_class": of_class("simple,genus:1")},
+            "no formula counts a genus and a property",
+        ),
         ({"edges": 17, "world_class": of_class("simple")}, "expected at most 16 edges, got 17"),
         ({"edges": 2, "policies": "all"}, "has no policies"),
         ({"edges": 2, "workers": 2}, "cannot be handed to workers"),
