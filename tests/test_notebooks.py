@@ -118,11 +118,6 @@ def test_a_report_names_a_world_without_an_id_by_its_name() -> None:
     assert head.startswith("basic in path(202), ")
 
 
-def test_what_is_shown_of_limits_and_classes_can_be_evaluated() -> None:
-    for value in (tv.Limits(budget=3), tv.WorldClass.parse("planar,simple")):
-        assert eval(repr(value)) == value  # noqa: S307  our own text
-
-
 @pytest.mark.parametrize("edges", [2.5, "3", 0])
 def test_a_search_refuses_what_is_no_number_of_edges(edges: Any) -> None:
     with pytest.raises(tv.InputError, match="expected an integer, 1 or more"):
@@ -143,12 +138,6 @@ def test_a_headline_counts_the_claims_with_nothing_to_judge() -> None:
 def test_the_package_offers_its_public_names_alone() -> None:
     assert {*dir(tv)} == {*tv.__all__}
     assert tv.search.search is search
-
-
-def test_a_robot_shows_what_it_senses() -> None:
-    robots: list[str] = []
-    tv.explore("m1/0", lambda robot: robots.append(repr(robot)))
-    assert robots == ["<Robot at (degree 1, marker at door 0)>"]
 
 
 def test_two_runs_in_one_world_are_saved_side_by_side(tmp_path: Path) -> None:

@@ -329,3 +329,8 @@ def test_the_default_limits_are_those_of_the_command_line() -> None:
 def test_a_time_limit_is_a_number_of_seconds(name: str, seconds: float) -> None:
     with pytest.raises(InputError, match=rf"{name}: expected seconds in \(0, 1000000\], got "):
         Limits(None, **cast("Any", {name: seconds}))
+
+
+def test_limits_are_shown_as_they_are_written() -> None:
+    shown = repr(limits.Limits(budget=3))
+    assert shown == "tv.Limits(budget=3, move_timeout=5.0, world_timeout=60.0)"

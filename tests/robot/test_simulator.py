@@ -207,3 +207,8 @@ def test_what_is_no_decision_stops_the_robot(robot: SimulatedRobot, nonsense: An
         robot.declare(nonsense)
     assert robot.events == []
     assert robot.stopped is not None
+
+
+def test_a_robot_shows_what_it_senses() -> None:
+    robot = SimulatedRobot(World.from_id("m1/0"), 1)
+    assert repr(robot.handle) == "<Robot at (degree 1, marker at door 0)>"

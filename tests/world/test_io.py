@@ -40,6 +40,12 @@ def test_world_json_is_not_saved_under_a_name_of_another_format(name: str, tmp_p
     assert not [*tmp_path.iterdir()]
 
 
+def test_data_is_not_saved_under_the_name_of_a_picture(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"expected a name for data, as w\.json, got one for a pi"):
+        families.path(2).save(tmp_path / "w.svg")
+    assert not [*tmp_path.iterdir()]
+
+
 @pytest.mark.parametrize("name", ["w.json", "w.graphml", "w.net.xml"])
 def test_a_byte_order_mark_is_passed_over(name: str, tmp_path: Path) -> None:
     file = tmp_path / name

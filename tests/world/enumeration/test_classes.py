@@ -262,3 +262,7 @@ def test_drawing_gives_up_with_a_sentence(monkeypatch: pytest.MonkeyPatch) -> No
         InputError, match=r"class simple: too few .* \(none of 50 that were .* a wider class$"
     ):
         WorldClass.parse("simple").sample(25, Random(0))
+
+
+def test_a_class_is_shown_as_it_is_written() -> None:
+    assert repr(WorldClass.parse("simple,planar")) == "tv.WorldClass.parse('planar,simple')"
