@@ -388,6 +388,9 @@ def test_a_sample_of_your_own_has_an_interval_and_another_seed_draws_it_anew(
     assert one[1] == other[1]
     assert one[1]["ratio"]["low"] == one[1]["ratio"]["high"]
     assert "drawn:4" in (said := call(f"{line} --seed 7")).stdout
+    twins = call("arena basic enhancement-i --worlds drawn:2:lattice(2,2) --workers 0").stdout
+    assert "+0.00 ±0.00" in twins  # a sample is not exact, however equal
+    assert "exact" not in twins
     assert "--seed draws nothing" not in said.stderr
     alone = call("arena basic --worlds m2/4 --seed 7 --workers 0").stderr
     assert "--seed draws nothing in --worlds without drawn: and generated:" in alone

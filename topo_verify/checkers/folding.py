@@ -118,7 +118,7 @@ class Fold:
     def move(self, door: Door, percept: Percept) -> None:
         """Let the robot leave by a door and sense this behind it. Raises Contradiction."""
         (here, dart), marker, back = self.at, percept.marker, percept.degree
-        if not 0 <= door < (doors := self._seen[here].degree) or back < 1:
+        if door not in range(doors := self._seen[here].degree) or back < 1:
             raise Contradiction(f"no door {door} of {doors} leads to a place of {back} doors")
         if marker is not None and not 0 <= marker < percept.degree:
             raise Contradiction(f"the marker cannot point at door {marker} of {percept.degree}")

@@ -87,8 +87,8 @@ def standings(
         (
             f"{entry.place}{'=' * (places[entry.place] > 1)}",
             entry.name,
-            _figure(entry.ratio),
-            _figure(entry.behind, sign="+"),
+            _figure(entry.ratio, exact=suite.exact),
+            _figure(entry.behind, exact=suite.exact, sign="+"),
             _free(entry),
             *(() if memory is None else _varying(entry, memory(entry))),
             claims_in_words(entry.claims),
@@ -142,21 +142,28 @@ def _loss_blocks(suite: Suite, ranked: Sequence[lg.LeagueEntry]) -> Iterator[Blo
 
 def _families(suite: Suite, ranked: Sequence[lg.LeagueEntry]) -> TextTable:
     rows = [
-        (of_family[0].family, f"{of_family[0].edges:.0f}", *(_figure(f.ratio) for f in of_family))
-        for of_family in zip(*(entry.families for entry in ranked), strict=True)
+        (
+            *(family.name, f"{costs[0].edges:.0f}"),
+            *(_figure(cost.ratio, exact=family.exact) for cost in costs),
+        )
+        for family, *costs in zip(
+            suite.families, *(entry.families for entry in ranked), strict=True
+        )
     ]
     columns = ("family", ">edges", *(f">{entry.name}" for entry in ranked))
     return TextTable(columns, rows, f"{suite.name}: cost/LB by family")
 
 
-def _figure(figure: lg.MeanInterval | lg.LeagueBehind | None, sign: str = "") -> str:
+def _figure(
+    figure: lg.MeanInterval | lg.LeagueBehind | None, *, exact: bool, sign: str = ""
+) -> str:
     if figure is None:
         return "-"
     mean = f"{figure.mean:{sign}.2f}"
     if figure.high is None:
         return mean
     reach = figure.high - figure.mean
-    return f"{mean} ±{reach:.2f}" if reach else f"{mean} exact"
+    return f"{mean} exact" if exact else f"{mean} ±{reach:.2f}"
 
 
 def _free(entry: lg.LeagueEntry) -> str:

@@ -103,6 +103,7 @@ def ratio_plot(suite: Suite, ranked: Sequence[LeagueEntry], ratios: Mapping[str,
     bottom = TOP + max(HIGH, LINE * len(ranked))
     frame = Frame(band, bottom, min(STEP, 0.8 * band / len(ranked)), len(ranked))
     values = [ratio for families in ratios.values() for family in families for ratio in family]
+    values += [f.ratio.high for e in ranked for f in e.families if f.ratio.high is not None]
     y = Axis(min(1.0, *values) / 1.04, max(1.1, *values) * 1.08, bottom, TOP)
     end = round(LEFT + band * len(order), 1)
     width, height = round(end) + RIGHT, bottom + BOTTOM

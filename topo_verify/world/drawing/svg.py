@@ -60,8 +60,9 @@ def to_svg(
 
 def _ring(layout: Layout, vertex: int) -> Iterator[str]:
     x, y = layout.centres[vertex]
-    at = f'cx="{number(x)}" cy="{number(y)}" r="{number(1.5 * layout.radius)}"'
-    wide = number(0.2 * layout.radius)
+    size = legible(layout)
+    at = f'cx="{number(x)}" cy="{number(y)}" r="{number(layout.radius + 0.6 * size)}"'
+    wide = number(0.2 * size)
     yield f'<circle class="tv-side-a" stroke-width="{wide}" {at}><title>here</title></circle>'
 
 
@@ -109,7 +110,7 @@ def _body(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[st
             part = f' data-part="{k}"' if len(parts) > 1 else ""
             yield f'<path class="tv-edge" data-darts="{a} {b}"{part} d="{data}"/>'
     for dart, data in layout.stubs:
-        dash = f"{number(0.1 * radius)} {number(0.5 * radius)}"
+        dash = f"{number(0.1 * legible(layout))} {number(0.5 * legible(layout))}"
         yield f'<path class="tv-stub" data-stub="{dart}" stroke-dasharray="{dash}" d="{data}"/>'
     yield "</g>"
     if layout.bridges:
