@@ -161,7 +161,9 @@ def test_the_line_of_a_definition_is_found() -> None:
 def test_code_that_the_page_names_is_linked_at_its_line(name: str, file: str, begins: str) -> None:
     line = part("site/codelines.py").line_named(name)
     assert line.file == file
-    assert (ROOT / file).read_text().splitlines()[line.number - 1].startswith(begins)
+    lines = (ROOT / file).read_text().splitlines()
+    number: int = line.number
+    assert lines[number - 1].startswith(begins)
 
 
 @pytest.mark.parametrize("name", ["basic", "Embedding.confir", "CITATION.cff", "no/file.py:f"])

@@ -286,8 +286,8 @@ def _event(trace: str, when: int) -> str:
 def _sizes(entry: CertifyEntry) -> tuple[str, str, str]:
     """Vertices and edges of the proved map, and the open darts if a world shows the log."""
     known = entry.verdict == "PROVED"
-    map_size = (str(entry.vertices), str(entry.edges)) if known else ("-", "-")
-    return (*map_size, "-" if entry.verdict == "REFUTED" else str(entry.open_darts))
+    vertices, edges = (str(entry.vertices), str(entry.edges)) if known else ("-", "-")
+    return vertices, edges, "-" if entry.verdict == "REFUTED" else str(entry.open_darts)
 
 
 def _show_open(entry: CertifyEntry, advice: Advice) -> Iterator[Block]:
