@@ -101,8 +101,9 @@ def test_a_launcher_that_is_killed_is_replaced_until_a_program_was_started() -> 
     assert other.wait() == 3
     other.channel.close()
     prepare()
-    launcher._launcher()._process.kill()
-    launcher._launcher()._process.wait()
+    killed = launcher._launcher()._process
+    killed.kill()
+    killed.wait()
     with pytest.raises(InputError, match="was killed, and none can be started beside a mapper"):
         launch("tasks:ends")
 
