@@ -13,7 +13,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from topo_verify import search, strategies
+    from topo_verify import strategies
     from topo_verify.algorithms import CATALOGUE, Algorithm
     from topo_verify.campaign.judge import Report, assert_maps, examine
     from topo_verify.campaign.run import Exploration, explore
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from topo_verify.robot.events import Policies, Robot
     from topo_verify.robot.limits import Limits
     from topo_verify.robot.percept import Percept
+    from topo_verify.search_entry import SearchEntry, SearchInterrupted, search
     from topo_verify.studies.log_file import read_log
     from topo_verify.studies.log_report import Certificate, certify
     from topo_verify.world import families
@@ -50,6 +51,8 @@ __all__ = [
     "Policies",
     "Report",
     "Robot",
+    "SearchEntry",
+    "SearchInterrupted",
     "TopoVerifyError",
     "World",
     "WorldClass",
@@ -78,6 +81,7 @@ _MODULES = {
     "robot.events": ("Policies", "Robot"),
     "robot.percept": ("Percept",),
     "campaign.judge": ("Report", "assert_maps", "examine"),
+    "search_entry": ("SearchEntry", "SearchInterrupted", "search"),
     "studies.log_file": ("read_log",),
     "studies.log_report": ("Certificate", "certify"),
     "campaign.run": ("Exploration", "explore"),
@@ -91,8 +95,8 @@ _HOME = {name: f"topo_verify.{module}" for module, names in _MODULES.items() for
 
 
 def __getattr__(name: str) -> Any:
-    if name in ("search", "strategies"):
-        return import_module(f"topo_verify.{name}")
+    if name == "strategies":
+        return import_module("topo_verify.strategies")
     if name not in _HOME:
         raise AttributeError(f"module 'topo_verify' has no attribute {name!r}")
     if "hypothesis" in sys.modules:

@@ -239,7 +239,7 @@ def search_campaign(  # noqa: PLR0913  an argument an option
 def search(  # noqa: PLR0913  an argument an option
     target: Mapper | str | Target,
     *,
-    edges: int,
+    edges: int = 5,
     world_class: WorldClass | str | None = None,
     keep_going: bool = False,
     policies: Choices = "reference",

@@ -1,4 +1,4 @@
-"""The exhaustive search, for use from Python: `from topo_verify.search import search`.
+"""The exhaustive search, for use from Python: `tv.search`.
 
 `print(entry)` shows the report of the command line, and so does a notebook.
 """
