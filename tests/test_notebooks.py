@@ -56,6 +56,24 @@ def test_an_input_error_in_a_file_names_it() -> None:
     assert re.fullmatch(r".*test_notebooks\.py, line \d+: tv\.explore\(\"m3/99\", .*", place)
 
 
+def test_an_input_error_under_the_standard_library_is_a_line_of_yours() -> None:
+    for wrong in (lambda: tv.certify("no.csv"), lambda: tv.World.load("no.json")):
+        with pytest.raises(tv.InputError) as refused:  # by a context manager of the package
+            wrong()
+        error: Any = refused.value
+        assert "test_notebooks.py, line " in error._render_traceback_()[0]
+
+
+def test_a_run_that_is_no_log_is_refused() -> None:
+    run: Any = tv.explore("m3/5", "basic")
+    wrong: Any
+    for wrong in (run, None, 5):
+        with pytest.raises(
+            tv.InputError, match=r"expected a log: events, as run\.trace, or a file"
+        ):
+            tv.certify(wrong)
+
+
 def test_an_interrupted_examination_is_the_line_of_the_mapper() -> None:
     def endless(_robot: tv.Robot) -> None:
         raise KeyboardInterrupt
@@ -68,7 +86,9 @@ def test_an_interrupted_examination_is_the_line_of_the_mapper() -> None:
     assert text == "ExaminationInterrupted: the mapper is not judged"
 
 
-def test_a_search_shows_its_verdict_its_table_and_its_counterexample() -> None:
+def test_a_search_shows_its_verdict_its_table_and_its_counterexample(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     entry: Any = tv.search(guess, edges=2)
     printer = Printer()
     entry._repr_pretty_(printer, False)
@@ -79,6 +99,8 @@ def test_a_search_shows_its_verdict_its_table_and_its_counterexample() -> None:
         assert "worlds of 1 to 2 edges" in text
         assert "smallest counterexample: m1/0" in text
     assert len(str(entry).splitlines()) < 15
+    monkeypatch.setenv("FORCE_COLOR", "1")  # as a kernel of Jupyter does
+    assert "\x1b" not in str(entry)
     assert page.count("<img ") == 1
     assert page.count("<table") == 1
 

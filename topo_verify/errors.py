@@ -36,9 +36,9 @@ class ShortTraceback(BaseException):
     def _render_traceback_(self) -> list[str]:  # called by IPython
         from traceback import extract_tb
 
-        package = Path(__file__).parent
+        others = {Path(__file__).parent, Path(os.__file__).parent}  # this package, Python's own
         frames = extract_tb(self.__traceback__)
-        yours = [frame for frame in frames if package not in Path(frame.filename).parents]
+        yours = [frame for frame in frames if others.isdisjoint(Path(frame.filename).parents)]
         return [*map(_place, yours[-1:]), f"{type(self).__name__}: {self}"]
 
 

@@ -55,7 +55,7 @@ def _as_text(entry: SearchEntry) -> str:
     from topo_verify.report.terminal import pretty
 
     out = StringIO()
-    pretty(_blocks(entry), out)
+    pretty(_blocks(entry), out, plain=True)
     return out.getvalue().rstrip()
 
 

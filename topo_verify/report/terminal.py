@@ -27,8 +27,11 @@ LEAST_REST = 20
 """Least width of a column of width 0."""
 
 
-def pretty(blocks: Iterable[bl.Block], out: IO[str]) -> None:
-    """Print the blocks to a terminal's width, else to COLUMNS, else to 80 columns."""
+def pretty(blocks: Iterable[bl.Block], out: IO[str], *, plain: bool = False) -> None:
+    """Print the blocks to a terminal's width, else to COLUMNS, else to 80 columns.
+
+    `plain`: without colours, whatever FORCE_COLOR says.
+    """
     console = None
     for block in blocks:
         if isinstance(block, bl.PictureBlock):
@@ -36,7 +39,7 @@ def pretty(blocks: Iterable[bl.Block], out: IO[str]) -> None:
         if isinstance(block, bl.Raw):
             out.write(block.text + "\n")  # not by Rich, which would wrap it and takes its time
             continue
-        console = console or _console(out)
+        console = console or _console(out, plain=plain)
         if isinstance(block, bl.View):
             out.writelines(f"{line}\n" for line in block.lines(console.width))
             continue
@@ -45,12 +48,18 @@ def pretty(blocks: Iterable[bl.Block], out: IO[str]) -> None:
         out.writelines(f"{line.rstrip()}\n" for line in printed.get().splitlines())
 
 
-def _console(out: IO[str]) -> Console:
+def _console(out: IO[str], *, plain: bool) -> Console:
     from rich.console import Console
 
     wide = None if out.isatty() else _columns()
     return Console(
-        file=out, width=wide, highlight=False, markup=False, emoji=False, force_jupyter=False
+        file=out,
+        width=wide,
+        color_system=None if plain else "auto",
+        highlight=False,
+        markup=False,
+        emoji=False,
+        force_jupyter=False,
     )
 
 

@@ -136,11 +136,13 @@ def certify(log: Sequence[Event] | str | PathLike[str]) -> Certificate:
     """Judge a log, events or a file of them, without its world.
 
     Raises:
-        InputError: the file holds no log; the log does not begin with its only `start`, or goes on
+        InputError: this is no log; the log does not begin with its only `start`, or goes on
             after `finish`; its places have more than 2^20 doors together and 16 an event.
     Complexity: nearly linear for a plain log; claim 10 reads every open dart once a decision.
     """
     trace = read_log(log) if isinstance(log, str | PathLike) else log
+    if not hasattr(trace, "__len__"):
+        raise InputError(f"expected a log: events, as run.trace, or a file; got {trace!r}")
     judged = judge_log(trace)
     shown = judged.broken is None
     fold, open_darts = judged.fold, judged.fold.open_darts()
