@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from random import Random
 
 import pytest
@@ -53,6 +54,13 @@ def test_places_are_numbered_as_the_robot_reached_them() -> None:
         *[(2, 2)] * 3,
         (1, 1),
     ]
+
+
+def test_the_words_of_a_picture_stand_below_its_places() -> None:
+    svg = tv.certify([Start(percept=Percept(2, 0)), Move(0, Percept(2, None))]).draw(doors=True)
+    (words,) = re.findall(r'font-size="([\d.]+)" x="[\d.]+" y="([\d.]+)">2 places, 2 open', svg)
+    lowest = max(float(y) + float(r) for y, r in re.findall(r' cy="([\d.]+)" r="([\d.]+)"', svg))
+    assert float(words[1]) - float(words[0]) >= lowest
 
 
 def test_of_a_robot_that_can_go_nowhere_its_only_place_is_known() -> None:

@@ -60,8 +60,11 @@ def lay_out_known(world: World, places: int) -> Layout:
     around = _part(world, world.root, frozenset(range(places)))
     for sketch in _sketches(around.part):
         layout = _true(around.part, sketch)
-        whole = None if layout is None else replace(put_back(around, layout), kind="known")
-        if whole is not None and not untrue(world, whole, None):
+        if layout is None:
+            continue
+        words = 2 * max(layout.radius, layout.width / 60)  # a line below the picture
+        whole = replace(put_back(around, layout), kind="known", height=layout.height + words)
+        if not untrue(world, whole, None):
             return whole
     raise InputError(
         f"no picture of {len(world.edges):,} edges, expected up to about {WHOLE:,}: draw the map"
