@@ -219,6 +219,7 @@ def test_a_refuted_certificate_shows_its_findings() -> None:
     assert "<img " not in html_of(impossible)
     wrong = tv.certify(tv.explore("m1/0", loop_after_a_look).trace)
     assert "; a map or decision in it does not follow\nmap-" in str(wrong)
+    assert "is not isomorphic to the true map (2 vertices, 1 edge)" in str(wrong), "not to a world"
 
 
 def test_a_certificate_of_a_large_map_is_shown_as_text(monkeypatch: pytest.MonkeyPatch) -> None:

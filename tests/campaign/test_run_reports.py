@@ -45,7 +45,7 @@ def test_a_report_shows_what_fails_and_how_to_see_it_again() -> None:
     assert lines[0].endswith(" not declared")
     assert lines[1] == (
         "  map-isomorphic (event 1): the map (2 vertices, 1 edge) is not isomorphic to the"
-        " world (2 vertices, 2 edges)"
+        " true map (2 vertices, 2 edges)"
     )
     assert lines[2].startswith("  cost-within-bound: a cost of 0 is outside 2 …")
     assert lines[-1] == (

@@ -152,7 +152,7 @@ def _wrong_map(run: ReplayedTrace, finish: ev.Finish) -> Iterator[Finding]:
         yield Wrong(last, "a map", None, code)
     elif code != run.world.code:
         ours, theirs = (map_size(len(v), len(a) // 2) for v, a in (run.world.code, code))
-        message = f"the map ({theirs}) is not isomorphic to the world ({ours})"
+        message = f"the map ({theirs}) is not isomorphic to the true map ({ours})"
         yield Wrong(last, ours, theirs, message)
 
 

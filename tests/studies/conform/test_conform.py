@@ -205,7 +205,7 @@ def test_the_examples_decide_as_the_reference_event_for_event(
     [
         ("c", "m3/5", "asked for more than 69 moves"),
         ("js", "m2/5", "asked for more than 16 moves"),
-        ("python", "m2/4", "is not isomorphic to the world"),
+        ("python", "m2/4", "is not isomorphic to the true map"),
     ],
 )
 def test_the_wrong_examples_are_found_out(

@@ -63,7 +63,7 @@ EXPECTED = {
     "delivers a map of words": ("malformed", "Expected `object`, got `str` - at `$.map`"),
     "delivers a map without edges": ("malformed", "missing required field `marker`"),
     "delivers a map of nonsense": ("map-isomorphic", "dart 0 stands at two places"),
-    "delivers another map": ("map-isomorphic", "not isomorphic to the world"),
+    "delivers another map": ("map-isomorphic", "not isomorphic to the true map"),
     "delivers too early": ("cost-within-bound", "a cost of 0 is outside"),
     "lies about its cost": ("cost-honest", "a cost of 5, but made 1 move"),
     "goes on after the end": ("out-of-turn", "went on after the world's end"),
