@@ -64,6 +64,25 @@ def test_an_input_error_under_the_standard_library_is_a_line_of_yours() -> None:
         assert "test_notebooks.py, line " in error._render_traceback_()[0]
 
 
+def test_a_line_of_a_cell_is_named_so() -> None:
+    cell = """
+def fails(robot):
+    import json
+    json.loads("")
+def hangs(robot):
+    while True: pass
+"""
+    names: dict[str, Any] = {}
+    exec(compile(cell, "/tmp/ipykernel_1/2.py", "exec"), names)  # noqa: S102, S108  as IPython's
+    assert str(tv.explore("m1/0", names["fails"]).stopped).endswith(" (cell, line 4)")
+    hung = tv.explore("m1/0", names["hangs"], limits=tv.Limits(move_timeout=0.15))
+    assert str(hung.stopped).endswith("; it was at cell, line 6")
+    with pytest.raises(tv.InputError) as refused:
+        tv.World((0,), (0,), 0)  # by an __init__ of a dataclass, which is in no file
+    error: Any = refused.value
+    assert "test_notebooks.py, line " in error._render_traceback_()[0]
+
+
 def test_a_run_that_is_no_log_is_refused() -> None:
     run: Any = tv.explore("m3/5", "basic")
     wrong: Any

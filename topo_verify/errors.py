@@ -38,7 +38,11 @@ class ShortTraceback(BaseException):
 
         others = {Path(__file__).parent, Path(os.__file__).parent}  # this package, Python's own
         frames = extract_tb(self.__traceback__)
-        yours = [frame for frame in frames if others.isdisjoint(Path(frame.filename).parents)]
+        yours = [
+            frame
+            for frame in frames
+            if frame.filename != "<string>" and others.isdisjoint(Path(frame.filename).parents)
+        ]
         return [*map(_place, yours[-1:]), f"{type(self).__name__}: {self}"]
 
 

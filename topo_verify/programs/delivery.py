@@ -104,12 +104,22 @@ def _frames(error: BaseException) -> list[tuple[str, int]]:
 
 
 def users_line(frames: Iterable[tuple[str, int]]) -> str:
-    """The last of these files and lines that is in a file of the user's, or ""."""
-    users = [frame for frame in frames if Path(frame[0]).is_file() and is_users(frame[0])]
+    """The last of these files and lines that is in a file or cell of the user's, or ""."""
+    users = [
+        (file, line)
+        for file, line in frames
+        if _is_cell(file) or (Path(file).is_file() and is_users(file))
+    ]
     return _line(*users[-1]) if users else ""
 
 
+def _is_cell(file: str) -> bool:
+    return Path(file).parent.name.startswith("ipykernel_")
+
+
 def _line(file: str, line: int) -> str:
+    if _is_cell(file):
+        return f"cell, line {line}"
     path = Path(file)
     with suppress(ValueError, OSError):
         path = path.relative_to(Path.cwd())
