@@ -177,6 +177,7 @@ def test_a_headline_counts_the_claims_with_nothing_to_judge() -> None:
 
 def test_the_package_offers_its_public_names_alone() -> None:
     assert {*dir(tv)} == {*tv.__all__}
+    assert dir(tv.families) == tv.families.__all__, "what Tab offers"
     assert all(getattr(tv, name) is not None for name in tv.__all__)
 
 

@@ -58,3 +58,7 @@ __all__ = [
     "octahedron", "path", "prism", "random_genus", "random_planar", "random_tree", "regular",
     "star", "tetrahedron", "torus", "triangular_torus", "wheel",
 ]  # fmt: skip
+
+
+def __dir__() -> list[str]:
+    return __all__
