@@ -103,6 +103,12 @@ def test_an_interrupted_examination_is_the_line_of_the_mapper() -> None:
     (place, text) = interrupted._render_traceback_()
     assert place.endswith(": raise KeyboardInterrupt")
     assert text == "ExaminationInterrupted: the mapper is not judged"
+    with pytest.raises(KeyboardInterrupt) as ctrl_c:
+        tv.explore("m1/0", endless)
+    interrupted = ctrl_c.value
+    (place, text) = interrupted._render_traceback_()
+    assert place.endswith(": raise KeyboardInterrupt")
+    assert text == "ExaminationInterrupted: after 0 moves; the run is not kept"
 
 
 def test_a_search_shows_its_verdict_its_table_and_its_counterexample(

@@ -63,7 +63,7 @@ class InputError(ShortTraceback, TopoVerifyError, ValueError):
 
 
 class ExaminationInterrupted(ShortTraceback, KeyboardInterrupt):
-    """Ctrl-C during `examine`; a notebook shows where your code was."""
+    """Ctrl-C during `explore` or `examine`; a notebook shows where your code was."""
 
 
 class ClaimFailed(TopoVerifyError, AssertionError):

@@ -28,7 +28,7 @@ from topo_verify.algorithms import CATALOGUE, NAMED, REFERENCE, Algorithm
 from topo_verify.campaign.targets import one_target
 from topo_verify.checkers import check
 from topo_verify.compiled import require
-from topo_verify.errors import InputError, InternalError, shown
+from topo_verify.errors import ExaminationInterrupted, InputError, InternalError, plural, shown
 from topo_verify.programs.delivery import Undelivered, deliver, stopped_at
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loader import Mapper, Target
@@ -193,6 +193,7 @@ def explore(
         The run. If the mapper delivers no map, `map` is None and `stopped` says why.
     Raises:
         InputError: there is no such world, mapper or policy; the engine cannot run it.
+        ExaminationInterrupted: Ctrl-C, a KeyboardInterrupt.
     """
     world = _resolved(world, mapper)
     limits = limits or Limits()
@@ -302,6 +303,10 @@ def _run(
             return None, str(robot.stopped), None, robot.stopped.limit
         line = mapper.line() if isinstance(mapper, Program) else stopped_at(stop)
         return None, f"{stop}; it was at {line}" if line else str(stop), None, stop.limit
+    except KeyboardInterrupt as ctrl_c:
+        moves = plural(robot.cost, "move")
+        interrupted = ExaminationInterrupted(f"after {moves}; the run is not kept")
+        raise interrupted.with_traceback(ctrl_c.__traceback__) from None
     error = result.error if isinstance(result, Undelivered) else None
     # The first limit counts, even if the mapper swallowed the robot's exception.
     if robot.stopped is not None:
