@@ -90,6 +90,10 @@ class PlayedRun:
     stopped: str | None = None
 
 
+_TENTHS = re.compile(r"\.0\d?|(\.[1-9])\d?")
+"""The decimals of a number in path data; its group is what one decimal keeps of them."""
+
+
 def recording(world: World, runs: Sequence[PlayedRun], *, name: str = "") -> dict[str, Any]:
     """What the page shows of these runs, as data for JSON."""
     worlds, places = [pictured(world)], dict[str, int]()
@@ -118,7 +122,7 @@ def pictured(world: World) -> dict[str, Any]:
         "height": layout.height,
         "radius": layout.radius,
         "centres": rounded(layout.centres),
-        "paths": [re.sub(r"(\.\d)\d", r"\1", "".join(parts)) for parts in layout.paths],
+        "paths": [_TENTHS.sub(r"\1", "".join(parts)) for parts in layout.paths],
         "bridges": [[bridge.path, bridge.over, bridge.under] for bridge in layout.bridges],
     }
     if layout.cell is not None:

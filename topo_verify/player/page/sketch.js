@@ -1,5 +1,6 @@
 /* A quick picture of any rotation system: every dart leaves its vertex at its own angle, clockwise
-   in the order of the rotation, so the order at each vertex is true. Roads may cross each other.
+   in the order of the rotation, so the order at each vertex is true. Of several sketches the one in
+   which the fewest roads cross is taken.
 
    Where vertices stand is found by pulling: each road wants to be straight and one long, each
    vertex turns to face its neighbours. What stood before hardly moves, so a growing map keeps its
@@ -7,15 +8,95 @@
 
 const LONG = 100; // a road
 const ROUND = 17; // the radius of a vertex
+const STRAIGHT = 0.75; // of the way from even angles to straight roads
 
 class Sketch {
-  /** @param before a sketch of the same map when it was smaller; its vertices stay about there. */
-  constructor(vertices, alpha, before = null) {
+  /** @param spots where its first vertices stand at the start. */
+  constructor(vertices, alpha, spots = []) {
     Object.assign(this, { vertices, alpha, spots: [] });
     this.owner = new Map();
     vertices.forEach((rotation, v) => rotation.forEach((dart, place) => this.owner.set(dart, [v, place])));
-    vertices.forEach((rotation, v) => this.spots.push({ ...(before?.spots[v] ?? this.beside(v)) }));
+    vertices.forEach((rotation, v) => this.spots.push({ ...(spots[v] ?? this.beside(v)) }));
+    this.face(1);
     for (let round = 0; round < 160; round += 1) this.pull(0.35 * (1 - round / 200));
+    this.straighten();
+  }
+
+  /** The sketch with the fewest crossings: grown from the one before, or with a face outside. */
+  static best(vertices, alpha, before) {
+    let best = new Sketch(vertices, alpha, before?.spots), fewest = best.crossings();
+    for (const start of fewest ? best.faces().map((face) => best.inside(face)) : []) {
+      const other = new Sketch(vertices, alpha, start), number = other.crossings();
+      if (number < fewest) [best, fewest] = [other.turnedLike(before?.spots ?? []), number];
+    }
+    return best;
+  }
+
+  /** The vertices along each face, in the directions of its roads. */
+  faces() {
+    const seen = new Set();
+    return [...this.alpha.keys()].map((dart) => {
+      const face = new Set();
+      while (!seen.has(dart)) {
+        seen.add(dart);
+        face.add(this.owner.get(dart)[0]);
+        const [v, place] = this.owner.get(this.alpha.get(dart)), rotation = this.vertices[v];
+        dart = [...rotation.slice(place + 1), ...rotation].find((next) => this.alpha.has(next));
+      }
+      return [...face];
+    }).filter((face) => face.length);
+  }
+
+  /** These vertices on a circle, each other one in the middle of its neighbours (Tutte's drawing). */
+  inside(face) {
+    const spots = this.vertices.map(() => ({ x: 0, y: 0, turn: 0 })), radius = (LONG * Math.max(face.length, 3)) / 5;
+    face.forEach((v, k) => {
+      const angle = (2 * Math.PI * k) / face.length;
+      Object.assign(spots[v], { x: radius * Math.cos(angle), y: radius * Math.sin(angle) });
+    });
+    const near = this.vertices.map((rotation) => rotation.filter((dart) => this.alpha.has(dart)).map((dart) => spots[this.owner.get(this.alpha.get(dart))[0]]));
+    const mean = (v, c) => near[v].reduce((sum, spot) => sum + spot[c], 0) / near[v].length;
+    for (let round = 0; round < 80; round += 1) {
+      spots.forEach((spot, v) => face.includes(v) || Object.assign(spot, { x: mean(v, 'x'), y: mean(v, 'y') }));
+    }
+    return spots;
+  }
+
+  /** Turned as a whole, so that its vertices lie about where they were. */
+  turnedLike(spots) {
+    const { spots: mine } = this, [old] = spots, { x, y } = mine[0];
+    let [sin, cos] = [0, 0];
+    spots.forEach((spot, v) => {
+      const [a, b, c, d] = [mine[v].x - x, mine[v].y - y, spot.x - old.x, spot.y - old.y];
+      sin += a * d - b * c, cos += a * c + b * d;
+    });
+    const turn = Math.atan2(sin, cos), [s, c] = [Math.sin(turn), Math.cos(turn)];
+    for (const spot of mine) Object.assign(spot, { x: c * spot.x - s * spot.y, y: s * spot.x + c * spot.y, turn: spot.turn + turn });
+    return this;
+  }
+
+  /** How often two roads cross, or a road runs over a vertex. */
+  crossings() {
+    const side = ([a, b], [c, d], [e, f]) => (c - a) * (f - b) - (d - b) * (e - a);
+    const roads = [...this.alpha].filter(([a, b]) => a < b).map(([dart]) => this.along(dart));
+    let number = 0;
+    roads.forEach((road, k) => {
+      for (const [a, b] of road) {
+        for (const { x, y } of this.spots) number += Math.hypot(a[0] - x, a[1] - y) < 0.9 * ROUND;
+        for (const [c, d] of roads.slice(0, k).flat()) number += side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+      }
+    });
+    return number;
+  }
+
+  /** The road of a dart as short straight pieces. */
+  along(dart) {
+    const numbers = this.road(dart).match(/-?[\d.]+/g).map(Number), points = [];
+    for (let k = 0; k + 8 <= numbers.length; k += 6) {
+      const at = (u, c) => [1, 3, 3, 1].reduce((sum, times, n) => sum + times * u ** n * (1 - u) ** (3 - n) * numbers[k + 2 * n + c], 0);
+      for (let n = 0; n <= 12; n += 1) points.push([at(n / 12, 0), at(n / 12, 1)]);
+    }
+    return points.slice(1).map((point, n) => [points[n], point]);
   }
 
   /** Where a new vertex stands: at the end of its first road to one that stands already. */
@@ -31,11 +112,28 @@ class Sketch {
   /** The direction in which a dart leaves its vertex; y grows downwards, so this is clockwise. */
   angle(dart) {
     const [v, place] = this.owner.get(dart);
-    return this.spots[v].turn + (2 * Math.PI * place) / this.vertices[v].length;
+    return this.spots[v].turn + (2 * Math.PI * place) / this.vertices[v].length + (this.off?.get(dart) ?? 0);
+  }
+
+  /** By which angle each road at a vertex would have to turn to leave straight for its other end. */
+  turns(v) {
+    return this.vertices[v].flatMap((dart, place) => {
+      const [w] = this.owner.get(this.alpha.get(dart)) ?? [v], [one, two] = [this.spots[v], this.spots[w]];
+      const turn = Math.atan2(two.y - one.y, two.x - one.x) - this.angle(dart);
+      return w === v ? [] : [[place, Math.atan2(Math.sin(turn), Math.cos(turn))]];
+    });
+  }
+
+  /** Turn each vertex a part of the way towards its neighbours. */
+  face(part) {
+    this.spots.forEach((spot, v) => {
+      const turns = this.turns(v), sum = (part) => turns.reduce((all, [, turn]) => all + part(turn), 0);
+      spot.turn += part * Math.atan2(sum(Math.sin), sum(Math.cos));
+    });
   }
 
   pull(strength) {
-    const moves = this.spots.map(() => ({ x: 0, y: 0, n: 0, sin: 0, cos: 0 }));
+    const moves = this.spots.map(() => ({ x: 0, y: 0, n: 0 }));
     for (const [dart, other] of this.alpha) {
       const [v] = this.owner.get(dart), [w] = this.owner.get(other);
       if (v === w) continue;
@@ -48,13 +146,11 @@ class Sketch {
       moves[w].x += one.x + LONG * Math.cos(wanted) - two.x;
       moves[w].y += one.y + LONG * Math.sin(wanted) - two.y;
       moves[w].n += 1;
-      moves[v].sin += Math.sin(far - a);
-      moves[v].cos += Math.cos(far - a);
     }
+    this.face(0.5 * strength);
     this.spots.forEach((one, v) => {
-      const { x, y, n, sin, cos } = moves[v];
+      const { x, y, n } = moves[v];
       if (v && n) one.x += (strength * x) / n, one.y += (strength * y) / n;
-      if (n) one.turn += 0.5 * strength * Math.atan2(sin, cos);
       for (const other of this.spots) {
         const [dx, dy] = [one.x - other.x, one.y - other.y], gap = Math.hypot(dx, dy);
         if (other === one || gap > 0.85 * LONG) continue;
@@ -62,6 +158,23 @@ class Sketch {
         if (v) one.x += push * Math.cos(away), one.y += push * Math.sin(away);
       }
     });
+  }
+
+  /** Where the neighbours lie in the order of the rotation, turn roads most of the way towards them. */
+  straighten() {
+    const off = new Map();
+    this.vertices.forEach((rotation, v) => {
+      const degree = rotation.length, turns = this.turns(v);
+      const gaps = turns.map(([place, turn], k) => {
+        const [next, last] = turns[(k + 1) % turns.length];
+        return { place, places: ((next - place + degree - 1) % degree) + 1, turn, more: last - turn };
+      });
+      if (gaps.some(({ places, more }) => more < (-1.99 * Math.PI * places) / degree)) return;
+      for (const { place, places, turn, more } of gaps) {
+        for (let n = 0; n < places; n += 1) off.set(rotation[(place + n) % degree], STRAIGHT * (turn + (more * n) / places));
+      }
+    });
+    this.off = off;
   }
 
   /** A point at this distance from the centre of a dart's vertex, along the dart. */
@@ -128,7 +241,7 @@ class Sketch {
 const sketchOf = ({ vertices, edges }, before = null) => {
   const alpha = new Map();
   for (const [a, b] of edges) alpha.set(a, b).set(b, a);
-  return new Sketch(vertices, alpha, before);
+  return Sketch.best(vertices, alpha, before);
 };
 
 /* Build a world: roads are put into corners, the gaps between neighbouring exits of a place, so that

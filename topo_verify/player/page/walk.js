@@ -67,7 +67,7 @@ class WalkMode {
     this.atOnce = html('input', '', hint);
     this.atOnce.type = 'checkbox';
     hint.append(' judge each decision at once');
-    this.atOnce.addEventListener('change', () => this.show());
+    this.atOnce.addEventListener('change', () => (this.atOnce.blur(), this.show()));
     this.button(bar, 'Help', '?', () => byId('help').showModal());
     this.button(bar, 'Back to the run', 'esc', () => this.close());
     const panes = html('div', 'panes', section);
@@ -205,7 +205,7 @@ class WalkMode {
   sketchOfMap() {
     const rotation = ({ first, degree }) => Array.from({ length: degree }, (_, k) => first + k);
     const before = this.sketch && this.sketch.vertices.length <= this.walk.vertices.length ? this.sketch : null;
-    return new Sketch(this.walk.vertices.map(rotation), this.walk.alpha, before);
+    return Sketch.best(this.walk.vertices.map(rotation), this.walk.alpha, before);
   }
 
   /** By dart of S, what became of the declaration about it. */
