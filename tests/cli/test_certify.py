@@ -140,7 +140,7 @@ def test_the_open_doors_are_named_with_a_way_there_and_the_worlds_that_differ(
         {"event": 0, "place": 0, "door": 1, "walk": [0, 1]},
     ]
     text = " ".join(call("certify short.jsonl").stdout.split())
-    assert "incomplete, true of several worlds, with 2 doors not known to have been crossed" in text
+    assert "1 move; true of several worlds, with 2 doors not known to have been crossed" in text
     assert "door 1 of place 1 (reached at event 1): from where the log ends, take door 1" in text
     assert "door 1 of place 0 (the first): from where the log ends, take doors 0, 1" in text
     assert "Two of the worlds that show this log; infinitely many do" in text

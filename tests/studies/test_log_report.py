@@ -33,6 +33,8 @@ def test_what_is_known_shows_the_log_and_has_an_end_for_each_open_door() -> None
         known = certificate.known
         assert check_map(known, log).verdict != "REFUTED"
         places = len(known.vertices) - certificate.open_darts
+        seen = [event.percept.degree for event in log if isinstance(event, Start | Move)]
+        assert [known.degrees[place] for place in certificate.places] == seen
         assert set(known.degrees[places:]) <= {1}
         if certificate.map is not None:
             assert known.code == certificate.map.code
@@ -50,6 +52,7 @@ def test_places_are_numbered_as_the_robot_reached_them() -> None:
     certificate = tv.certify(log)
     assert certificate.known.degrees[:3] == (2, 3, 4)
     assert certificate.known.vertices[0][0] == certificate.known.root
+    assert certificate.places == (0, 1, 2)
     assert [(door.event, door.place) for door in certificate.open_doors(4)] == [
         *[(2, 2)] * 3,
         (1, 1),

@@ -158,7 +158,7 @@ def certify(
                         f"{'standard input' if trace == '-' else trace}: {error}"
                     ) from error
                 if map_file is not None and certificate.map is not None:
-                    certificate.map.save(map_file)
+                    certificate.known.save(map_file)
                 elif map_file is not None:
                     output.note(f"-o {map_file}: not written, for the log proves no map")
                 if picture is not None and certificate.shown:
@@ -294,7 +294,7 @@ def _show_open(entry: CertifyEntry, advice: Advice) -> Iterator[Block]:
     yield Text("")
     nearest = ", the nearest five" if entry.open_darts > 5 else ""
     yield Text(
-        f"{entry.trace}: incomplete, true of several worlds, with"
+        f"{entry.trace}: {plural(entry.moves, 'move')}; true of several worlds, with"
         f" {plural(entry.open_darts, 'door')} not known to have been crossed{nearest}:"
     )
     yield Bullets(

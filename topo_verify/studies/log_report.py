@@ -73,18 +73,23 @@ class Certificate:
     @property
     def place(self) -> int | None:
         """The place at which the log ends, a vertex of `known`; None if no world shows it."""
+        return self.places[-1] if self.shown else None
+
+    @property
+    def places(self) -> tuple[int, ...]:
+        """Where the robot is after each event, as a vertex of `known`; () if no world shows it."""
         if self.fold is None:
-            return None
-        if not any(isinstance(event, Move) for event in self.log):
-            return 0
-        return len(_reached(self.log, self.fold, {self.fold.find(self.fold.at)[0]})) - 1
+            return ()
+        number: dict[int, int] = {}
+        nodes = _followed(self.log, self.fold)
+        return tuple([number.setdefault(node, len(number)) for node, _ in nodes])
 
     @property
     def known(self) -> World:
         """What the log shows of the world: its places, in the order in which it reached them.
 
         Door d of a place is counted as when it was first reached. An open door leads to a vertex
-        of degree 1 behind all places.
+        of degree 1 behind all places. Of a proved map it is the map, with these numbers.
 
         Raises:
             InputError: no world shows the log.
@@ -313,15 +318,21 @@ def _reached(
     """
     reached: dict[int, tuple[int, int]] = {}
     missing = set(places)
+    for when, (node, reference) in enumerate(_followed(log, fold)):
+        if node not in reached:
+            reached[node] = when, reference
+            missing.discard(node)
+            if not missing:
+                break
+    return reached
+
+
+def _followed(log: Sequence[Event], fold: Fold) -> Iterator[tuple[int, int]]:
+    """Where the robot is after each event: the node of the fold, and its reference dart."""
     at = fold.find((0, 0))
-    for when, event in enumerate(log):
+    for event in log:
         if isinstance(event, Move):
             beyond = fold.partner((at[0], at[1] + event.door))
             assert beyond is not None, "the fold is of this log, so it has crossed this door"
             at = beyond
-        if at[0] not in reached:
-            reached[at[0]] = when, at[1]
-            missing.discard(at[0])
-            if not missing:
-                break
-    return reached
+        yield at
