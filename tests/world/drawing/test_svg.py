@@ -36,7 +36,7 @@ CROWDED = families.regular(10, 7, seed=1)
 
 
 @pytest.mark.parametrize("world", [World.from_id("m4/300"), families.lattice(4, 4), CROWDED])
-def test_a_number_stands_on_its_own_edge_and_on_no_other_number(world: World) -> None:
+def test_a_number_stands_beside_its_own_edge_and_on_no_other_number(world: World) -> None:
     layout = lay_out(world)
     words = {dart: str(dart) for rotation in world.vertices for dart in rotation}
     found, lines = places(world, layout, words), leaving(world, layout)
@@ -45,7 +45,7 @@ def test_a_number_stands_on_its_own_edge_and_on_no_other_number(world: World) ->
         steps = np.arange(0.0, curves.length(lines[dart]), 0.1 * layout.radius)
         on_line = np.array([curves.place(lines[dart], step) for step in steps])
         off = np.hypot(*(on_line - place).T).min() / layout.radius
-        assert off < (0.9 if dart == world.root else 0.1)  # beside the arrow
+        assert 0.3 < off < (0.9 if dart == world.root else 0.6)  # farther beside the arrow
     spots = np.array(list(found.values()))
     apart = np.abs(spots[:, None] - spots[None, :]).max(axis=2) + np.eye(len(spots)) * 1e9
     assert apart.min() > 0.4 * layout.radius  # an edge may be hardly longer than its two numbers

@@ -195,10 +195,9 @@ def _vertices(world: World, layout: Layout) -> Iterator[str]:
         f' font-size="{number(size)}">'
     )
     names = world.vertex_names or tuple(map(str, range(len(world.vertices))))
-    labels = [name if len(name) <= 3 else str(vertex) for vertex, name in enumerate(names)]
+    labels = _labels(world)
     places = dict(enumerate(layout.centres)) if size == layout.radius else {}
-    if not places and len(world.vertices) <= MOST_NAMES:
-        places = _beside(layout, labels, size)
+    places = places or _beside(layout, labels, size)
     for vertex, (x, y) in enumerate(layout.centres):
         if vertex in layout.hidden:
             continue
@@ -216,10 +215,18 @@ MOST_NAMES = 250
 """With more vertices, small circles have no names."""
 
 
+def _labels(world: World) -> list[str]:
+    names = world.vertex_names or ("",) * len(world.vertices)
+    return [name if 0 < len(name) <= 3 else str(vertex) for vertex, name in enumerate(names)]
+
+
 def _beside(layout: Layout, labels: Sequence[str], size: float) -> dict[int, Point]:
+    """The middles of the names of vertices beside their circles, where there is room."""
+    if len(labels) > MOST_NAMES:
+        return {}
     page = layout.width, layout.height
     circles = [c for vertex, c in enumerate(layout.centres) if vertex not in layout.hidden]
-    parts = [data for parts in layout.paths for data in parts]
+    parts = [*(data for parts in layout.paths for data in parts), *(d for _, d in layout.stubs)]
     lines = np.concatenate([_sampled(curves.flatten(data), 0.5 * size, np.inf) for data in parts])
     taken = [(x, y, 0.0, 0.0) for x, y in circles]
     places: dict[int, Point] = {}
@@ -243,29 +250,37 @@ UNITS = np.array([(cos(turn * pi / 4), sin(turn * pi / 4)) for turn in range(8)]
 
 
 def _dart_labels(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[str]:  # noqa: FBT001
-    radius = layout.radius
+    size = _label_size(world, layout)
     words = {
         dart: ":".join([str(door)] * doors + [str(dart)] * darts)
         for rotation in world.vertices
         for door, dart in enumerate(rotation)
     }
-    yield f'<g font-family="{FONT}" text-anchor="middle" font-size="{number(0.7 * radius)}">'
+    yield f'<g font-family="{FONT}" text-anchor="middle" font-size="{number(0.8 * size)}">'
     for dart, (x, y) in places(world, layout, words).items():
         at = f'cx="{number(x)}" cy="{number(y)}"'
-        yield f'<circle class="tv-back" {at} r="{number(0.5 * radius)}"/>'
-        at = f'x="{number(x)}" y="{number(y + 0.25 * radius)}"'
+        yield f'<circle class="tv-back" {at} r="{number(0.4 * size)}"/>'
+        at = f'x="{number(x)}" y="{number(y + 0.25 * size)}"'
         yield f'<text class="tv-soft" {at}>{words[dart]}</text>'
     yield "</g>"
 
 
+def _label_size(world: World, layout: Layout) -> float:
+    """Legible where vertices have names, else the radius."""
+    return legible(layout) if len(world.vertices) <= MOST_NAMES else layout.radius
+
+
 FIRST, STEP, MOST = 0.75, 0.3, 24
-"""In radii: the first place along an edge and the step; the number of places."""
+"""In sizes of a label: the first place along an edge and the step; the number of places."""
 
 CLEAR = 0.55
-"""In radii: the distance of a one-digit number from other darts."""
+"""In sizes: the distance of a one-digit number from other darts."""
+
+BESIDE = 0.5
+"""In sizes: the distance of a number's middle from its edge."""
 
 DIGIT = 0.2
-"""In radii: half the width of a digit."""
+"""In sizes: half the width of a digit."""
 
 
 def leaving(world: World, layout: Layout) -> dict[Dart, Floats]:
@@ -279,26 +294,30 @@ def leaving(world: World, layout: Layout) -> dict[Dart, Floats]:
 
 def places(world: World, layout: Layout, words: Mapping[Dart, str]) -> dict[Dart, Point]:
     """The places of the darts' words, each on its edge and clear of the others."""
-    lines, radius = leaving(world, layout), layout.radius
+    lines, radius, size = leaving(world, layout), layout.radius, _label_size(world, layout)
     circles = [c for vertex, c in enumerate(layout.centres) if vertex not in layout.hidden]
     # points to avoid, and the distance across and down
-    taken = [(x, y, 1.3 * radius, 1.3 * radius) for x, y in circles]
+    taken = [(x, y, radius + 0.3 * size, radius + 0.3 * size) for x, y in circles]
+    if size > radius:
+        names = _labels(world)
+        for named, (x, y) in _beside(layout, names, size).items():
+            taken.append((x, y, (0.3 * len(names[named]) + 0.2) * size, size))
     chosen: dict[Dart, Point] = {}
     for vertex, rotation in enumerate(world.vertices):
         if vertex in layout.hidden:
             continue
-        far = (FIRST + STEP * MOST + 2) * radius
-        near = {d: _sampled(lines[d], 0.25 * radius, far) for d in rotation if d in lines}
+        far = (FIRST + STEP * MOST + 2) * size
+        near = {d: _sampled(lines[d], 0.25 * size, far) for d in rotation if d in lines}
         for dart in near:
             others = [near[other] for other in near if other != dart]
-            across = len(words[dart]) * DIGIT * radius
+            across = len(words[dart]) * DIGIT * size
             chosen[dart] = _best(
-                [*_along(lines[dart], radius, marked=dart == world.root)],
+                [*_along(lines[dart], size, marked=dart == world.root)],
                 np.concatenate(others) if others else np.empty((0, 2)),
                 np.array(taken) + np.array([0, 0, across, 0]),
-                CLEAR * radius,
+                CLEAR * size,
             )
-            taken.append((*chosen[dart], across + 0.15 * radius, 0.8 * radius))
+            taken.append((*chosen[dart], across + 0.15 * size, 0.8 * size))
     return chosen
 
 
@@ -306,17 +325,17 @@ def _sampled(line: Floats, step: float, most: float) -> Floats:
     return curves.place(line, np.arange(0.0, min(curves.length(line), most), step))
 
 
-def _along(line: Floats, radius: float, *, marked: bool) -> Iterator[Point]:
+def _along(line: Floats, size: float, *, marked: bool) -> Iterator[Point]:
     """The places to try, the nearest first; on the marked dart beside the arrow."""
     most = 0.35 * curves.length(line)  # the other end has a number, too
     for k in range(MOST):
-        away = (FIRST + STEP * k) * radius
+        away = (FIRST + STEP * k) * size
         if k and away > most:
             return
         place = curves.place(line, min(away, most))
-        if marked:
-            ahead = curves.place(line, min(away, most) + 0.2 * radius) - place
-            place = place + 0.8 * radius * np.array([ahead[1], -ahead[0]]) / np.hypot(*ahead)
+        ahead = curves.place(line, min(away, most) + 0.2 * size) - place
+        aside = (0.8 if marked else BESIDE) * size
+        place = place + aside * np.array([ahead[1], -ahead[0]]) / np.hypot(*ahead)
         yield float(place[0]), float(place[1])
 
 
