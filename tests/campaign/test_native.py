@@ -9,14 +9,14 @@ import msgspec
 import pytest
 
 from tests.programs.natives import HOSTILE_NUMBA, ROOT, built, hostile
-from topo_verify.campaign.backend import CampaignJob, remade
+from topo_verify.campaign.backend import CampaignJob, pooled, remade
 from topo_verify.campaign.campaign import Shard
 from topo_verify.campaign.identity import source_hash
 from topo_verify.campaign.pool import Pool
 from topo_verify.campaign.targets import one_target
 from topo_verify.compiled import available
 from topo_verify.errors import InputError
-from topo_verify.studies.search.search import SearchEntry, search, search_campaign
+from topo_verify.studies.search.search import Search, SearchEntry, search, search_campaign
 
 pytestmark = pytest.mark.skipif(
     not available() or shutil.which("cc") is None, reason="numba or cc is not installed"
@@ -80,6 +80,16 @@ def test_a_misdeed_convicts_the_mapper_in_its_world(deed: str, tmp_path: Path) -
     assert entry.counterexample is not None
     assert entry.counterexample.world == "m2/7"
     assert MISDEEDS[deed] in entry.counterexample.message
+
+
+def test_a_note_names_the_world_of_an_endless_loop_once(tmp_path: Path) -> None:
+    mappers = [one_target(hostile(tmp_path, "loop"))]
+    campaign = search_campaign(mappers, edges=2)
+    notes: list[str] = []
+    study = Search(campaign, mappers, pooled(1, note=notes.append))
+    study.work()
+    (note,) = notes
+    assert note.startswith("m2/7: the mapper gave no sign of life for ")
 
 
 @pytest.mark.parametrize("deed", ["crash", "leave", "loop", "double_itself"])

@@ -94,10 +94,13 @@ def here(
     return run
 
 
-def pooled(workers: int, depends: Depends = None) -> c.Backend:
+def pooled(
+    workers: int, depends: Depends = None, note: Callable[[str], None] | None = None
+) -> c.Backend:
     """The backend of worker processes; 0: this process.
 
-    The compiled engine always calls native mappers in a worker.
+    The compiled engine always calls native mappers in a worker. `note` receives a sentence on
+    each world where one hangs.
     """
 
     def run(
@@ -109,7 +112,8 @@ def pooled(workers: int, depends: Depends = None) -> c.Backend:
             return
         work = _work(_job(campaign, depends))
         _prepare(campaign)
-        with Pool(work, max(1, workers), in_flight=in_flight) as pool:
+        hung = partial(_note_hung, note) if native and note is not None else None
+        with Pool(work, max(1, workers), in_flight=in_flight, hung=hung) as pool:
             for shard, result in pool.run(shards):
                 yield shard, _with_our_memory(work, shard, result)
 
@@ -405,6 +409,20 @@ def _row_at(
     return lost_row(world, place, name, mapper, campaign.limits, cause, external=external)
 
 
+def _rank(shard: c.Shard, loss: Loss) -> int:
+    """The rank at which native code was lost."""
+    return shard.start + max(0, min(loss.items, shard.stop - shard.start - 1))
+
+
+def _note_hung(note: Callable[[str], None], shard: c.Shard, loss: Loss) -> None:
+    if shard.stop - shard.start > 1:  # else it was cut out, and is named already
+        note(
+            f"m{shard.edges}/{_rank(shard, loss)}: the mapper gave no sign of life for"
+            f" {loss.silence:.0f} s; the world is run again alone, for up to some minutes"
+            " (--engine reference --move-timeout 1 is faster)"
+        )
+
+
 def _survived(
     campaign: c.Campaign,
     result: c.ShardResult,
@@ -417,7 +435,7 @@ def _survived(
         external, at, items = loss.maybe_external, shard, loss.items
         if calls_native(campaign):
             external, items = True, 0
-            rank = shard.start + max(0, min(loss.items, shard.stop - shard.start - 1))
+            rank = _rank(shard, loss)
             at = c.Shard(shard.edges, rank, rank + 1)
             if any(shard.start <= part.start < shard.stop for part in given_up):
                 continue

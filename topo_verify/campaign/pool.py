@@ -39,6 +39,7 @@ class Pool(Generic[TaskT, ResultT]):
 
     Args:
         in_flight: receives, from time to time, the number of items done in unfinished tasks.
+        hung: receives each task whose worker is given up because it hangs, with the loss.
         folder: where workers are started; default: the current folder.
     Raises (by `run`):
         InputError: a worker refuses its input, or another process speaks for it.
@@ -51,9 +52,11 @@ class Pool(Generic[TaskT, ResultT]):
         size: int,
         *,
         in_flight: Callable[[int], None] | None = None,
+        hung: Callable[[TaskT, Loss], None] | None = None,
         folder: str | None = None,
     ) -> None:
         self._work, self._size, self._in_flight, self._folder = work, size, in_flight, folder
+        self._hung = hung
         self._workers: list[WorkerProcess] = []
         self._at: dict[WorkerProcess, Piece[TaskT, ResultT]] = {}
         self._pieces = Pieces(work)
@@ -136,6 +139,8 @@ class Pool(Generic[TaskT, ResultT]):
         if piece is None:  # it was idle, so no task is to blame
             return
         loss = Loss(status, silence, loading=not worker.ready, items=worker.items)
+        if silence is not None and self._hung is not None:
+            self._hung(piece.task, loss)
         piece.deaths += 1
         if worker.ready:
             piece.whole.losses.append((piece.task, loss))

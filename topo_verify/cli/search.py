@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from functools import partial
 from itertools import chain
@@ -117,7 +117,7 @@ def search(
             needed = None if ledger is None else depends
             for searched in _searches(mappers, compare, ledger):
                 campaign = campaign_of(searched)
-                backend = _backend(searched, workers, cluster, needed)
+                backend = _backend(searched, workers, cluster, needed, output.note)
                 with _opened(output, ledger, depends, campaign, searched) as store:
                     one_search = study.Search(campaign, searched, backend, store)
                     yield from _searched(output, one_search, compare=compare is not None)
@@ -141,12 +141,13 @@ def _backend(
     workers: int | None,
     cluster: Cluster | None,
     depends: tuple[str, ...] | None,
+    note: Callable[[str], None],
 ) -> Backend:
     if cluster is not None:
         return clustered(cluster, depends)
     number = processors() if workers is None else workers
     if number or any(map(is_native, mappers)):  # needs a worker
-        return pooled(number, depends)
+        return pooled(number, depends, note)
     return here(mappers, depends=depends)
 
 
