@@ -6,6 +6,8 @@ import shlex
 import sys
 from pathlib import Path
 
+import pytest
+
 from tests.cli.conftest import Call, Results
 
 ROOM = Path(__file__).parents[1] / "programs"
@@ -95,6 +97,22 @@ def test_the_report_names_the_claims_that_were_not_judged(call: Call) -> None:
     done = call(f"conform {SKIPS} --worlds edges<=1 --workers 0")
     assert "Not decided: 1 skipped." in done.stdout
     assert "no loops, please" in done.stdout
+
+
+@pytest.mark.usefixtures("cut_off")
+def test_an_interrupted_run_goes_on_from_its_store(results: Results) -> None:
+    line = "conform basic --like basic --worlds edges<=2 --workers 0"
+    assert results(f"{line} --store runs.db", code=3)["results"][0]["not_tried"] > 0
+    envelope = results(f"{line} --store runs.db")
+    assert envelope["timing"]["from_store"] == 3
+    assert envelope["results"] == results(line)["results"]
+
+
+def test_a_store_knows_a_world_in_another_place_of_the_list(results: Results) -> None:
+    line = "conform basic --like enhancement-ii --workers 0 --worlds"
+    results(f"{line} m4/41 --store runs.db", code=1)
+    stored = results(f"{line} m1/0 --worlds m4/41 --store runs.db", code=1)["results"]
+    assert stored == results(f"{line} m1/0 --worlds m4/41", code=1)["results"]
 
 
 def test_transcripts_are_kept(call: Call, folder: Path) -> None:

@@ -62,6 +62,7 @@ REFUSED = [
     ("conform basic --worlds nowhere", "no such world"),
     ("conform basic --like best", "no algorithm 'best'"),
     ("conform basic --batch --worlds m1/0", "expected a program, got basic"),
+    ("conform basic --batch --store S --worlds m1/0", "expected --batch or --store, got both"),
     ("conform nothing --worlds m1/0", "no algorithm 'nothing'"),
     ("conform basic --seed 1:x", "expected N or N:ORDER, two numbers from 0, got '1:x'"),
     ("faults no-such", "got 'no-such'; the faults are leaves-out-the-"),

@@ -512,7 +512,8 @@ class MapperCampaign:
         if self.mapper is not None and not workers:
             mappers = on_engine(self.campaign.engine, (self.mapper,), self.campaign.limits)
             backend = here(mappers, depends=depends)
-        for _, result in c.results(
+        for shard, result in c.results(
             self.campaign, backend, self.worlds, store=self.store, tell=tell
         ):
-            yield from result.rows
+            # A store may know the world from a place of another list.
+            yield from (msgspec.structs.replace(row, place=shard.start) for row in result.rows)

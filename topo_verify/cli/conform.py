@@ -9,16 +9,18 @@ from dataclasses import replace
 from functools import partial
 
 import click
+import msgspec
 
-from topo_verify.campaign.backend import pooled
-from topo_verify.campaign.campaign import Backend, Campaign, ListedWorlds
+from topo_verify.campaign.backend import MapperCampaign
+from topo_verify.campaign.campaign import Campaign, ListedWorlds, close
 from topo_verify.campaign.judge import Report, judge
 from topo_verify.campaign.run import explore
+from topo_verify.campaign.store import Store, StoredCampaign
 from topo_verify.campaign.targets import each_text, one_target, target_arguments
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result
-from topo_verify.errors import plural
+from topo_verify.errors import InputError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.player.scenes import Playback
 from topo_verify.player.walk import parting
@@ -28,7 +30,7 @@ from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable, 
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.conform.batch import batched
 from topo_verify.studies.conform.conform import Asked, Conform, LevelResult, WorldFinding
-from topo_verify.studies.corpus import corpus_from
+from topo_verify.studies.corpus import CorpusWorlds, corpus_from
 from topo_verify.world.rooted_map import World
 
 SHOWN = 3
@@ -66,6 +68,7 @@ def _seeds(_context: click.Context, _option: click.Parameter, value: str | None)
 @options.policies
 @click.option("--batch", is_flag=True, help="The program reads worlds and writes runs.")
 @options.workers()
+@options.store
 @click.option("--validate", is_flag=True, help="Refuse fields that no schema lists.")
 @options.strict
 @click.option("--transcript", metavar="DIR", help="Write the messages of failing worlds to DIR.")
@@ -88,6 +91,7 @@ def conform(
     order: str | None,
     batch: bool,
     workers: int | None,
+    store: str | None,
     validate: bool,
     strict: bool,
     transcript: str | None,
@@ -107,7 +111,8 @@ def conform(
         usual = Asked()
         asked = Asked(like or "", pick or usual.pick, order or usual.order, transcript or "")
         number = processors() if workers is None else workers
-        backend = batched if batch else pooled(min(number, corpus.total))
+        if batch and store is not None:
+            raise InputError("expected --batch or --store, got both: leave one out")
         if transcript is not None:
             options.make_folder(transcript, "--transcript")
         # The results do not depend on the order.
@@ -116,20 +121,21 @@ def conform(
             words = "give it to --seed for the same order of the worlds"
             output.note(f"seed {seed}:{order_seed}: {words}")
         flags = dict(batch=batch, validate=validate, strict=strict, in_process=mappers.in_process)  # noqa: C408
-        for text in _texts(mappers.texts[0]):
-            campaign = Campaign(
-                worlds=ListedWorlds(corpus.total),
-                mappers=(text,),
-                limits=limits,
-                strict=strict,
-                validate=validate,
-                in_process=mappers.in_process,
-                seed=order_seed,
-                drawn=not batch,  # it gets the worlds in their order
-            )
-            again = _replay_command(text, like, (pick, order), flags, limits)
-            study = Conform(campaign, corpus, asked, again)
-            yield from _tried(output, study, backend, shared)
+        with options.opened(store) as file:
+            for text in _texts(mappers.texts[0]):
+                campaign = Campaign(
+                    worlds=ListedWorlds(corpus.total),
+                    mappers=(text,),
+                    limits=limits,
+                    strict=strict,
+                    validate=validate,
+                    in_process=mappers.in_process,
+                    seed=order_seed,
+                    drawn=not batch,  # it gets the worlds in their order
+                )
+                again = _replay_command(text, like, (pick, order), flags, limits)
+                study = Conform(campaign, corpus, asked, again)
+                yield from _tried(output, study, None if batch else number, file, shared)
 
     shared: dict[str, Playback] = {}
     given = (("--pick", pick), ("--order", order))
@@ -154,16 +160,26 @@ def _texts(text: str) -> list[str]:
 
 
 def _tried(
-    output: Output, study: Conform, backend: Backend, shared: dict[str, Playback]
+    output: Output,
+    study: Conform,
+    workers: int | None,
+    store: Store | None,
+    shared: dict[str, Playback],
 ) -> Iterator[Result[LevelResult]]:
+    """The result on each level; without `workers`, of a batch program."""
+    batch = workers is None
     try:
-        study.work(backend, output.progress)
+        if workers is None:
+            study.work(batched, output.progress)
+        else:
+            runs = MapperCampaign(study.campaign, CorpusWorlds(study.corpus), _kept(study, store))
+            for row in options.stored_rows(output, [runs], workers, store):
+                study.enter(row)
     except KeyboardInterrupt:
         # Before raising: `Output` prints it, then exits 3.
         yield from map(_result, study.level_results())
         raise
     levels = tuple(study.level_results())
-    batch = backend is batched
     if output.style != "json" and not batch:
         output.found.walk(_failing_run(study, levels))
     if output.exhibits:
@@ -173,6 +189,17 @@ def _tried(
         if output.style != "json" or output.exhibits:
             shared.update(_shared(study, level))
         yield _result(level)
+
+
+def _kept(study: Conform, store: Store | None) -> StoredCampaign | None:
+    if store is None:
+        return None
+    campaign = msgspec.structs.replace(study.campaign, seed=0)  # it decides the order alone
+    mappers = campaign.load()
+    try:
+        return store.resumed(campaign, mappers, name=study.target, all_rows=True)
+    finally:
+        close(mappers)
 
 
 def _result(standing: LevelResult) -> Result[LevelResult]:

@@ -483,7 +483,8 @@ def stored_rows(
     """The rows of all campaigns; missing ones are made and kept in the store."""
     total = sum(campaign.total for campaign in campaigns)
     if store is not None:
-        output.timing["from_store"] = stored = sum(campaign.stored for campaign in campaigns)
+        stored = sum(campaign.stored for campaign in campaigns)
+        output.timing["from_store"] = output.timing.get("from_store", 0) + stored
         if stored:
             output.note(f"{stored} of {plural(total, 'run')} are in {store.path}")
     try:
