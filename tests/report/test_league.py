@@ -73,7 +73,7 @@ def test_a_short_axis_has_values_beside_it_as_well(
 def test_a_page_holds_it_and_letters_leave_it_out(league: League) -> None:
     block = PictureBlock(picture(league), 'the "plot"')
     (figure,) = blocks_as_html([block])
-    assert figure.startswith('<figure><img alt="the &quot;plot&quot;" src="data:image/svg+xml')
+    assert figure.startswith('<figure class="chart"><img alt="the &quot;plot&quot;" src="data:')
     assert markdown([Text("a"), block, Text("b")]) == "a\n\nb\n"
 
 

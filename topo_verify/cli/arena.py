@@ -265,8 +265,8 @@ def _add_timing(output: Output, league: League, table: Sequence[LeagueEntry]) ->
     time, memory = defaultdict[str, Any](dict), defaultdict[str, Any](dict)
     for entry in table:
         if entry.place is not None:
-            time[entry.suite][entry.mapper] = entry.ms_per_move
-            memory[entry.suite][entry.mapper] = league.memory(entry)
+            time[entry.suite][entry.name] = entry.ms_per_move
+            memory[entry.suite][entry.name] = league.memory(entry)
     output.timing.update(ms_per_move=dict(time), memory_mib=dict(memory))
 
 
@@ -319,11 +319,16 @@ def _account(
     broken = {entry.name for entry in table if entry.counterexample is not None}
     runs, planned = sum(e.worlds for e in table), sum(e.total for e in table)
     verdict: Verdict = "UNKNOWN" if runs < planned else "EXHAUSTED" if exact else "SAMPLED"
-    judged = acc.JudgedExtent(verdict, acc.counted(runs, planned, "runs"))
+    first: dict[str, list[str]] = {}
+    for entry in table:
+        if entry.place == 1:
+            first.setdefault(entry.suite, []).append(entry.name)
+    words = acc.counted(runs, planned, "runs")
     if broken:
+        verdict = "REFUTED"
         words = acc.counted(len(broken), len(mappers), "mappers break a claim")
-        words += f"; the others, by cost: {', '.join(m for m in mappers if m not in broken)}"
-        judged = acc.JudgedExtent("REFUTED", words)
+    words += "".join(f"; first in {suite}: {' = '.join(names)}" for suite, names in first.items())
+    judged = acc.JudgedExtent(verdict, words)
     return acc.Account(
         mappers[0] if len(mappers) == 1 else plural(len(mappers), "mapper"),
         judged,

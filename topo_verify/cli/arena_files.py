@@ -150,7 +150,7 @@ def _families(suite: Suite, ranked: Sequence[lg.LeagueEntry]) -> TextTable:
             suite.families, *(entry.families for entry in ranked), strict=True
         )
     ]
-    columns = ("family", ">edges", *(f">{entry.name}" for entry in ranked))
+    columns = ("family", ">mean edges", *(f">{entry.name}" for entry in ranked))
     return TextTable(columns, rows, f"{suite.name}: cost/LB by family")
 
 

@@ -90,7 +90,7 @@ def _html(block: bl.Block) -> str:  # noqa: PLR0911  one for each kind of block
         case bl.View():
             return _lines(block.lines(bl.WIDTH))
         case bl.PictureBlock(svg, alt):
-            return f"<figure>{picture(svg, alt)}</figure>"
+            return f'<figure class="chart">{picture(svg, alt)}</figure>'
         case bl.TextTable():
             return _table(block)
 
@@ -126,8 +126,6 @@ def _table(table: bl.TextTable) -> str:
 
 def _cell(cell: str | bl.Cell, title: str, right: bool) -> str:  # noqa: FBT001  given by map
     tone, text = bl.cell_tone(cell), xml_text(bl.cell_text(cell))
-    if tone:
-        return f'<td class="{tone}">{text}</td>'
-    if right:
-        return f'<td class="number" data-title="{title}">{text}</td>'
-    return f'<td class="say">{text}</td>' if len(text) > LONG_CELL else f"<td>{text}</td>"
+    kind = tone or ("number" if right else "say" if len(text) > LONG_CELL else "")
+    named = f' class="{kind}"' if kind else ""
+    return f'<td{named} data-title="{title}">{text}</td>'

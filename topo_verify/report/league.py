@@ -98,23 +98,22 @@ def ratio_plot(suite: Suite, ranked: Sequence[LeagueEntry], ratios: Mapping[str,
         ranked: the entries with a place, at least one.
         ratios: of each of these mappers.
     """
-    order = sorted(range(len(suite.families)), key=lambda at: ranked[0].families[at].edges)
-    band = max(BAND, WIDE / len(order))
+    band = max(BAND, WIDE / len(suite.families))
     bottom = TOP + max(HIGH, LINE * len(ranked))
     frame = Frame(band, bottom, min(STEP, 0.8 * band / len(ranked)), len(ranked))
     values = [ratio for families in ratios.values() for family in families for ratio in family]
     values += [f.ratio.high for e in ranked for f in e.families if f.ratio.high is not None]
     y = Axis(min(1.0, *values) / 1.04, max(1.1, *values) * 1.08, bottom, TOP)
-    end = round(LEFT + band * len(order), 1)
+    end = round(LEFT + band * len(suite.families), 1)
     width, height = round(end) + RIGHT, bottom + BOTTOM
     card = PALETTE["card"].light
     parts = [f'<rect width="{width}" height="{height}" fill="{card}"/>']
-    parts += [*_frame(suite, y, end), *_names(ranked[0], order, frame)]
+    parts += [*_frame(suite, y, end), *_names(ranked[0], frame)]
     for number, entry in enumerate(ranked):
-        for place, family in enumerate(order):
+        for place, family in enumerate(entry.families):
             at = frame.column(place, number)
-            parts += _dots(ratios[entry.name][family], at, _colour(number), y)
-            parts += _mean(entry.families[family].ratio, at, number, y)
+            parts += _dots(ratios[entry.name][place], at, _colour(number), y)
+            parts += _mean(family.ratio, at, number, y)
         parts += _legend(entry, number, end)
     return with_dark_colours(
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}"'
@@ -145,13 +144,12 @@ def _frame(suite: Suite, y: Axis, end: float) -> Iterator[str]:
     yield _text(18, middle, "cost / LB", soft=True, more=turn)
 
 
-def _names(entry: LeagueEntry, order: Sequence[int], frame: Frame) -> Iterator[str]:
+def _names(entry: LeagueEntry, frame: Frame) -> Iterator[str]:
     line, bottom = PALETTE["line"].light, frame.bottom
-    for place, number in enumerate(order):
+    for place, family in enumerate(entry.families):
         if place:
             at = round(LEFT + frame.band * place, 1)
             yield f'<path d="M {at} {TOP} V {bottom}" stroke="{line}"/>'
-        family = entry.families[number]
         at = round(LEFT + frame.band * (place + 0.5), 1)
         turn = f' font-size="11" transform="rotate(20 {at} {bottom + 16})"'
         words = f"{_short(family.family)}: {family.edges:.0f} edges"
