@@ -109,8 +109,8 @@ static long find_way(long dart, const Place *tree) {
   return length;
 }
 
-static Percept go(long door) {
-  printf("{\"type\":\"move\",\"door\":%ld}\n", mod(door, here.degree));
+static Percept go(long door, const char *purpose) { /* the purpose is for pictures of the run */
+  printf("{\"type\":\"move\",\"door\":%ld,\"purpose\":\"%s\"}\n", mod(door, here.degree), purpose);
   fflush(stdout);
   if (!hear()) exit(1);
   cost += 1;
@@ -133,7 +133,7 @@ static long validate(long e, Percept seen, long hypotheses, long *turned) {
     long h = list[i], length = find_way(h, home), step = 0;
     Percept now = seen;
     while (same(now, looks[arrivals[step]]) && step < length) {
-      now = go(doors[step++] - *turned);
+      now = go(doors[step++] - *turned, "validate");
       *turned = 0;
     }
     printf("{\"type\":\"declare\",\"event\":{\"edge\":%ld,\"hypothesis\":%ld,\"rule\":\"motion\",", e, h);
@@ -145,7 +145,7 @@ static long validate(long e, Percept seen, long hypotheses, long *turned) {
     say_percept("expected", looks[arrivals[step]]), putchar(',');
     say_percept("observed", now), printf("}}}\n");
     for (; step > 0; step--) {
-      go(-*turned);
+      go(-*turned, "retrace");
 #ifdef WRONG
       *turned = step > 1 ? doors[step - 1] : 0;
 #else
@@ -171,8 +171,8 @@ static long explore_edge(long e, long at) {
   open_dart[e] = 0;
   grow_tree(vertex[e], towards);
   length = find_way(at, towards);
-  for (long i = 0; i < length; i++) go(doors[i]);
-  Percept seen = go(e - arrivals[length]);
+  for (long i = 0; i < length; i++) go(doors[i], "walk");
+  Percept seen = go(e - arrivals[length], "cross");
 
   grow_tree(0, home);
   for (long h = 0; h < darts; h++)

@@ -83,8 +83,8 @@ function explore(start) {
     return { doors, arrivals };
   }
 
-  function go(door) {
-    say({ type: "move", door: mod(door, percept.degree) });
+  function go(door, purpose) { // the purpose is for pictures of the run
+    say({ type: "move", door: mod(door, percept.degree), purpose });
     const { degree, marker } = hear();
     cost += 1;
     percept = { degree, marker };
@@ -101,8 +101,8 @@ function explore(start) {
     const declare = (type, fields) => say({ type: "declare", event: { type, edge: e, ...fields } });
     unexplored.delete(e);
     const walk = way(at, tree(vertex[e]));
-    walk.doors.forEach(go);
-    const seen = go(e - walk.arrivals[walk.arrivals.length - 1]);
+    for (const door of walk.doors) go(door, "walk");
+    const seen = go(e - walk.arrivals[walk.arrivals.length - 1], "cross");
     const looksAlike = alikeTo(seen);
     const hypotheses = first([...unexplored].filter((h) => looksAlike(looks[h])), home);
     declare("pose", { hypotheses });
@@ -112,7 +112,7 @@ function explore(start) {
       const { doors, arrivals } = way(h, home);
       let now = seen, step = 0;
       for (; same(now, looks[arrivals[step]]) && step < doors.length; step++) {
-        now = go(doors[step] - turned);
+        now = go(doors[step] - turned, "validate");
         turned = 0;
       }
       const expected = looks[arrivals[step]];
@@ -124,7 +124,7 @@ function explore(start) {
       const evidence = { step, expected, observed: now };
       declare("reject", { hypothesis: h, rule: "motion", evidence });
       for (const door of doors.slice(0, step).reverse()) {
-        go(-turned);
+        go(-turned, "retrace");
         turned = door;
       }
     }

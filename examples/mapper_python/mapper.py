@@ -36,8 +36,8 @@ def explore(robot):  # noqa: C901, PLR0915  one listing, one function
             arrivals.append(dart := alpha[out])
         return doors, arrivals
 
-    def go(door):
-        moves.append(robot.move(door % robot.percept.degree))
+    def go(door, purpose):  # the purpose is for pictures of the run
+        moves.append(robot.move(door % robot.percept.degree, purpose))
         return {"degree": moves[-1].degree, "marker": moves[-1].marker}
 
     def say(event, **fields):
@@ -51,8 +51,9 @@ def explore(robot):  # noqa: C901, PLR0915  one listing, one function
         e = min(unexplored, key=lambda dart: (near[vertex[dart]][0], dart))
         unexplored.remove(e)
         doors, arrivals = way(at, tree(vertex[e]))
-        for door in [*doors, e - arrivals[-1]]:
-            seen = go(door)
+        for door in doors:
+            go(door, "walk")
+        seen = go(e - arrivals[-1], "cross")
         here = (seen["degree"], seen["marker"] is None)
         alike = [h for h in unexplored if (looks[h]["degree"], looks[h]["marker"] is None) == here]
         alike.sort(key=lambda h: (home[vertex[h]][0], h))
@@ -62,7 +63,7 @@ def explore(robot):  # noqa: C901, PLR0915  one listing, one function
             doors, arrivals = way(h, home)
             step, now = 0, seen
             while now == looks[arrivals[step]] and step < len(doors):
-                now, turned, step = go(doors[step] - turned), 0, step + 1
+                now, turned, step = go(doors[step] - turned, "validate"), 0, step + 1
             if now == looks[arrivals[step]]:
                 say("confirm", hypothesis=h, rule="motion")
                 entry = h
@@ -70,7 +71,7 @@ def explore(robot):  # noqa: C901, PLR0915  one listing, one function
             why = {"step": step, "expected": looks[arrivals[step]], "observed": now}
             say("reject", hypothesis=h, rule="motion", evidence=why)
             for door in reversed(doors[:step]):
-                go(-turned)
+                go(-turned, "retrace")
                 turned = door
         kind = "new" if entry is None else "loop"
         entry = add_vertex(seen) if entry is None else entry
