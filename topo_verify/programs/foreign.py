@@ -69,6 +69,10 @@ def _decoded(line: bytes) -> ms.FromChild:
     raise Misbehaved("bad-declaration", f"{EXPECTED}: {words}")
 
 
+_MEMORY_SIGNALS = ("SIGSEGV", "SIGBUS", "SIGABRT")
+"""Signals that end a library which wrote out of place."""
+
+
 class Unlisted(InputError):
     """A mapper's process does not say what it has loaded, though it has played."""
 
@@ -140,6 +144,8 @@ class Foreign(Program):
             if isinstance(robot, SimulatedRobot):
                 moves = f"after {robot.cost} move{'s' * (robot.cost != 1)}"
                 words = words.replace(" before it", f" {moves}, before it", 1)
+            if why.signal in _MEMORY_SIGNALS and not path.endswith(".py"):
+                words += "; -fsanitize=address names the line: docs/tutorials/native.md"
             raise Misbehaved(why.kind, words, signal=why.signal) from None
 
     def _unwound(self) -> bool:
