@@ -66,6 +66,20 @@ def test_each_of_several_mappers_has_its_own_entries(results: Results) -> None:
     assert found["results"][-1]["cost"] == {"mapper": 982, "reference": 1468, "ratio": 0.6689}
 
 
+def test_each_of_several_algorithms_is_compared(call: Call, results: Results) -> None:
+    line = "conform basic --like enhancement-ii,basic --worlds m4/41 --workers 0 --store runs.db"
+    found = results(line, code=1)["results"]
+    decisions = [entry for entry in found if entry["level"] == "decisions"]
+    assert [(entry["like"], entry["verdict"]) for entry in decisions] == [
+        ("enhancement-ii", "REFUTED"),
+        ("basic", "SAMPLED"),
+    ]
+    assert "--like enhancement-ii" in decisions[0]["findings"][0]["replay"].split(" --worlds")[0]
+    text = call(line).stdout
+    assert "basic, like enhancement-ii\n" in text
+    assert "\n\nbasic, like basic\n" in text
+
+
 def test_the_report_shows_where_two_runs_diverge(call: Call) -> None:
     done = call("conform basic --like enhancement-ii --worlds m4/41 --workers 0")
     assert done.exit_code == 1

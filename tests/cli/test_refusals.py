@@ -61,6 +61,7 @@ REFUSED = [
     ('conform --cmd "\'" --worlds m1/0', "quote"),
     ("conform basic --worlds nowhere", "no such world"),
     ("conform basic --like best", "no algorithm 'best'"),
+    ("conform basic --like basic,best", "no algorithm 'best'"),
     ("conform basic --batch --worlds m1/0", "expected a program, got basic"),
     ("conform basic --batch --store S --worlds m1/0", "expected --batch or --store, got both"),
     ("conform nothing --worlds m1/0", "no algorithm 'nothing'"),

@@ -7,6 +7,7 @@ import secrets
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import product
 
 import click
 import msgspec
@@ -63,7 +64,9 @@ def _seeds(_context: click.Context, _option: click.Parameter, value: str | None)
     "  [default: corpus]",
 )
 @click.option(
-    "--like", metavar="ALGORITHM", help="Compare every event with this algorithm of the catalogue."
+    "--like",
+    metavar="ALGORITHM",
+    help="Compare every event with this algorithm of the catalogue; several with commas.",
 )
 @options.policies
 @click.option("--batch", is_flag=True, help="The program reads worlds and writes runs.")
@@ -109,7 +112,7 @@ def conform(
     def standings() -> Iterator[Result[LevelResult]]:
         corpus = corpus_from(texts, seed=seed)
         usual = Asked()
-        asked = Asked(like or "", pick or usual.pick, order or usual.order, transcript or "")
+        likes = each_text(like) if like else ("",)
         number = processors() if workers is None else workers
         if batch and store is not None:
             raise InputError("expected --batch or --store, got both: leave one out")
@@ -121,20 +124,23 @@ def conform(
             words = "give it to --seed for the same order of the worlds"
             output.note(f"seed {seed}:{order_seed}: {words}")
         flags = dict(batch=batch, validate=validate, strict=strict, in_process=mappers.in_process)  # noqa: C408
+        studies: list[Conform] = []  # all are made before any works, to refuse a wrong name
+        for text, name in product(_texts(mappers.texts[0]), dict.fromkeys(likes)):
+            campaign = Campaign(
+                worlds=ListedWorlds(corpus.total),
+                mappers=(text,),
+                limits=limits,
+                strict=strict,
+                validate=validate,
+                in_process=mappers.in_process,
+                seed=order_seed,
+                drawn=not batch,  # it gets the worlds in their order
+            )
+            again = _replay_command(text, name, (pick, order), flags, limits)
+            asked = Asked(name, pick or usual.pick, order or usual.order, transcript or "")
+            studies.append(Conform(campaign, corpus, asked, again))
         with options.opened(store) as file:
-            for text in _texts(mappers.texts[0]):
-                campaign = Campaign(
-                    worlds=ListedWorlds(corpus.total),
-                    mappers=(text,),
-                    limits=limits,
-                    strict=strict,
-                    validate=validate,
-                    in_process=mappers.in_process,
-                    seed=order_seed,
-                    drawn=not batch,  # it gets the worlds in their order
-                )
-                again = _replay_command(text, like, (pick, order), flags, limits)
-                study = Conform(campaign, corpus, asked, again)
+            for study in studies:
                 yield from _tried(output, study, None if batch else number, file, shared)
 
     shared: dict[str, Playback] = {}
@@ -197,7 +203,8 @@ def _kept(study: Conform, store: Store | None) -> StoredCampaign | None:
     campaign = msgspec.structs.replace(study.campaign, seed=0)  # it decides the order alone
     mappers = campaign.load()
     try:
-        return store.resumed(campaign, mappers, name=study.target, all_rows=True)
+        name = f"{study.target}, like {study.asked.like}"
+        return store.resumed(campaign, mappers, name=name, all_rows=True)
     finally:
         close(mappers)
 
@@ -209,14 +216,14 @@ def _result(standing: LevelResult) -> Result[LevelResult]:
 
 def _replay_command(
     target: str,
-    like: str | None,
+    like: str,
     policies: tuple[str | None, str | None],
     flags: Mapping[str, bool],
     limits: Limits,
 ) -> tuple[str, ...]:
     words = ["topo-verify", "conform", *target_arguments(target)]
     pick, order = policies
-    for name, value in (("--like", like), ("--pick", pick), ("--order", order)):
+    for name, value in (("--like", like or None), ("--pick", pick), ("--order", order)):
         words += [name, value] if value is not None else []
     words += [f"--{name.replace('_', '-')}" for name, given in flags.items() if given]
     return (*words, *limits.options)
@@ -228,9 +235,17 @@ def _replay_command(
 def _show(
     entries: Sequence[LevelResult], shared: Mapping[str, Playback], chosen: str
 ) -> Iterator[Block]:
-    for target in dict.fromkeys(entry.target for entry in entries):
-        of_target = [entry for entry in entries if entry.target == target]
-        yield from _shown(of_target, shared, chosen)
+    for number, levels in enumerate(_by_study(entries).values()):
+        if number:
+            yield Text("")
+        yield from _shown(levels, shared, chosen)
+
+
+def _by_study(entries: Sequence[LevelResult]) -> dict[tuple[str, str], list[LevelResult]]:
+    studies: dict[tuple[str, str], list[LevelResult]] = {}
+    for entry in entries:
+        studies.setdefault((entry.target, entry.like), []).append(entry)
+    return studies
 
 
 _COLUMNS = ("level", "verdict", ">passed", ">failed", ">not decided", ">of worlds")
@@ -349,7 +364,11 @@ def _account(levels: Sequence[LevelResult]) -> acc.Account:
     words = acc.counted(passed, total, f"{acc.worlds(total)} conform")
     if verdict == "REFUTED":
         words = acc.counted(failed, total, f"{acc.worlds(total)} fail")
-    suites = ((name, _cases([level for level in levels if level.target == name])) for name in names)
+    several = len({level.like for level in levels}) > 1
+    suites = (
+        (f"{target}, like {like}" if several else target, _cases(of_study))
+        for (target, like), of_study in _by_study(levels).items()
+    )
     extent = acc.JudgedExtent(verdict, words)
     return acc.Account(", ".join(names), extent, acc.suites(suites))
 
@@ -387,13 +406,14 @@ def _exhibits(
     if not first:
         return
     worlds = {at.name: at.world for at in study.corpus if at.name in first}
+    target = study.target + (f", like {study.asked.like}" if study.asked.like else "")
     for number, (name, findings) in enumerate(first.items()):
         played: tuple[PlayedRun, ...] = ()
         if not batch and number < runs.MOST_EXHIBITS:
             played = tuple(_runs_in(study.campaign, worlds[name], findings))
         notes = dict.fromkeys(f"{other.kind}: {other.message}" for other in findings)
         yield acc.Exhibit(
-            title=runs.target_title(study.target, name),
+            title=runs.target_title(target, name),
             world=worlds[name],
             name=name,
             notes=tuple(notes),
