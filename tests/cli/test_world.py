@@ -26,7 +26,8 @@ def test_show_has_the_promised_fields(results: Results) -> None:
     del entry["source"], entry["licence"]
     assert entry == {
         "name": "m3/14", "id": "m3/14", "vertices": 3, "edges": 3, "faces": 2, "genus": 0,
-        "degrees": [2, 3, 1], "simple": False, "loopless": True, "planar": True, "marker": 0,
+        "degrees": [2, 3, 1], "simple": False, "loopless": True, "planar": True, "dual": "m3/19",
+        "automorphisms": 1, "marker": 0,
         "least_cost": 4, "rotation": [[0, 1], [2, 3, 4], [5]],
         "edge_darts": [[0, 2], [1, 3], [4, 5]], "vertex_names": [], "twin": None,
     }  # fmt: skip
@@ -58,7 +59,7 @@ vertex  name     darts clockwise  to darts  at vertices
 
 
 def test_show_says_one_edge_traversal(call: Call) -> None:
-    assert "least cost  1 edge traversal\n" in call("world show m1/0").stdout
+    assert "least cost     1 edge traversal\n" in call("world show m1/0").stdout
 
 
 def test_a_world_too_large_for_an_id_has_none_and_its_darts_are_in_json(
@@ -75,9 +76,9 @@ def test_a_world_too_large_for_an_id_has_none_and_its_darts_are_in_json(
 def test_show_for_people_tells_degrees_marker_and_licence(call: Call) -> None:
     text = call("world show nyc m0/0").stdout
     assert "2 of degree 1, 9 of degree 2, 14 of degree 3, 21 of degree 4" in text
-    assert "planar      yes" in text
+    assert "planar         yes" in text
     assert "OpenStreetMap" in text
-    assert "marker      none" in text
+    assert "marker         none" in text
 
 
 def test_convert_writes_what_can_be_read_again(call: Call, folder: Path) -> None:
@@ -174,6 +175,19 @@ def test_list_has_every_world_of_the_class_in_order(call: Call, results: Results
     worlds = list(tv.worlds(edges=3, cls="planar"))
     assert entries == [{"id": w.id, "edges": 3, "class": "planar"} for w in worlds]
     assert call("world list --edges 3 --class planar").stdout.split() == [w.id for w in worlds]
+
+
+def test_list_unrooted_has_the_first_world_of_each_map_without_its_marker(call: Call) -> None:
+    found = [
+        tv.World.from_id(name) for name in call("world list --edges 3 --unrooted").stdout.split()
+    ]
+    every = [w.with_marker(dart) for w in found for dart in range(6)]
+    assert {w.id for w in every} == {w.id for w in tv.worlds(3)}
+    assert len(found) == 20
+    assert call("world list --edges 60 --class planar -n 2 --unrooted").stdout.split() == [
+        "m60/0",
+        "m60/1",
+    ]
 
 
 def test_list_prints_each_world_as_it_is_found(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:

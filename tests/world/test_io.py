@@ -33,10 +33,23 @@ FILES = {
 }
 
 
-@pytest.mark.parametrize("name", ["w.pc", "w.PLC", "w.graphml", "w.net.xml", "w.nx.json"])
-def test_world_json_is_not_saved_under_a_name_of_another_format(name: str, tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"expected a name for world JSON, as w\.json, got one"):
-        families.path(2).save(tmp_path / name)
+@pytest.mark.parametrize("name", ["w", "w.json", "w.pc", "w.PLC", "w.graphml", "w.nx.json"])
+def test_a_world_is_saved_in_the_format_of_the_name(name: str, tmp_path: Path) -> None:
+    world = families.path(2)
+    world.save(tmp_path / name)
+    assert World.load(tmp_path / name) == world
+    assert (
+        (tmp_path / name)
+        .read_bytes()
+        .startswith({"w.PLC": b">>", "w.graphml": b"<?"}.get(name, b""))
+    )
+
+
+def test_a_format_that_is_only_read_is_named_with_those_that_are_written(tmp_path: Path) -> None:
+    with pytest.raises(
+        InputError, match=r"w\.net\.xml: sumo is read and not written: let the name"
+    ):
+        families.path(2).save(tmp_path / "w.net.xml")
     assert not [*tmp_path.iterdir()]
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 import topo_verify as tv
+from topo_verify import families
 from topo_verify.world.enumeration.classes import WorldClass
-from topo_verify.world.unrooted import unrooted_count
+from topo_verify.world.unrooted import automorphisms, unrooted_count
 
 
 def test_the_formula_gives_the_published_numbers() -> None:
@@ -39,6 +40,15 @@ def test_worlds_of_other_classes_are_counted_from_their_list() -> None:
     """Unrooted maps on the torus: OEIS A006386."""
     counts = [unrooted_count(m, WorldClass.parse("genus:1")) for m in range(2, 7)]
     assert counts == [1, 6, 46, 452, 4852]
+
+
+def test_the_automorphisms_of_the_platonic_solids_are_their_rotations() -> None:
+    solids = [families.tetrahedron(), families.cube(), families.dodecahedron()]
+    assert [automorphisms(world) for world in solids] == [12, 24, 60]
+    assert automorphisms(tv.World((), (), None)) == 1
+    for edges in (1, 2, 3, 4):  # the roots of a map are its darts up to automorphism
+        sizes = [2 * edges // automorphisms(world) for world in tv.worlds(edges)]
+        assert sum(1 / size for size in sizes) == pytest.approx(unrooted_count(edges, WorldClass()))
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
 from random import Random
 from typing import Any
@@ -23,19 +23,11 @@ from topo_verify.world import unrooted
 from topo_verify.world.enumeration import pruned
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.pruned import ranked_tables
-from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES, Table
-from topo_verify.world.formats import files, graphml, node_link, planar_code
-from topo_verify.world.io import format_of_name
+from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
+from topo_verify.world.formats import files
+from topo_verify.world.io import WRITTEN, encoded, format_of_name, written_format
 from topo_verify.world.rooted_map import Dart, World
 from topo_verify.world.twins import MODELS, MarkerModel
-
-FORMATS: dict[str, tuple[Callable[[World], str | bytes], str]] = {
-    "json": (World.to_json, ".json"),
-    "planar_code": (planar_code.encode, ".pc"),
-    "graphml": (graphml.encode, ".graphml"),
-    "nx-json": (node_link.encode, ".nx.json"),
-}
-"""The encoder of each format of `convert --to`, and the ending of its files."""
 
 
 class _Commands(click.Group):
@@ -64,6 +56,8 @@ class ShowEntry(msgspec.Struct, frozen=True):
         edge_darts: `edges` of the world file.
         degrees: of the vertices.
         simple, loopless, planar: whether the world is in this class.
+        dual: its id; null beyond 200 edges.
+        automorphisms: of the map without its marker that keep its orientation; null beyond 200.
         source, licence, vertex_names: of the world's file; may be empty.
         twin: with --twin.
     """
@@ -78,6 +72,8 @@ class ShowEntry(msgspec.Struct, frozen=True):
     simple: bool
     loopless: bool
     planar: bool
+    dual: str | None
+    automorphisms: int | None
     marker: int | None
     least_cost: int
     source: str
@@ -139,6 +135,8 @@ def _shown(at: NamedWorld, twin: TwinEntry | None) -> ShowEntry:
         simple=world.is_simple,
         loopless=world.is_loopless,
         planar=world.is_planar,
+        dual=_id(world.dual()),
+        automorphisms=unrooted.automorphisms(world) if _id(world) else None,
         least_cost=world.least_cost(),
         rotation=world.vertices,
         edge_darts=world.edges,
@@ -203,7 +201,7 @@ class ConvertEntry(msgspec.Struct, frozen=True):
 @click.argument("world", metavar="WORLD")
 @click.option(
     "--to",
-    type=click.Choice([*FORMATS]),
+    type=click.Choice([*WRITTEN]),
     help="The format.  [default: what the name of FILE says, else json]",
 )
 @click.option(
@@ -214,20 +212,13 @@ def convert(output: Output, *, world: str, to: str | None, file: str, marker: in
     """Write a world in another format."""
 
     def converted() -> Iterator[Result[ConvertEntry]]:
-        named = "json" if file == "-" else format_of_name(file)
-        kind = named if to is None else to
-        if kind not in FORMATS:
-            endings = ", ".join(ending for _, ending in FORMATS.values())
-            raise InputError(
-                f"-o {file}: {kind} is read and not written: let the name end in one of {endings}"
-            )
+        kind = to or ("json" if file == "-" else written_format(file))
         at = named_world(world, marker)
-        encode, ending = FORMATS[kind]
-        content = encode(at.world)
+        content = encoded(at.world, kind)
         if file != "-":
             files.write(file, content + "\n" if isinstance(content, str) else content)
-            if kind != named:
-                output.note(f"{file}: to read it again, let its name end in {ending}")
+            if kind != format_of_name(file):
+                output.note(f"{file}: to read it again, let its name end in {WRITTEN[kind]}")
             yield Result(ConvertEntry(at.name, kind, file, None))
         elif isinstance(content, str):
             yield Result(ConvertEntry(at.name, kind, None, content))
@@ -343,13 +334,21 @@ class ListEntry(msgspec.Struct, frozen=True):
 @options.number(
     "-n", "number", least=1, most=MOST_LISTED, meaning="The first N worlds only.  [default: all]"
 )
-def list_worlds(output: Output, *, edges: int, kind: str, number: int | None) -> int:
+@click.option(
+    "--unrooted",
+    "unmarked",
+    is_flag=True,
+    help="Of worlds that differ in the marker alone, the first only.",
+)
+def list_worlds(
+    output: Output, *, edges: int, kind: str, number: int | None, unmarked: bool
+) -> int:
     """List the ids of all worlds with N edges, one a line."""
     worlds = WorldClass.parse(kind)
-    first = _first(worlds, edges, number)
+    first = _first(worlds, edges, number, unmarked=unmarked)
 
     def listed() -> Iterator[Result[ListEntry]]:
-        for rank, _ in first:
+        for rank in first:
             yield Result(ListEntry(id=f"m{edges}/{rank}", edges=edges, kind=str(worlds)))
 
     return output.run(
@@ -357,7 +356,7 @@ def list_worlds(output: Output, *, edges: int, kind: str, number: int | None) ->
     )
 
 
-def _first(worlds: WorldClass, edges: int, number: int | None) -> Iterator[tuple[int, Table]]:
+def _first(worlds: WorldClass, edges: int, number: int | None, *, unmarked: bool) -> Iterator[int]:
     if number is None:
         mend = "or name the first of them with -n N"
         try:
@@ -369,7 +368,8 @@ def _first(worlds: WorldClass, edges: int, number: int | None) -> Iterator[tuple
                 f"world list: expected at most {MOST_LISTED:,} worlds, got {total:,} of class"
                 f" {worlds} with {edges} edges: ask for fewer edges or a narrower class, {mend}"
             )
-    return islice(ranked_tables(edges, worlds), number)
+    every = (rank for rank, _ in ranked_tables(edges, worlds))
+    return islice(unrooted.ranks(edges, worlds) if unmarked else every, number)
 
 
 def _ids(entries: Iterable[ListEntry]) -> Iterator[Block]:

@@ -31,6 +31,9 @@ _ENDINGS = {
     ".nx.json": "nx-json",
 }
 
+WRITTEN = {"json": ".json", "planar_code": ".pc", "graphml": ".graphml", "nx-json": ".nx.json"}
+"""The formats that are written, each with the end of its files' names."""
+
 
 def format_of_name(path: str | PathLike[str]) -> str:
     """The format that the file's name stands for. InputError: it is a picture's."""
@@ -41,6 +44,16 @@ def format_of_name(path: str | PathLike[str]) -> str:
             " made by topo-verify world draw, and by certify --draw"
         )
     return next((kind for ending, kind in _ENDINGS.items() if name.endswith(ending)), "json")
+
+
+def written_format(path: str | PathLike[str]) -> str:
+    """The same. InputError: it is read and not written."""
+    if (kind := format_of_name(path)) not in WRITTEN:
+        endings = ", ".join(WRITTEN.values())
+        raise InputError(
+            f"{shown(path)}: {kind} is read and not written: let the name end in one of {endings}"
+        )
+    return kind
 
 
 def load(cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -> W:
@@ -83,19 +96,31 @@ def encode(world: World) -> str:
 
 
 def save(world: World, path: str | PathLike[str]) -> None:
-    """Write world JSON to the file, whole or not at all.
+    """Write the world to the file, whole or not at all, in the format of its name.
 
     Raises:
-        InputError: the file cannot be written, or its name says another format.
+        InputError: the file cannot be written, the world has no such format, or the format is only
+            read.
     """
-    from topo_verify.world.formats import files, world_json
+    from topo_verify.world.formats import files
 
-    if (kind := format_of_name(path)) != "json":
-        raise InputError(
-            f"{shown(path)}: expected a name for world JSON, as w.json, got one that is read as"
-            f" {kind}: name another file, or use topo-verify world convert"
-        )
-    files.write(path, world_json.encode(world) + "\n")
+    content = encoded(world, written_format(path))
+    files.write(path, content + "\n" if isinstance(content, str) else content)
+
+
+def encoded(world: World, kind: str) -> str | bytes:
+    """The world in a format of `WRITTEN`."""
+    from topo_verify.world.formats import graphml, node_link, planar_code, world_json
+
+    match kind:
+        case "planar_code":
+            return planar_code.encode(world)
+        case "graphml":
+            return graphml.encode(world)
+        case "nx-json":
+            return node_link.encode(world)
+        case _:
+            return world_json.encode(world)
 
 
 def notebook(world: World) -> str:

@@ -173,7 +173,7 @@ class World:
         return self.formats.encode(self)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write world JSON, whole or not at all."""
+        """Write the file, whole or not at all; its name says the format, as for `load`."""
         self.formats.save(self, path)
 
     @cached_property

@@ -16,6 +16,7 @@ an edge (V. A. Liskovets, "Enumeration of nonisomorphic planar maps", 1981).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cache
 from math import comb, factorial, gcd
 
@@ -47,14 +48,23 @@ def unrooted_count(edges: int, kind: WorldClass) -> int | None:
             return None
     except InputError:
         return None
-    codes: set[Code] = set()  # of all maps that were counted, with each marker
-    number = 0
-    for _, code in ranked_tables(edges, kind):
+    return sum(1 for _ in ranks(edges, kind))
+
+
+def ranks(edges: int, kind: WorldClass) -> Iterator[int]:
+    """The first rank of each unrooted map in a class, ascending."""
+    codes: set[Code] = set()  # of all maps that were met, with each marker
+    for rank, code in ranked_tables(edges, kind):
         if code not in codes:
-            number += 1
+            yield rank
             world = World.from_code(code)
             codes.update(world.with_marker(dart).code for dart in range(2 * edges))
-    return number
+
+
+def automorphisms(world: World) -> int:
+    """The number of automorphisms of the map without its marker. O(m²)."""
+    darts = range(len(world.alpha))
+    return sum(world.with_marker(dart).code == world.code for dart in darts) or 1
 
 
 def _planar(edges: int) -> int:
