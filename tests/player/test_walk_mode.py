@@ -248,3 +248,9 @@ def test_it_fits(show: Open, text: str, width: int, height: int) -> None:
         box = page.locator(f'#walk .says [data-key="{name}"]').bounding_box()
         assert box is not None
         assert box["y"] + box["height"] <= height
+
+
+def test_on_a_phone_the_verdict_begins_with_its_headline(show: Open) -> None:
+    page = show(page_of(families.path(14), "basic"), at="#walk", width=360, height=740)
+    keys(page, "0 n" + " 1 n" * 12 + " Enter")
+    assert page.evaluate("document.querySelector('#walk .says').scrollTop") == 0

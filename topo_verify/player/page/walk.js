@@ -258,7 +258,7 @@ class WalkMode {
   end() {
     this.ended = { ...this.walk.judged(), other: null };
     this.show();
-    this.says.querySelector('button').focus();
+    this.says.querySelector('button').focus({ preventScroll: true }); // the headline stays in sight
   }
 
   /** What was right, what followed, what was luck: in words and in both pictures. */
