@@ -242,6 +242,14 @@ def test_what_it_prints_is_marked_on_our_standard_error(capfd: pytest.CaptureFix
     assert set(err.splitlines()) == marked
 
 
+def test_a_fatal_error_is_copied_once(capfd: pytest.CaptureFixture[str], folder: Path) -> None:
+    (folder / "once.py").write_text(MAPPERS)
+    for _ in range(2):
+        with Foreign("once.py:crashes") as mapper:
+            assert explore(WORLD, mapper.target).misbehaved
+    assert capfd.readouterr().err.count("Fatal Python error: ") == 1
+
+
 def test_loaded_names_the_files_that_it_imported_and_read(folder: Path) -> None:
     (folder / "data.txt").write_text("1")
     (folder / "helper.py").write_text("")

@@ -113,12 +113,19 @@ def exit_status(process: int) -> ExitStatus | None:
 TAIL = 4096
 """Last bytes of standard error that are kept."""
 
+FATAL = b"Fatal Python error: "
+"""Begins the stack that faulthandler writes when a signal ends a mapper."""
+
+_fatal_shown: set[str] = set()
+"""The marks of mappers whose fatal error was copied by this process; later ones are not."""
+
 
 class StandardError:
     """The standard error of a program: its end, and its length.
 
     Args:
-        mark: copy it to ours, each line behind this mark; None: do not.
+        mark: copy it to ours, each line behind this mark; None: do not. Of a mapper's fatal
+            errors, a process copies the first alone: every world may have one.
     """
 
     def __init__(self, mark: str | None) -> None:
@@ -141,6 +148,11 @@ class StandardError:
         if self._rest and (not chunk or len(self._rest) > TAIL):
             lines, self._rest = [*lines, self._rest], b""
         for line in lines:
+            if line.startswith(FATAL):
+                if self._mark in _fatal_shown:
+                    self._mark = None
+                    return
+                _fatal_shown.add(self._mark)
             with suppress(OSError, ValueError):
                 text = shown(line.decode(errors="backslashreplace"), limit=TAIL)
                 sys.stderr.write(f"{self._mark}: {text}\n")
