@@ -273,8 +273,19 @@ def test_mappers_have_names_in_the_tables(call: Call, refused: Refused) -> None:
     shown = call(f"{line} --name 'basic=Team A' --name folding=B").stdout
     assert "Team A" in shown
     assert "basic " not in shown.replace("--target basic ", "")
+    call(f"{line} --name 'basic=Team A' --out here")
+    timing = json.loads(Path("here/timing.json").read_text())
+    assert {row["name"] for row in timing} == {"Team A", "folding"}
+    limits = "moves, the bound of claim 7; 5 s without a move, 60 s in all"
+    assert limits in " ".join(Path("here/report.html").read_text().split())
     refused(f"{line} --name other=B", "expected TARGET=NAME with one of basic, folding")
     refused(f"{line} --name basic=folding", "two mappers have one name")
+
+
+def test_a_program_that_cannot_start_is_refused_before_the_first_run(refused: Refused) -> None:
+    line = "arena basic --cmd ./missing --suite triangle --out here"
+    refused(line, "--cmd: cannot start './missing': no such program")
+    assert not Path("here").exists()
 
 
 def test_a_program_takes_part_over_the_pipe_and_pays_what_its_twin_pays(results: Results) -> None:

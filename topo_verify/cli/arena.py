@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
@@ -24,7 +25,7 @@ from topo_verify.errors import InputError, plural
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
-from topo_verify.programs.program import PREFIX
+from topo_verify.programs.program import PREFIX, split
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, PictureBlock, Text
 from topo_verify.robot.limits import Limits
@@ -173,6 +174,12 @@ def _asked(
         raise InputError(
             f"expected TARGETs in one way, got {texts[0]!r} and --target {named[0]}; leave one out"
         )
+    for program, *_ in map(split, commands):  # now, not after the runs of others
+        if shutil.which(program) is None:
+            raise InputError(
+                f"--cmd: cannot start {program!r}: no such program, or it is not executable; name a"
+                " program that can be run"
+            )
     asked = [*(texts or named), *(PREFIX + command for command in commands)]
     asked += [LIBRARY + library for library in libraries]
     if not asked:
@@ -285,7 +292,12 @@ def _show(
             yield Text("")
         yield files.standings(suite, table, league.seed, memory)
     if pictures:
-        yield Text(files.LEGEND)
+        limits = league.limits
+        moves = "the bound of claim 7" if limits.budget is None else limits.budget
+        yield Text(
+            f"{files.LEGEND} Limits of a run: moves, {moves}; {limits.move_timeout:g} s without a"
+            f" move, {limits.world_timeout:g} s in all."
+        )
     for remark in league.remarks:
         yield Text("")
         yield Text(remark)

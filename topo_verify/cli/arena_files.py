@@ -337,6 +337,7 @@ def _timing(league: lg.League, table: Sequence[lg.LeagueEntry]) -> str:
     rows = [
         {
             "mapper": entry.mapper,
+            "name": entry.name,
             "suite": entry.suite,
             "ms_per_move": entry.ms_per_move,
             "memory_mib": league.memory(entry),
