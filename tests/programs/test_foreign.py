@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
+from typing import NoReturn
 
 import pytest
 
@@ -15,7 +16,10 @@ from topo_verify import Limits, World, examine, explore
 from topo_verify.campaign.targets import one_target, targets
 from topo_verify.errors import InputError
 from topo_verify.programs.foreign import Foreign, Unlisted
+from topo_verify.programs.loader import Target
+from topo_verify.programs.misbehaviour import Misbehaved
 from topo_verify.programs.program import Program
+from topo_verify.robot.events import Robot
 
 WORLD = World.from_id("m3/14")
 
@@ -489,3 +493,19 @@ def test_its_process_ends_with_the_last_object_that_uses_it(folder: Path) -> Non
     assert alive(process)
     del target, study
     assert gone(process)
+
+
+class Babbling(Program):
+    """Writes no message of the protocol, and is at some line when it is read."""
+
+    def __call__(self, robot: Robot) -> NoReturn:
+        del robot
+        raise Misbehaved("malformed", "no message")
+
+    def line(self) -> str:
+        return "mine.py, line 3"
+
+
+def test_no_line_is_told_of_a_mapper_that_no_time_limit_stopped() -> None:
+    target = Target("babbling", Babbling([sys.executable]))
+    assert explore(World.from_id("m1/0"), target).stopped == "no message"

@@ -45,7 +45,7 @@ from topo_verify.robot.events import (
     Start,
     Trace,
 )
-from topo_verify.robot.limits import Limit, Limits, MapperStopped, within
+from topo_verify.robot.limits import Limit, Limits, MapperStopped, TimeLimitExceeded, within
 from topo_verify.robot.simulator import SimulatedRobot, first_percept
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.resolve import resolve_world
@@ -301,6 +301,8 @@ def _run(
     except MapperStopped as stop:
         if robot.stopped is not None:
             return None, str(robot.stopped), None, robot.stopped.limit
+        if not isinstance(stop, TimeLimitExceeded):  # where it was then would be chance
+            return None, str(stop), None, stop.limit
         line = mapper.line() if isinstance(mapper, Program) else stopped_at(stop)
         return None, f"{stop}; it was at {line}" if line else str(stop), None, stop.limit
     except KeyboardInterrupt as ctrl_c:
