@@ -297,9 +297,9 @@ def test_a_program_takes_part_over_the_pipe_and_pays_what_its_twin_pays(results:
 
 
 def test_what_is_not_decided_has_no_place_and_exits_3(call: Call) -> None:
-    done = call("arena basic mappers.py:strolls --suite triangle --world-timeout 0.02 --workers 0")
+    done = call("arena basic mappers.py:loops --suite triangle --world-timeout 0.02 --workers 0")
     assert done.exit_code == 3
-    assert "mappers.py:strolls has no place in triangle: 1 world of 1 not decided" in done.stdout
+    assert "mappers.py:loops has no place in triangle: 1 world of 1 not decided" in done.stdout
 
 
 def test_the_standings_come_first_then_where_each_lost(call: Call) -> None:
@@ -428,7 +428,7 @@ def test_a_run_that_fails_only_once_is_named(call: Call) -> None:
 
 
 def test_after_three_time_outs_a_mapper_plays_no_further(results: Results, call: Call) -> None:
-    line = "arena mappers.py:strolls --suite tiny --world-timeout 0.02 --workers 0"
+    line = "arena mappers.py:loops --suite tiny --world-timeout 0.02 --workers 0"
     (entry,) = results(line, code=3)["results"]
     assert (entry["worlds"], entry["undecided"], entry["total"]) == (0, 3, 792)
     assert (

@@ -29,7 +29,7 @@ def test_a_counterexample_exits_1_and_its_line_shows_it_again(results: Results, 
 
 
 def test_a_mapper_out_of_time_exits_3(results: Results, call: Call) -> None:
-    line = "search mappers.py:strolls --edges 1 --workers 0 --world-timeout 0.02"
+    line = "search mappers.py:loops --edges 1 --workers 0 --world-timeout 0.02"
     (entry,) = results(line, code=3)["results"]
     assert (entry["verdict"], entry["checked"]) == ("UNKNOWN", 0)
     assert entry["undecided"]["world"] == "m1/0"

@@ -109,7 +109,7 @@ def test_a_refuted_part_shows_its_smallest_counterexample(call: Call) -> None:
 
 
 def test_time_outs_leave_a_part_undecided(results: Results, call: Call) -> None:
-    line = "verify mappers.py:strolls --quick --world-timeout 0.02"
+    line = "verify mappers.py:loops --quick --world-timeout 0.02"
     parts = results(line, code=3)["results"]
     assert (parts[0]["verdict"], parts[0]["findings"]) == ("UNKNOWN", [])
     assert parts[0]["checked"] < parts[0]["total"]
