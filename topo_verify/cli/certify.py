@@ -272,7 +272,8 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
         if entry.advice is not None:
             yield from _show_open(entry, entry.advice)
         if entry.witnesses:
-            yield Text("Two of the worlds that show this log; infinitely many do:")
+            files = "" if entry.witnesses[0].endswith(".json") else " (--witness DIR writes both)"
+            yield Text(f"Two of the worlds that show this log; infinitely many do{files}:")
             yield Bullets(entry.witnesses)
         if entry.kernel is not None:
             yield from _show_proof(entry.kernel)
