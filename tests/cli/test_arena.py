@@ -221,6 +221,7 @@ def test_a_page_plays_each_beside_the_first_where_it_loses_most(call: Call) -> N
     words = f"loses most: {loss['cost']} edge traversals, folding {loss['other']}"
     assert words in Path("here/table.md").read_text()
     assert words in Path("here/report.html").read_text()
+    assert "; first in small: folding</" in Path("here/report.html").read_text()
     page = Path("here/players/basic.html").read_text()
     assert f"<title>folding beside basic in {loss['world']}<" in page
 

@@ -233,5 +233,7 @@ def test_every_tone_can_be_read_on_a_card() -> None:
 def test_rows_of_many_columns_are_stacked_on_a_phone() -> None:
     many = bl.TextTable(("a", ">b", ">c", ">d", ">e"), [("1", "2", "3", "4", "5")])
     few = bl.TextTable(("a", ">b"), [("1", "2")])
-    assert '<table class="many">' in "".join(blocks_as_html([many]))
+    page = "".join(blocks_as_html([many]))
+    assert '<table class="many">' in page
+    assert page.count("<td") == page.count('data-title="')  # shown before each cell on a phone
     assert "<table><thead>" in "".join(blocks_as_html([few]))
