@@ -67,7 +67,9 @@ def test_the_words_of_a_picture_stand_below_its_places() -> None:
 
 
 def test_of_a_robot_that_can_go_nowhere_its_only_place_is_known() -> None:
-    assert tv.certify([Start(percept=Percept(0, None))]).known == tv.World((), (), None)
+    certificate = tv.certify([Start(percept=Percept(0, None))])
+    assert certificate.known == tv.World((), (), None)
+    assert certificate.places == (0,)
 
 
 def test_nothing_is_known_of_a_log_that_no_world_shows() -> None:

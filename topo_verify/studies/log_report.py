@@ -329,7 +329,7 @@ def _reached(
 
 def _followed(log: Sequence[Event], fold: Fold) -> Iterator[tuple[int, int]]:
     """Where the robot is after each event: the node of the fold, and its reference dart."""
-    at = fold.find((0, 0))
+    at = fold.find((0, 0)) if fold.degree(0) else (0, 0)
     for event in log:
         if isinstance(event, Move):
             beyond = fold.partner((at[0], at[1] + event.door))
