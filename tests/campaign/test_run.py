@@ -21,7 +21,7 @@ from topo_verify.campaign.judge import judge, undecided
 from topo_verify.campaign.targets import one_target
 from topo_verify.robot import simulator
 from topo_verify.robot.events import Event, Finish, Move, Pose, Start, read_trace, write_trace
-from topo_verify.robot.limits import WorldTimeout
+from topo_verify.robot.limits import BudgetExceeded, WorldTimeout
 
 HERE = Path(__file__).relative_to(Path.cwd())
 
@@ -172,7 +172,7 @@ def test_a_mapper_that_walks_for_ever_ends_with_its_budget() -> None:
     run = explore(WORLD, walk)
     bound = 2 * (2 + 3 * 2)
     assert (run.cost, run.limit) == (bound, "budget")
-    assert run.stopped == f"the mapper asked for more than {bound} moves"
+    assert run.stopped == str(BudgetExceeded(bound))
     assert explore(WORLD, walk, limits=Limits(budget=5)).cost == 5
 
 

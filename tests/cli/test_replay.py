@@ -18,6 +18,7 @@ from topo_verify.checkers import CLAIMS, Judgement, check
 from topo_verify.cli.runs import unjudged
 from topo_verify.proofs.mechanised import judge, toolchain
 from topo_verify.report.account import claim_cases
+from topo_verify.robot.limits import BudgetExceeded
 
 
 @pytest.fixture
@@ -173,11 +174,13 @@ def test_a_trace_keeps_why_the_run_ended_without_a_map(
 ) -> None:
     call("explore m3/8 --algorithm mappers.py:walks --trace walks.jsonl")
     line = json.loads((folder / "walks.jsonl").read_text().splitlines()[0])
-    assert line["stopped"] == "the mapper asked for more than 36 moves"
+    assert line["stopped"] == str(BudgetExceeded(36))
     (entry,) = results("replay walks.jsonl", code=1)["results"]
     assert entry["stopped"] == line["stopped"]
     shown = call("replay walks.jsonl").stdout
-    assert "no map was delivered: the mapper asked for more than 36 moves" in shown
+    assert "no map was delivered: the mapper asked for more than 36 moves, its budget" in " ".join(
+        shown.split()
+    )
     assert "Events 1 to 2 repeat to the end of the run, 18 times in all." in shown
 
 

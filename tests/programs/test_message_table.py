@@ -25,6 +25,7 @@ from topo_verify.programs import protocol as ms
 from topo_verify.programs.foreign import Foreign, Unlisted
 from topo_verify.programs.misbehaviour import Misbehaved
 from topo_verify.programs.program import Program
+from topo_verify.robot.limits import BudgetExceeded
 from topo_verify.studies.conform.batch import BatchProgram
 
 EDGE = World.from_id("m1/0")
@@ -130,7 +131,7 @@ def test_a_world_that_is_over_stays_what_it_is_whatever_our_child_writes(child: 
     for name in LINES:
         written("ready", "move", "move", name, "undelivered", "done")
         run = explore(EDGE, child.target, limits=Limits(budget=1))
-        assert (run.stopped, run.cost) == ("the mapper asked for more than 1 move", 1), name
+        assert (run.stopped, run.cost) == (str(BudgetExceeded(1)), 1), name
 
 
 # ---------------------------------------------------------------- outside of a world

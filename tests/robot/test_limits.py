@@ -304,6 +304,13 @@ def test_an_exception_names_the_option_whose_limit_was_reached(
     assert stop.limit == limit
 
 
+def test_a_mapper_out_of_moves_is_told_its_budget_and_what_sets_it() -> None:
+    told = str(BudgetExceeded(1))
+    assert "more than 1 move, its budget" in told
+    assert "claim cost-within-bound" in told
+    assert "--budget" in told
+
+
 @pytest.mark.parametrize(
     ("bounds", "words"),
     [

@@ -24,6 +24,7 @@ from topo_verify.compiled.faults import PLANTED
 from topo_verify.compiled.kernel import compiled
 from topo_verify.errors import InputError, plural
 from topo_verify.robot.events import Event, Finish, MapData
+from topo_verify.robot.limits import BudgetExceeded
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
@@ -255,7 +256,7 @@ class CompiledJob:
             None if stop else map_of(space, layout),
             {
                 0: None,
-                ws.STOP_BUDGET: f"the mapper asked for more than {plural(self.budget, 'move')}",
+                ws.STOP_BUDGET: str(BudgetExceeded(self.budget)),
                 ws.STOP_DOOR: "the mapper asked for a door that is not there",
             }[stop],
             self.events if self.trace else None,

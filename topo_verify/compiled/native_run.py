@@ -22,8 +22,8 @@ from topo_verify.compiled import workspace as ws
 from topo_verify.compiled.events import decoded
 from topo_verify.compiled.explore import CompiledRun, map_of, place_world, write
 from topo_verify.compiled.kernel import address_of, compiled
-from topo_verify.errors import plural
 from topo_verify.robot.events import MapData
+from topo_verify.robot.limits import BudgetExceeded
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
@@ -172,7 +172,7 @@ def made_by(space: Row, world: World) -> CompiledRun:
     if not is_map:
         why = STOPPED.get(stop, "the mapper delivered no map")
         if stop == ws.STOP_BUDGET:
-            why = f"the mapper asked for more than {plural(world.cost_bound, 'move')}"
+            why = str(BudgetExceeded(world.cost_bound))
     delivered = None
     if is_map:
         delivered = (

@@ -22,7 +22,7 @@ from inspect import currentframe
 from types import FrameType
 from typing import Literal, TypeVar
 
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 from topo_verify.robot.stopwatch import Heard, Stopwatch, tasks_of
 
 T = TypeVar("T")
@@ -40,6 +40,10 @@ class BudgetExceeded(MapperStopped):
     """The mapper asked for more moves than its budget."""
 
     limit = "budget"
+
+    def __init__(self, budget: int) -> None:
+        given = "its budget (claim cost-within-bound, or --budget)"
+        super().__init__(f"the mapper asked for more than {plural(budget, 'move')}, {given}")
 
 
 class TimeLimitExceeded(MapperStopped):

@@ -164,8 +164,7 @@ class SimulatedRobot:
     def move(self, door: Door, purpose: Purpose | None = None) -> Percept:
         """Leave by a door and return the percept behind it: see `Robot.move`."""
         if self._stopped is not None or self._cost >= self.budget:
-            most = plural(self.budget, "move")
-            self._stop(BudgetExceeded(f"the mapper asked for more than {most}"))
+            self._stop(BudgetExceeded(self.budget))
         try:
             number = door_number(door, self._percept.degree)
             require_purpose(purpose)

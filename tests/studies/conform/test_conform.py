@@ -12,7 +12,7 @@ from tests.programs.programs import compiled, conforming, javascript, misbehavin
 from topo_verify.campaign.backend import pooled
 from topo_verify.errors import InputError
 from topo_verify.robot.events import Start, read_trace
-from topo_verify.robot.limits import Limits
+from topo_verify.robot.limits import BudgetExceeded, Limits
 from topo_verify.studies.conform.batch import batched
 from topo_verify.studies.conform.conform import MOST_TIMEOUTS, LevelResult
 from topo_verify.studies.corpus import corpus_from
@@ -179,7 +179,7 @@ def test_a_trace_that_is_kept_says_why_the_run_ended(tmp_path: Path) -> None:
     standings(f"{MAPPERS}:walks", "m2/0", transcript=str(tmp_path))
     start = read_trace((tmp_path / "m2-0.jsonl").read_bytes())[0]
     assert isinstance(start, Start)
-    assert start.stopped == "the mapper asked for more than 30 moves"
+    assert start.stopped == str(BudgetExceeded(30))
 
 
 # ---------------------------------------------------------------- the examples
