@@ -222,6 +222,7 @@ def test_a_page_plays_each_beside_the_first_where_it_loses_most(call: Call) -> N
     assert words in Path("here/table.md").read_text()
     assert words in Path("here/report.html").read_text()
     assert "; first in small: folding</" in Path("here/report.html").read_text()
+    assert '<a href="#world-1">basic</a>' in Path("here/report.html").read_text()
     page = Path("here/players/basic.html").read_text()
     assert f"<title>folding beside basic in {loss['world']}<" in page
 

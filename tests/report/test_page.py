@@ -80,6 +80,13 @@ def test_ids_are_short_where_they_are_read_and_whole_where_they_are_copied() -> 
     assert "m30/12345…90321" in rest
 
 
+def test_a_mapper_in_a_table_leads_to_its_run() -> None:
+    page = Parts(report_page(account("./mapper"), RUN))
+    (link,) = (a["href"] for tag, a in page.tags if tag == "a" and a["href"] == "#world-1")
+    assert [tag for tag, a in page.tags if f"#{a.get('id')}" == link] == ["article"]
+    assert "#world-1" not in report_page(account("./mapper", exhibit=False), RUN)
+
+
 def test_it_says_how_much_was_judged_and_what_was_not() -> None:
     page = report_page(account(exhibit=False), replace(RUN, finished=False))
     assert "REFUTED: 1 of 3 worlds fail" in page

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from html import escape
+from itertools import repeat
+from types import MappingProxyType
 
 from topo_verify.errors import LINE, shown
 from topo_verify.report import blocks as bl
@@ -29,9 +31,15 @@ MANY_COLUMNS = 5
 """The least number of columns of a table whose rows are stacked on a phone."""
 
 
-def blocks_as_html(blocks: Iterable[bl.Block]) -> Iterator[str]:
-    """The blocks as HTML, without empty paragraphs."""
-    yield from filter(None, map(_html, blocks))
+def blocks_as_html(
+    blocks: Iterable[bl.Block], places: Mapping[str, str] = MappingProxyType({})
+) -> Iterator[str]:
+    """The blocks as HTML, without empty paragraphs.
+
+    Args:
+        places: the ids of the page's elements that show more of what a cell names.
+    """
+    yield from filter(None, (_html(block, places) for block in blocks))
 
 
 def code(line: str) -> str:
@@ -75,7 +83,7 @@ def toned(word: str, tone: Tone | None) -> str:
     return f'<td class="{tone}">{text}</td>' if tone else f"<td>{text}</td>"
 
 
-def _html(block: bl.Block) -> str:  # noqa: PLR0911  one for each kind of block
+def _html(block: bl.Block, places: Mapping[str, str]) -> str:  # noqa: PLR0911  one for each kind of block
     match block:
         case bl.Text(text):
             return _paragraph(text)
@@ -92,7 +100,7 @@ def _html(block: bl.Block) -> str:  # noqa: PLR0911  one for each kind of block
         case bl.PictureBlock(svg, alt):
             return f'<figure class="chart">{picture(svg, alt)}</figure>'
         case bl.TextTable():
-            return _table(block)
+            return _table(block, places)
 
 
 def _paragraph(text: str) -> str:
@@ -107,14 +115,16 @@ def _lines(lines: Iterable[str]) -> str:
     return "<pre>" + "\n".join(map(xml_text, lines)) + "</pre>"
 
 
-def _table(table: bl.TextTable) -> str:
+def _table(table: bl.TextTable, places: Mapping[str, str]) -> str:
     titles = [xml_text(bl.clean(column.removeprefix(">"))) for column in table.columns]
     right = [column.startswith(">") for column in table.columns]
     head = "".join(
         f'<th class="number">{title}</th>' if number else f"<th>{title}</th>"
         for title, number in zip(titles, right, strict=True)
     )
-    rows = "\n".join(f"<tr>{''.join(map(_cell, row, titles, right))}</tr>" for row in table.rows)
+    rows = "\n".join(
+        f"<tr>{''.join(map(_cell, row, titles, right, repeat(places)))}</tr>" for row in table.rows
+    )
     title = f'<p class="title">{xml_text(bl.clean(table.title))}</p>\n' if table.title else ""
     many = ' class="many"' if len(titles) >= MANY_COLUMNS else ""
     stacked = ' class="prose"' if 'class="say"' in rows else many
@@ -124,8 +134,15 @@ def _table(table: bl.TextTable) -> str:
     )
 
 
-def _cell(cell: str | bl.Cell, title: str, right: bool) -> str:  # noqa: FBT001  given by map
+def _cell(
+    cell: str | bl.Cell,
+    title: str,
+    right: bool,  # noqa: FBT001  given by map
+    places: Mapping[str, str],
+) -> str:
     tone, text = bl.cell_tone(cell), xml_text(bl.cell_text(cell))
     kind = tone or ("number" if right else "say" if len(text) > LONG_CELL else "")
     named = f' class="{kind}"' if kind else ""
+    if isinstance(cell, str) and (place := places.get(cell)):
+        text = f'<a href="#{place}">{text}</a>'
     return f'<td{named} data-title="{title}">{text}</td>'

@@ -111,7 +111,7 @@ def _sections(account: Account, run: Ending) -> Iterator[str]:
     if account.left_out:
         exhibits.append(f"<p>{account.left_out} more are not shown here.</p>")
     refuted = account.extent.verdict == "REFUTED"
-    results = _section("results", "Results", blocks_as_html(account.blocks))
+    results = _section("results", "Results", blocks_as_html(account.blocks, _places(account)))
     if account.results_first:
         yield results
     if exhibits and refuted:
@@ -174,6 +174,17 @@ def _case(case: JudgedCase) -> str:
 # ---------------------------------------------------------------- counterexamples
 
 
+def _places(account: Account) -> dict[str, str]:
+    """Where the page shows the first run of each mapper."""
+    numbered = enumerate(account.exhibits + account.others, 1)
+    shown = [(e.runs[-1].name, _place(number)) for number, e in numbered if e.runs]
+    return dict(reversed(shown))
+
+
+def _place(number: int) -> str:
+    return f"world-{number}"
+
+
 def _is_drawn(exhibit: Exhibit) -> bool:
     return exhibit.whole or len(exhibit.world.edges) <= MOST_DRAWN
 
@@ -185,7 +196,7 @@ def _is_played(exhibit: Exhibit) -> bool:
 def _exhibit(number: int, exhibit: Exhibit) -> str:
     title = xml_text(clean(exhibit.title))
     notes = "".join(f"<li>{xml_text(clean(note))}</li>" for note in exhibit.notes)
-    parts = [f"<article>\n<h3>{title}</h3>"]
+    parts = [f'<article id="{_place(number)}">\n<h3>{title}</h3>']
     parts += [f"<ul>{notes}</ul>"] if notes else []
     parts.append(_picture(exhibit))
     if _is_played(exhibit):
