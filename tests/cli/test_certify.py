@@ -127,6 +127,7 @@ def test_a_log_that_no_world_shows_is_refuted_and_exits_1(call: Call, results: R
     Path("false.jsonl").write_text(RING.replace('"marker": 1', '"marker": 7'))
     (entry,) = results("certify false.jsonl", code=1)["results"]
     assert (entry["verdict"], entry["witnesses"], entry["open_doors"]) == ("REFUTED", [], [])
+    assert (entry["places"], entry["place"]) == ([], None)
     text = " ".join(call("certify false.jsonl").stdout.split())
     assert "the marker cannot point at door 7 of 2" in text
 
@@ -135,6 +136,7 @@ def test_the_open_doors_are_named_with_a_way_there_and_the_worlds_that_differ(
     call: Call, results: Results
 ) -> None:
     (entry,) = results("certify short.jsonl", code=3)["results"]
+    assert (entry["places"], entry["place"]) == ([0, 1], 1)
     assert entry["open_doors"] == [
         {"event": 1, "place": 1, "door": 1, "walk": [1]},
         {"event": 0, "place": 0, "door": 1, "walk": [0, 1]},

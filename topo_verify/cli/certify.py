@@ -53,7 +53,9 @@ class CertifyEntry(msgspec.Struct, frozen=True):
         moves: of the log, in edge traversals.
         least_cost: of a proof of this map, in edge traversals; null unless it is proved.
         apart: the events of two readings of one place that differ; null unless that refutes it.
-        place: where the log ends: the number of places reached before; null if no world shows it.
+        places: where the robot is after each event, by the number of places reached before; [] if
+            no world shows the log.
+        place: where the log ends, the last of `places`; null if no world shows it.
         open_doors: at most 100, nearest to the end of the log first.
         advice: how to go on to prove the map; null: nothing is left to walk.
         witnesses: two different worlds that show this log: files if written, else ids.
@@ -70,6 +72,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     least_cost: int | None
     open_darts: int
     apart: tuple[int, int] | None
+    places: tuple[int, ...]
     place: int | None
     open_doors: tuple[OpenDoor, ...]
     advice: Advice | None
