@@ -255,6 +255,13 @@ def test_world_and_mapper_in_the_wrong_order_are_named(wrong_order: tuple[Any, A
         function(first, second)
 
 
+@pytest.mark.parametrize("function", [tv.explore, tv.examine])
+def test_a_number_in_the_place_of_limits_is_refused(function: Any) -> None:
+    asked = (WORLD, "basic") if function is tv.explore else ("basic", WORLD)
+    with pytest.raises(tv.InputError, match=r"limits=5: expected tv.Limits, as in"):
+        function(*asked, limits=cast("Any", 5))
+
+
 def test_a_text_names_a_world_as_on_the_command_line(tmp_path: Path) -> None:
     WORLD.save(tmp_path / "world.json")
     for text in (WORLD.id, str(tmp_path / "world.json")):

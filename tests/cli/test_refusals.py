@@ -104,6 +104,7 @@ REFUSED = [
     ("record --cmd ./mapper --pick last --out b", "policies"),
     ("tour nowhere", "no such world: 'nowhere'"),
     ("tour m3/40 -o -", "-o -: standard output is for the results"),
+    ("tour m3/40 --player a.pdf", "a.pdf: a run is shown by a page; name a file that ends in"),
     ("tour m3/40 --player -", "--player -: standard output is for the results"),
     ("tour - --against -", "expected '-' once"),
     ("tour m3/40 --against nowhere", "cannot read nowhere"),

@@ -24,6 +24,7 @@ from topo_verify.robot.limits import (
     MoveTimeout,
     TimeLimitExceeded,
     WorldTimeout,
+    given_limits,
     within,
 )
 
@@ -302,6 +303,13 @@ def test_an_exception_names_the_option_whose_limit_was_reached(
     stop: type[MapperStopped], limit: str | None
 ) -> None:
     assert stop.limit == limit
+
+
+def test_what_is_no_limits_is_refused() -> None:
+    assert given_limits(None) == Limits()
+    assert given_limits(Limits(budget=3)).budget == 3
+    with pytest.raises(InputError, match=r"limits=3: expected tv.Limits, as in tv.Limits\(budget"):
+        given_limits(3)
 
 
 def test_a_mapper_out_of_moves_is_told_its_budget_and_what_sets_it() -> None:

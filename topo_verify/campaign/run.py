@@ -45,7 +45,14 @@ from topo_verify.robot.events import (
     Start,
     Trace,
 )
-from topo_verify.robot.limits import Limit, Limits, MapperStopped, TimeLimitExceeded, within
+from topo_verify.robot.limits import (
+    Limit,
+    Limits,
+    MapperStopped,
+    TimeLimitExceeded,
+    given_limits,
+    within,
+)
 from topo_verify.robot.simulator import SimulatedRobot, first_percept
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.resolve import resolve_world
@@ -126,12 +133,13 @@ class Exploration:
         Args:
             beside: another run in the same world, to play beside this one.
         Raises:
-            InputError: the file cannot be written, no trace was kept, or the other run has another
-                world.
+            InputError: the file cannot be written, or its name ends in .pdf or alike; no trace was
+                kept, or the other run has another world.
         """
         from topo_verify.player.page import player_page
         from topo_verify.world.formats import files
 
+        files.require_page(path)
         runs = [self] if beside is None else [self, beside]
         if any(run.world != self.world for run in runs):
             raise InputError("beside: a run in another world; explore this run's world with both")
@@ -196,7 +204,7 @@ def explore(
         ExaminationInterrupted: Ctrl-C, a KeyboardInterrupt.
     """
     world = _resolved(world, mapper)
-    limits = limits or Limits()
+    limits = given_limits(limits)
     target = _on(engine, one_target(mapper, pick=pick, order=order), limits, trace=trace)
     if isinstance(target.mapper, CompiledAlgorithm):
         trace = trace and target.mapper.trace

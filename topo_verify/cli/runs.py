@@ -249,11 +249,13 @@ def other_findings(report: Report, extent: walk.Extent) -> Iterator[Block]:
 
 
 def require_one_world(file: str | None, number: int) -> None:
-    """Raise InputError if the file is standard output, or the number of worlds is not 1."""
+    """Raise InputError if the file cannot be a page, or the number of worlds is not 1."""
     if file == "-":
         raise InputError("--player -: standard output is for the results; name a file")
     if file is not None and number != 1:
         raise InputError(f"--player {file}: expected one WORLD, got {number}; name one")
+    if file is not None:
+        files.require_page(file)
 
 
 def write_page(file: str, world: World, name: str, runs: Sequence[PlayedRun]) -> None:

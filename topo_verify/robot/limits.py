@@ -112,6 +112,19 @@ class Limits:
         return tuple(words)
 
 
+def given_limits(limits: object) -> Limits:
+    """These limits, or the usual ones in the place of None.
+
+    Raises:
+        InputError: these are no limits.
+    """
+    if limits is None:
+        return Limits()
+    if not isinstance(limits, Limits):
+        raise InputError(f"limits={limits!r}: expected tv.Limits, as in tv.Limits(budget=500)")
+    return limits
+
+
 TICK = 0.05
 """Least seconds between two looks at the clock."""
 

@@ -22,7 +22,7 @@ from topo_verify.campaign.targets import target_arguments
 from topo_verify.checkers import Finding
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import PREFIX
-from topo_verify.robot.limits import Limits
+from topo_verify.robot.limits import Limits, given_limits
 from topo_verify.studies.baseline.file import Baseline, BaselineEntry, Header
 from topo_verify.studies.corpus import Corpus
 from topo_verify.world.rooted_map import World
@@ -45,7 +45,7 @@ def baseline_runs(
         pick=None if policies is None else policies.pick,
         order=None if policies is None else policies.order,
         engine=engine,
-        limits=limits or Limits(),
+        limits=given_limits(limits),
         in_process=runs_here(target),
         stop=c.Stop(timeouts=c.MAX_TIMEOUTS),
     )
@@ -72,7 +72,7 @@ def record(
         corpus=corpus.description,
         digest=corpus.digest,
         total=corpus.total,
-        limits=limits or Limits(),
+        limits=given_limits(limits),
     )
     return Baseline(
         header, tuple(entry_of(row, at.world) for row, at in zip(rows, corpus, strict=False))

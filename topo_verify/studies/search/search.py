@@ -25,7 +25,7 @@ from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError, InternalError, ShortTraceback, plural
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import Program
-from topo_verify.robot.limits import Limits
+from topo_verify.robot.limits import Limits, given_limits
 from topo_verify.studies.search.again import CLAIM, RunAgain, run_again
 from topo_verify.studies.search.choices import SHARD, WAYS, Choices, require_choices
 from topo_verify.studies.search.states.every import Decider, decided_by, judged_by
@@ -206,7 +206,7 @@ def search_campaign(  # noqa: PLR0913  an argument an option
 
     InputError: a mapper has no such policies, or the engine cannot run it.
     """
-    limits = limits or Limits()
+    limits = given_limits(limits)
     if engine is None:
         engine = "compiled" if any(map(is_native, mappers)) else "reference"
     if engine == "compiled":

@@ -28,7 +28,7 @@ from topo_verify.campaign.targets import targets as targets_of
 from topo_verify.campaign.work import processors
 from topo_verify.compiled import available
 from topo_verify.programs.loader import Target
-from topo_verify.robot.limits import Limits
+from topo_verify.robot.limits import Limits, given_limits
 from topo_verify.studies.beside import Beside
 from topo_verify.studies.corpus import STRATEGIES, drawn
 from topo_verify.studies.verify.parts import Part, PartJob, Proofs, WorldCounts
@@ -71,7 +71,7 @@ def verify(
                 task_result, TASKS, (names, seed), result=BesideResult, workers=len(TASKS)
             )
             beside = stack.enter_context(calls)
-        for job in _jobs(targets, seed, limits or Limits(), beside, quick=quick):
+        for job in _jobs(targets, seed, given_limits(limits), beside, quick=quick):
             try:
                 job.work(tell or no_progress)
             except KeyboardInterrupt:

@@ -32,7 +32,8 @@ def opened(path: str | PathLike[str]) -> Generator[IO[bytes]]:
     except (OSError, ValueError) as error:  # a null character in the path
         if isinstance(error, InputError):
             raise
-        raise InputError(f"cannot read {shown(path)}: {_reason(error)}; name a file") from error
+        name = shown(path) or "''"
+        raise InputError(f"cannot read {name}: {_reason(error)}; name a file") from error
 
 
 def standard_input() -> IO[bytes]:
@@ -100,6 +101,15 @@ def _replace(target: Path, data: bytes) -> None:
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+
+
+NO_PAGES = (".gif", ".jpeg", ".jpg", ".json", ".pdf", ".png", ".svg")
+
+
+def require_page(path: str | PathLike[str]) -> None:
+    """Raise InputError if the name promises something else than a page (HTML)."""
+    if Path(path).suffix.lower() in NO_PAGES:
+        raise InputError(f"{shown(path)}: a run is shown by a page; name a file that ends in .html")
 
 
 def stem(path: str | PathLike[str]) -> str:
