@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from topo_verify.campaign.pool import Pool
 from topo_verify.campaign.targets import one_target
 from topo_verify.compiled import available
 from topo_verify.errors import InputError
+from topo_verify.robot.limits import Limits
 from topo_verify.studies.search.search import Search, SearchEntry, search, search_campaign
 
 pytestmark = pytest.mark.skipif(
@@ -82,14 +84,24 @@ def test_a_misdeed_convicts_the_mapper_in_its_world(deed: str, tmp_path: Path) -
     assert MISDEEDS[deed] in entry.counterexample.message
 
 
-def test_a_note_names_the_world_of_an_endless_loop_once(tmp_path: Path) -> None:
+def test_a_note_names_the_world_of_an_endless_loop_once_after_the_limit_of_a_move(
+    tmp_path: Path,
+) -> None:
     mappers = [one_target(hostile(tmp_path, "loop"))]
-    campaign = search_campaign(mappers, edges=2)
+    campaign = search_campaign(mappers, edges=2, limits=Limits(move_timeout=1.5))
     notes: list[str] = []
     study = Search(campaign, mappers, pooled(1, note=notes.append))
     study.work()
     (note,) = notes
-    assert note.startswith("m2/7: the mapper gave no sign of life for ")
+    seconds = re.match(r"m2/7: the mapper gave no sign of life for (\d+) s;", note)
+    assert seconds is not None
+    assert int(seconds[1]) < Limits().move_timeout
+
+
+def test_a_limit_of_a_whole_run_is_refused(tmp_path: Path) -> None:
+    mappers = [one_target(hostile(tmp_path, "loop"))]
+    with pytest.raises(InputError, match="number of moves: leave out --world-timeout, or add"):
+        search_campaign(mappers, edges=2, limits=Limits(world_timeout=1))
 
 
 @pytest.mark.parametrize("deed", ["crash", "leave", "loop", "double_itself"])

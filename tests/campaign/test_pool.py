@@ -25,7 +25,7 @@ from topo_verify.campaign.identity import source_hash
 from topo_verify.campaign.pool import Pool
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import targets
-from topo_verify.campaign.work import Division, Loss, Work
+from topo_verify.campaign.work import Division, Loss, Pieces, Work
 from topo_verify.campaign.worker import WorkerProcess
 from topo_verify.programs.launcher import prepare
 from topo_verify.programs.loaded import Loaded
@@ -473,6 +473,18 @@ def test_the_item_that_hangs_is_found() -> None:
 @pytest.mark.usefixtures("toy")
 def test_nothing_behind_the_last_piece_that_is_wanted_is_joined() -> None:
     assert results(toy_work(attempts=1), [1, 99, -1, 2, -1]) == [[1, 99]]
+
+
+def test_the_pieces_of_an_earlier_task_come_first() -> None:
+    pieces = Pieces(toy_work())
+    tasks = iter([[1, 2], [3, 4], [5]])
+    earlier, later = pieces.next(tasks), pieces.next(tasks)
+    assert earlier is not None
+    assert later is not None
+    pieces.replace(earlier, [[1], [2]])
+    pieces.replace(later, [[3], [4]])
+    handed_out = [pieces.next(tasks) for _ in range(6)]
+    assert [piece and piece.task for piece in handed_out] == [[1], [2], [3], [4], [5], None]
 
 
 @pytest.mark.usefixtures("toy")

@@ -418,8 +418,8 @@ def _note_hung(note: Callable[[str], None], shard: c.Shard, loss: Loss) -> None:
     if shard.stop - shard.start > 1:  # else it was cut out, and is named already
         note(
             f"m{shard.edges}/{_rank(shard, loss)}: the mapper gave no sign of life for"
-            f" {loss.silence:.0f} s; the world is run again alone, for up to some minutes"
-            " (--engine reference --move-timeout 1 is faster)"
+            f" {loss.silence:.0f} s; the world is run again alone, more than once"
+            " (--move-timeout 1 waits less)"
         )
 
 

@@ -392,9 +392,12 @@ def planted(fault: str) -> CompiledAlgorithm | None:
 def require_compiled(targets: Iterable[Target], limits: Limits, *, libraries: bool = False) -> None:
     """Raise an InputError unless the compiled engine can run these mappers under these limits.
 
-    `libraries` allows native mappers, too.
+    `libraries` allows native mappers, too: they beat at every move, so a limit between two moves
+    holds for them.
     """
     require("--engine compiled")
+    targets = tuple(targets)
+    native = libraries and any(map(is_native, targets))
     for target in targets:
         if libraries and is_native(target):
             continue
@@ -410,9 +413,11 @@ def require_compiled(targets: Iterable[Target], limits: Limits, *, libraries: bo
                 f" {REFERENCE.order}, got {chosen.pick} and {chosen.order}: leave out --pick and"
                 " --order, or --engine"
             )
-    if replace(limits, budget=None) != Limits():
+    usual = Limits()
+    between = usual.move_timeout if native else limits.move_timeout
+    if replace(limits, budget=None, move_timeout=between) != usual:
+        options = "--world-timeout" if native else "--move-timeout and --world-timeout"
         raise InputError(
             "--engine compiled cannot stop a run after some seconds, and its runs are bounded by"
-            " the number of moves: leave out --move-timeout and --world-timeout, or add --engine"
-            " reference"
+            f" the number of moves: leave out {options}, or add --engine reference"
         )

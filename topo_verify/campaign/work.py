@@ -129,11 +129,13 @@ class WholeTask(Generic[TaskT, ResultT]):
     """A task and its pieces in order; at first, it is its only piece.
 
     Attributes:
+        turn: how many tasks were taken before it.
         losses: each with its piece.
         given_up: the pieces that were lost with their last worker.
     """
 
     task: TaskT
+    turn: int
     pieces: list[Piece[TaskT, ResultT]] = field(default_factory=list["Piece[TaskT, ResultT]"])
     losses: list[tuple[TaskT, Loss]] = field(default_factory=list[tuple[TaskT, Loss]])
     given_up: list[TaskT] = field(default_factory=list[TaskT])
@@ -153,16 +155,19 @@ class Pieces(Generic[TaskT, ResultT]):
     """The pieces of a pool's tasks: `queue` before new tasks, and `finished` ones."""
 
     def __init__(self, work: Work[TaskT, ResultT]) -> None:
-        self._work = work
+        self._work, self._taken = work, 0
         self.queue: deque[Piece[TaskT, ResultT]] = deque()
         self.finished: deque[tuple[TaskT, ResultT]] = deque()
 
     def next(self, todo: Iterator[TaskT]) -> Piece[TaskT, ResultT] | None:
-        """The next piece to be done, or None."""
+        """The next piece to be done, of the earliest task that has one; or None."""
         if self.queue:
-            return self.queue.popleft()
+            piece = min(self.queue, key=lambda waiting: waiting.whole.turn)
+            self.queue.remove(piece)
+            return piece
         for task in todo:
-            whole: WholeTask[TaskT, ResultT] = WholeTask(task)
+            whole: WholeTask[TaskT, ResultT] = WholeTask(task, self._taken)
+            self._taken += 1
             whole.pieces.append(Piece(task, whole))
             return whole.pieces[0]
         return None
