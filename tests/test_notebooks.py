@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+import sys
 from html import escape
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -62,6 +64,16 @@ def test_an_input_error_under_the_standard_library_is_a_line_of_yours() -> None:
             wrong()
         error: Any = refused.value
         assert "test_notebooks.py, line " in error._render_traceback_()[0]
+
+
+def test_a_cell_is_named_by_its_number_where_ipython_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    known = SimpleNamespace(format_code_name={"/no/ipykernel_1/2.py": ("Cell", "In[7]")}.get)
+    shell = SimpleNamespace(get_ipython=lambda: SimpleNamespace(compile=known))
+    monkeypatch.setitem(sys.modules, "IPython", shell)
+    names: dict[str, Any] = {}
+    cell = "def fails(robot):\n    raise ValueError"
+    exec(compile(cell, "/no/ipykernel_1/2.py", "exec"), names)  # noqa: S102  our own text
+    assert str(tv.explore("m1/0", names["fails"]).stopped).endswith(" (In[7], line 2)")
 
 
 def test_a_line_of_a_cell_is_named_so() -> None:
@@ -166,7 +178,7 @@ def test_a_report_names_a_world_without_an_id_by_its_name() -> None:
 
 @pytest.mark.parametrize("edges", [2.5, "3", 0])
 def test_a_search_refuses_what_is_no_number_of_edges(edges: Any) -> None:
-    with pytest.raises(tv.InputError, match="expected an integer, 1 or more"):
+    with pytest.raises(tv.InputError, match="expected an integer from 1 to 200"):
         tv.search("basic", edges=edges)
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from topo_verify.campaign import campaign as module
-from topo_verify.campaign.campaign import Progress, ProgressRate, duration
+from topo_verify.campaign import progress as module
+from topo_verify.campaign.progress import Progress, ProgressRate, duration
 
 Report = tuple[str, int, int]
 
@@ -48,8 +48,17 @@ def test_nobody_is_told_ten_times_in_a_moment(clock: list[float]) -> None:
         progress.in_flight(done)
     assert len(reports) == 1
     clock[0] += module.INTERVAL
-    progress.in_flight(10)
+    progress.in_flight(9)
     assert len(reports) == 2
+
+
+@pytest.mark.usefixtures("clock")
+def test_the_end_is_told_however_soon() -> None:
+    reports: list[Report] = []
+    progress = ProgressRate("basic", 10, listener(reports))
+    progress.known(4)
+    progress.finished(6)
+    assert [done for _, done, _ in reports] == [4, 10]
 
 
 def test_without_a_listener_nothing_happens(clock: list[float]) -> None:

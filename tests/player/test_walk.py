@@ -11,7 +11,7 @@ import pytest
 from tests.helpers import trace_of, worlds
 from tests.player.played import confirms_at_once
 from tests.player.played import playback_of as played
-from topo_verify import CATALOGUE, Percept, Robot, World
+from topo_verify import CATALOGUE, Percept, Robot, World, examine
 from topo_verify.checkers import Finding, Judgement
 from topo_verify.checkers.darts import KnownDart
 from topo_verify.faults import FAULTS
@@ -68,6 +68,15 @@ def test_a_door_counted_from_the_wrong_dart_is_told(unturned: Playback) -> None:
 def test_an_edge_that_was_not_crossed_is_told_with_the_door_that_leads_to_it() -> None:
     run = played("m3/8", FAULTS["goes-on-as-if-just-come-in"].mapper)
     assert "door 4 at event 13 led out by v1:5; edge 3 (v1:3) was behind door 2 there" in text(run)
+
+
+def test_a_mapper_that_no_command_line_finds_is_played_from_python() -> None:
+    def lost(robot: Robot) -> None:
+        robot.declare(ev.Pose(edge=0, hypotheses=()))
+        robot.move(0)
+
+    told = " ".join(str(examine(lost, "m3/5")).split())
+    assert "1 more event: tv.explore(world, mapper).save('run.html') plays the whole run." in told
 
 
 def test_the_view_ends_at_the_first_finding_and_all_shows_the_rest(unturned: Playback) -> None:

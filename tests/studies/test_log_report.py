@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from random import Random
+from typing import Any
 
 import pytest
 
@@ -80,6 +82,23 @@ def test_nothing_is_known_of_a_log_that_no_world_shows() -> None:
     ]
     with pytest.raises(tv.InputError, match="no world shows this log, so nothing is known"):
         _ = tv.certify(log).known
+
+
+def test_events_may_be_dictionaries_as_in_the_lines_of_a_file() -> None:
+    log: list[dict[str, Any]] = [
+        {"type": "start", "percept": {"degree": 1, "marker": 0}},
+        {"type": "move", "door": 0, "percept": {"degree": 1, "marker": None}},
+    ]
+    assert tv.certify(log).verdict == "PROVED"
+    with pytest.raises(tv.InputError, match="the list of events, line 2: expected an event of a"):
+        tv.certify([log[0], {**log[1], "door": "left"}])
+
+
+def test_a_finding_names_the_row_of_the_file(tmp_path: Path) -> None:
+    (tmp_path / "log.csv").write_text("door,degree,marker\n,3,0\n5,2,\n")
+    told = str(tv.certify(tmp_path / "log.csv"))
+    assert f"event 1 (row 3 of {tmp_path / 'log.csv'}): " in told
+    assert "door 5 of 3 (0 is the first) led to a place of 2" in told
 
 
 def test_a_contradiction_names_the_two_readings_that_are_of_one_place() -> None:

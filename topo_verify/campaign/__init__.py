@@ -3,7 +3,8 @@
 row.py             Row: what one mapper did in one world
 attempt.py         makes one run, judges it, and makes its row
 tally.py           Tally: the sums of rows; which rows are kept
-campaign.py        Campaign: worlds, mappers, limits; results in order; progress
+campaign.py        Campaign: worlds, mappers, limits; results in order
+progress.py        how fast the work goes, and how long still
 store.py           Store: the SQLite file from which a campaign resumes
 backend.py         where shards are examined; what a lost worker means
 compiled.py        a shard by the compiled engine, judged again in part

@@ -28,6 +28,7 @@ from topo_verify.campaign.attempt import OUTSIDE, Look, lost_row
 from topo_verify.campaign.cluster import Cluster, ClusterPool
 from topo_verify.campaign.identity import Identity, merged, require_equal, source_hash
 from topo_verify.campaign.pool import Pool
+from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import SECOND_TRY, Row
 from topo_verify.campaign.run import on_engine
 from topo_verify.campaign.tally import Counts, Tally, notable
@@ -505,7 +506,7 @@ class MapperCampaign:
             return 0
         return sum(self.store.get(shard) is not None for shard in c.listed_shards(self.worlds))
 
-    def rows(self, workers: int, tell: c.Progress | None = None) -> Iterator[Row]:
+    def rows(self, workers: int, tell: Progress | None = None) -> Iterator[Row]:
         """The rows in the order of the worlds; those that the store lacks are made."""
         depends = None if self.store is None else ()
         backend = pooled(min(workers, self.total), depends)

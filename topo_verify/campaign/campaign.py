@@ -23,15 +23,14 @@ from contextlib import closing
 from functools import cache, partial
 from hashlib import sha256
 from itertools import chain, islice
-from math import inf
 from random import Random
-from time import monotonic
 from typing import Any, Literal, Protocol
 
 import msgspec
 
 from topo_verify.campaign.attempt import Attempt, Look, attempt, row_of
 from topo_verify.campaign.judge import CheckedTraces, Checks
+from topo_verify.campaign.progress import Progress, ProgressRate
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.campaign.tally import Counts, Notable, Tally
@@ -89,6 +88,10 @@ class Shard(msgspec.Struct, frozen=True):
         return f"listed-{sha256(msgspec.json.encode(self.listed)).hexdigest()}"
 
 
+MOST_WORLDS = 10**18
+"""No search of so many worlds ends."""
+
+
 class Ranks(msgspec.Struct, frozen=True, tag="ranks"):
     """Every world of a class with 1 to `edges` edges; a shard has `shard` worlds on average."""
 
@@ -97,10 +100,11 @@ class Ranks(msgspec.Struct, frozen=True, tag="ranks"):
     shard: int = 400
 
     def __post_init__(self) -> None:
-        if type(self.edges) is not int or self.edges < 1:
+        most = rank_order.MAX_ID_EDGES
+        if type(self.edges) is not int or not 1 <= self.edges <= most:
             raise InputError(
-                f"edges={self.edges!r}: expected an integer, 1 or more; a search goes through"
-                " worlds of 1 edge and more"
+                f"edges={self.edges!r}: expected an integer from 1 to {most}; a search goes through"
+                " the worlds of 1 edge and more"
             )
 
     @property
@@ -109,9 +113,21 @@ class Ranks(msgspec.Struct, frozen=True, tag="ranks"):
         return WorldClass.parse(self.kind)
 
     def totals(self) -> dict[int, int]:
-        """The number of worlds of each size. InputError if no formula counts the class."""
+        """The number of worlds of each size.
+
+        InputError: no formula counts the class, or it has more than MOST_WORLDS worlds.
+        """
         _total(self.world_class, self.edges)  # if there is no way, this size says so first
-        return {edges: _total(self.world_class, edges) for edges in range(1, self.edges + 1)}
+        totals: dict[int, int] = {}
+        for edges in range(1, self.edges + 1):
+            totals[edges] = _total(self.world_class, edges)
+            if sum(totals.values()) > MOST_WORLDS:
+                raise InputError(
+                    f"--edges {self.edges}: class {self.kind} has over {MOST_WORLDS:,} worlds with"
+                    f" up to {edges} edges, and no search of them ends: expected at most"
+                    f" {edges - 1} edges"
+                )
+        return totals
 
     def shards(self) -> Iterator[Shard]:
         """The shards; they depend on the class alone, so another campaign finds them in a store."""
@@ -529,64 +545,3 @@ class _Order:
                 sizes.add(shard.edges)
                 worlds += known.tally.worlds
                 yield shard
-
-
-# ---------------------------------------------------------------- progress
-
-Progress = Callable[[str, int, int], None]
-"""A progress callback: (name of the work, amount done, total)."""
-
-
-def no_progress(_work: str, _done: int, _total: int) -> None:
-    """Do nothing: a progress callback."""
-
-
-INTERVAL = 0.1
-"""Least seconds between two calls of a progress callback."""
-
-
-class ProgressRate:
-    """Reports finished worlds, worlds per second and the time left.
-
-    Attributes:
-        done: worlds finished now, without those of a store.
-    """
-
-    def __init__(self, work: str, total: int, report: Progress | None) -> None:
-        self._work, self._total, self._report = work, total, report
-        self._begin = monotonic()
-        self._reported = -inf
-        self._known = 0  # worlds that a ledger knew: they took no time, so the rate leaves them out
-        self.done = 0
-
-    def known(self, worlds: int) -> None:
-        """Count worlds that were finished before."""
-        self._known += worlds
-        self.in_flight(0)
-
-    def finished(self, worlds: int) -> None:
-        """Count worlds that were finished now."""
-        self.done += worlds
-        self.in_flight(0)
-
-    def in_flight(self, worlds: int) -> None:
-        """Report, unless it is too soon; `worlds` of unfinished shards are finished."""
-        now = monotonic()
-        if self._report is None or now < self._reported + INTERVAL:
-            return
-        self._reported = now
-        fresh = self.done + worlds
-        done = min(self._known + fresh, self._total)
-        text = self._work
-        if fresh and now > self._begin:
-            rate = fresh / (now - self._begin)
-            text += f", {rate:,.0f} worlds/s, {duration((self._total - done) / rate)} left"
-        self._report(text, done, self._total)
-
-
-def duration(seconds: float) -> str:
-    """A duration in one unit, exact enough to decide whether to wait: `40 s`, `12 min`."""
-    for unit, size in (("s", 1), ("min", 60), ("h", 3600)):
-        if seconds < 100 * size:
-            return f"{seconds / size:.0f} {unit}"
-    return f"{seconds / 86400:.0f} days"

@@ -119,7 +119,7 @@ class Fold:
         """Let the robot leave by a door and sense this behind it. Raises Contradiction."""
         (here, dart), marker, back = self.at, percept.marker, percept.degree
         if door not in range(doors := self._seen[here].degree) or back < 1:
-            raise Contradiction(f"no door {door} of {doors} leads to a place of {back} doors")
+            raise Contradiction(f"door {door} of {doors} (0 is the first) led to a place of {back}")
         if marker is not None and not 0 <= marker < percept.degree:
             raise Contradiction(f"the marker cannot point at door {marker} of {percept.degree}")
         exit_place = self.find((here, dart + door))

@@ -204,7 +204,10 @@ class _View:
         if repeated is not None and last == repeated.last:
             words = f"{str(repeated).capitalize()}."
         elif following:
-            words = f"{plural(following, 'more event')}: topo-verify replay --all shows them."
+            start, show = self.playback.trace[0], "topo-verify replay --all shows"
+            if isinstance(start, ev.Start) and "<" in (start.algorithm or ""):  # of a notebook
+                show = "tv.explore(world, mapper).save('run.html') plays"
+            words = f"{plural(following, 'more event')}: {show} the whole run."
             if repeated is not None:
                 moves = plural(repeated.period, "move")
                 words += f" From event {repeated.first} on the robot walks in a circle of {moves}."

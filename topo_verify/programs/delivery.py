@@ -6,6 +6,7 @@ Reading is part of the call, because attributes of a foreign object may run code
 from __future__ import annotations
 
 import os
+import sys
 import traceback
 from bdb import BdbQuit
 from collections.abc import Callable, Iterable
@@ -117,9 +118,16 @@ def _is_cell(file: str) -> bool:
     return Path(file).parent.name.startswith("ipykernel_")
 
 
+def _cell(file: str) -> str:
+    """The cell by its number, as In[3], if IPython knows it."""
+    shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    named = shell and shell.compile.format_code_name(file)
+    return named[1] if named else "cell"
+
+
 def _line(file: str, line: int) -> str:
     if _is_cell(file):
-        return f"cell, line {line}"
+        return f"{_cell(file)}, line {line}"
     path = Path(file)
     with suppress(ValueError, OSError):
         path = path.relative_to(Path.cwd())

@@ -42,7 +42,7 @@ class BudgetExceeded(MapperStopped):
     limit = "budget"
 
     def __init__(self, budget: int) -> None:
-        given = "its budget (claim cost-within-bound, or --budget)"
+        given = "its budget (claim cost-within-bound, --budget, or tv.Limits(budget=…))"
         super().__init__(f"the mapper asked for more than {plural(budget, 'move')}, {given}")
 
 

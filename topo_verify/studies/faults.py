@@ -17,7 +17,7 @@ from typing import Literal, get_args
 
 import msgspec
 
-from topo_verify.campaign.campaign import Progress
+from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.run import Engine, explore, planted, require_compiled
 from topo_verify.checkers import CLAIMS
 from topo_verify.checkers.findings import Verdict

@@ -9,13 +9,13 @@ for door in certificate.open_doors(100): ...     # at most 100, nearest to the l
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
 from html import escape
 from itertools import islice
 from os import PathLike, fspath
-from typing import Literal
+from typing import Any, Literal, cast
 
 import msgspec
 
@@ -24,10 +24,10 @@ from topo_verify.checkers.entailment import CONCLUDED
 from topo_verify.checkers.findings import Finding
 from topo_verify.checkers.folding import UNLIKE, Contradiction, Fold
 from topo_verify.errors import LINE, InputError, map_size, plural, shown
-from topo_verify.robot.events import Event, Move, Start
+from topo_verify.robot.events import Event, Move, Start, read_events
 from topo_verify.robot.percept import Door, Percept
 from topo_verify.studies.advice import Advice, advice, doors_of, places_from
-from topo_verify.studies.log_file import read_log
+from topo_verify.studies.log_file import line_of, read_log
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
@@ -43,6 +43,7 @@ class Certificate:
         vertices, edges: of the map, else of the smaller witness; 0 if no world shows the log.
         entailed, decisions: the declared decisions that follow from the log before them; all.
         fold: of the log; None if no world shows it.
+        source: the file of the log; "" for events.
     """
 
     verdict: Literal["PROVED", "UNKNOWN", "REFUTED"]
@@ -55,6 +56,7 @@ class Certificate:
     findings: tuple[Finding, ...]
     log: Sequence[Event] = field(repr=False)
     fold: Fold | None = field(repr=False)
+    source: str = field(repr=False, default="")
 
     @property
     def shown(self) -> bool:
@@ -137,17 +139,19 @@ class Certificate:
         return tuple(showing(self.fold.world(hang), self.log) for hang in (1, 2))
 
 
-def certify(log: Sequence[Event] | str | PathLike[str]) -> Certificate:
+def certify(
+    log: Sequence[Event | Mapping[str, Any]] | str | PathLike[str],
+) -> Certificate:
     """Judge a log, events or a file of them, without its world.
 
+    Args:
+        log: a file, or a list of events: of a trace, or dictionaries as in the lines of a file.
     Raises:
         InputError: this is no log; the log does not begin with its only `start`, or goes on
             after `finish`; its places have more than 2^20 doors together and 16 an event.
     Complexity: nearly linear for a plain log; claim 10 reads every open dart once a decision.
     """
-    trace = read_log(log) if isinstance(log, str | PathLike) else log
-    if not hasattr(trace, "__len__"):
-        raise InputError(f"expected a log: events, as run.trace, or a file; got {trace!r}")
+    trace = _events(log)
     judged = judge_log(trace)
     shown = judged.broken is None
     fold, open_darts = judged.fold, judged.fold.open_darts()
@@ -162,7 +166,19 @@ def certify(log: Sequence[Event] | str | PathLike[str]) -> Certificate:
         findings=judged.findings,
         log=trace,
         fold=fold if shown else None,
+        source=fspath(log) if isinstance(log, str | PathLike) else "",
     )
+
+
+def _events(log: Sequence[Event | Mapping[str, Any]] | str | PathLike[str]) -> Sequence[Event]:
+    if isinstance(log, str | PathLike):
+        return read_log(log)
+    if not hasattr(log, "__len__"):
+        raise InputError(f"expected a log: events, as run.trace, or a file; got {log!r}")
+    if any(isinstance(event, Mapping) for event in log):
+        lines = (msgspec.json.encode(event, enc_hook=repr) for event in log)
+        return tuple(read_events(lines, name="the list of events"))
+    return cast("Sequence[Event]", log)
 
 
 def _known(certificate: Certificate) -> World:
@@ -248,7 +264,7 @@ def _headline(certificate: Certificate) -> str:
 
 def _next_steps(certificate: Certificate) -> Iterator[str]:
     for finding in certificate.findings[:MOST_LISTED]:
-        event = "" if finding.event is None else f", event {finding.event}"
+        event = "" if finding.event is None else f", {_event(certificate, finding.event)}"
         yield shown(f"{finding.claim}{event}: {finding.message}", limit=LINE)
     for door in certificate.open_doors(MOST_LISTED):
         yield f"door {door.door} of place {door.place}: {_by_doors(door.walk)}"
@@ -258,6 +274,11 @@ def _next_steps(certificate: Certificate) -> Iterator[str]:
         yield f"Next: {_by_doors(advice.walk)}, and certify the longer log."
     else:
         yield f"Next: go back to the marker, {_by_doors(advice.home)}, and certify the longer log."
+
+
+def _event(certificate: Certificate, when: int) -> str:
+    line = certificate.source and line_of(certificate.source, when)
+    return f"event {when} ({line} of {certificate.source})" if line else f"event {when}"
 
 
 def _by_doors(walk: Sequence[Door]) -> str:

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from topo_verify.campaign.campaign import Campaign, no_progress
+from topo_verify.campaign.campaign import Campaign
+from topo_verify.campaign.progress import no_progress
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import targets
 from topo_verify.studies.arena.league import League

@@ -91,6 +91,19 @@ def test_what_lies_behind_the_counterexample_is_not_counted() -> None:
     ]  # fmt: skip
 
 
+@pytest.mark.parametrize(
+    ("edges", "kind", "words"),
+    [
+        (300, "any", "expected an integer from 1 to 200"),
+        (150, "any", "no search of them ends: expected at most 15 edges"),
+        (40, "planar", "no search of them ends: expected at most 19 edges"),
+    ],
+)
+def test_a_search_that_cannot_end_is_refused(edges: int, kind: str, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        search(basic, edges=edges, world_class=kind)
+
+
 def test_keeping_going_tells_of_each_claim_how_often_it_fails_and_where_first() -> None:
     found = search(mappers.guesses, edges=3, keep_going=True)
     assert (found.verdict, found.checked) == ("REFUTED", 86)

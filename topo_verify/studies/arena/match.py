@@ -25,8 +25,8 @@ from topo_verify.algorithms import NAMED
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import Attempt
 from topo_verify.campaign.backend import MapperCampaign, here
-from topo_verify.campaign.campaign import Progress
 from topo_verify.campaign.identity import runs_here
+from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.store import Store
 from topo_verify.errors import InputError, plural
 from topo_verify.programs import serve

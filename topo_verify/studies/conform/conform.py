@@ -26,7 +26,7 @@ from msgspec.structs import asdict, replace
 
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import Attempt, Look, row_of
-from topo_verify.campaign.campaign import Progress
+from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import explore
 from topo_verify.campaign.tally import Counts

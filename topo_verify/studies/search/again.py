@@ -27,7 +27,7 @@ import msgspec
 
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import calls_native, here
-from topo_verify.campaign.campaign import Progress, no_progress
+from topo_verify.campaign.progress import Progress, no_progress
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import SAMPLE, sample_key
 from topo_verify.campaign.targets import target_arguments

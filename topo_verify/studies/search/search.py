@@ -14,8 +14,8 @@ from msgspec.structs import astuple
 from topo_verify.algorithms import Algorithm, Steered
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import calls_native, clustered, here, pooled
-from topo_verify.campaign.campaign import Progress
 from topo_verify.campaign.cluster import both_given, connected
+from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import PolicyCosts, Row
 from topo_verify.campaign.run import Engine, is_native, require_compiled
 from topo_verify.campaign.tally import KEPT_PAIRS, KEPT_WORST, Costs, Pairs, Tally, notable
@@ -258,8 +258,8 @@ def search(  # noqa: PLR0913  an argument an option
         policies: which choices a catalogue algorithm is tried with; `choices.py`.
         workers: number of worker processes; 0: this one.
         dask: the address of a Dask scheduler, or `local`.
-        tell: a progress callback, called with the name of the work, the amount done and the total;
-            default: silent. (To resume a search, use the command line with `--ledger`.)
+        tell: a progress callback, called with words (what is done, how fast), the amount done and
+            the total; default: silent. (To resume a search, use the command line with `--ledger`.)
     Raises:
         InputError: no such mapper; no formula counts the class; and the like.
         SearchInterrupted: Ctrl-C; its `entry` is the result so far. After it, in a notebook:

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from topo_verify.campaign.attempt import Attempt
-from topo_verify.campaign.campaign import no_progress
 from topo_verify.campaign.judge import Report, undecided
+from topo_verify.campaign.progress import no_progress
 from topo_verify.checkers import Finding
 from topo_verify.errors import LINE, shown
 from topo_verify.programs.loader import Target

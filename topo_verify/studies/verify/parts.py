@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import msgspec
 
-from topo_verify.campaign.campaign import Progress
+from topo_verify.campaign.progress import Progress
 from topo_verify.checkers.findings import Finding, Judgement, Verdict
 from topo_verify.errors import plural
 from topo_verify.world.enumeration import rank_order

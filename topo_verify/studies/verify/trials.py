@@ -21,8 +21,8 @@ from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import KEPT_FINDINGS, Look
 from topo_verify.campaign.backend import here, pooled
-from topo_verify.campaign.campaign import Progress
 from topo_verify.campaign.judge import in_words, world_argument
+from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import explore
 from topo_verify.campaign.tally import KEPT_FAILING, Tally, joint_status, notable

@@ -23,7 +23,8 @@ from random import Random
 import msgspec
 
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.campaign.campaign import MAX_TIMEOUTS, Progress, no_progress
+from topo_verify.campaign.campaign import MAX_TIMEOUTS
+from topo_verify.campaign.progress import Progress, no_progress
 from topo_verify.campaign.targets import targets as targets_of
 from topo_verify.campaign.work import processors
 from topo_verify.compiled import available

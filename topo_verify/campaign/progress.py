@@ -1,0 +1,65 @@
+"""Progress: worlds that are finished, worlds per second, and the time left."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import inf
+from time import monotonic
+
+Progress = Callable[[str, int, int], None]
+"""A progress callback: (what is done, how fast and how long; amount done; total)."""
+
+
+def no_progress(_work: str, _done: int, _total: int) -> None:
+    """Do nothing: a progress callback."""
+
+
+INTERVAL = 0.1
+"""Least seconds between two calls of a progress callback."""
+
+
+class ProgressRate:
+    """Reports finished worlds, worlds per second and the time left.
+
+    Attributes:
+        done: worlds finished now, without those of a store.
+    """
+
+    def __init__(self, work: str, total: int, report: Progress | None) -> None:
+        self._work, self._total, self._report = work, total, report
+        self._begin = monotonic()
+        self._reported = -inf
+        self._known = 0  # worlds that a ledger knew: they took no time, so the rate leaves them out
+        self.done = 0
+
+    def known(self, worlds: int) -> None:
+        """Count worlds that were finished before."""
+        self._known += worlds
+        self.in_flight(0)
+
+    def finished(self, worlds: int) -> None:
+        """Count worlds that were finished now."""
+        self.done += worlds
+        self.in_flight(0)
+
+    def in_flight(self, worlds: int) -> None:
+        """Report the end, and else if it is not too soon; `worlds` of open shards are finished."""
+        now, fresh = monotonic(), self.done + worlds
+        done = min(self._known + fresh, self._total)
+        soon = done < self._total and now < self._reported + INTERVAL
+        if self._report is None or soon:
+            return
+        self._reported = now
+        text = self._work
+        if fresh and now > self._begin:
+            rate = fresh / (now - self._begin)
+            text += f", {rate:,.0f} worlds/s, {duration((self._total - done) / rate)} left"
+        self._report(text, done, self._total)
+
+
+def duration(seconds: float) -> str:
+    """A duration in one unit, exact enough to decide whether to wait: `40 s`, `12 min`."""
+    for unit, size in (("s", 1), ("min", 60), ("h", 3600)):
+        if seconds < 100 * size:
+            return f"{seconds / size:.0f} {unit}"
+    return f"{seconds / 86400:.0f} days"
