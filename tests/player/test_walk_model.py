@@ -192,11 +192,12 @@ def test_a_sketch_shows_the_rotation_of_every_vertex_clockwise() -> None:
             assert turns == sorted(turns)
 
 
-def test_roads_of_well_known_planar_maps_do_not_cross_in_their_sketches() -> None:
+def test_roads_of_small_and_of_well_known_planar_maps_do_not_cross_in_their_sketches() -> None:
     planar = [families.cube(), families.octahedron(), families.prism(5), families.lattice(3, 3)]
     source = script("geometry.js") + MODEL + script("sketch.js")
     source += "const answer = (world) => sketchOf(world).crossings();"
-    assert answers(source, map(data, planar)) == [0, 0, 0, 0]
+    planar += [world for world in worlds([1, 2, 3]) if not world.genus]
+    assert set(answers(source, map(data, planar))) == {0}
     assert min(answers(source, map(data, [World.from_id("m2/8"), families.torus(3, 3)]))) > 0
 
 

@@ -29,7 +29,24 @@ class Sketch {
       const other = new Sketch(vertices, alpha, start), number = other.crossings();
       if (number < fewest) [best, fewest] = [other.turnedLike(before?.spots ?? []), number];
     }
+    if (fewest) best.untwist();
     return best;
+  }
+
+  /** Turn each vertex with several roads to one place so that few roads cross and they are short. */
+  untwist() {
+    const length = () => [...this.alpha.keys()].flatMap((dart) => this.along(dart)).reduce((sum, [[a, b], [c, d]]) => sum + Math.hypot(c - a, d - b), 0);
+    this.spots.forEach((spot, v) => {
+      const { turn } = spot, ends = this.vertices[v].flatMap((dart) => this.owner.get(this.alpha.get(dart))?.[0] ?? []);
+      if (new Set(ends).size === ends.length) return;
+      const tried = Array.from({ length: 12 }, (_, k) => {
+        spot.turn = turn + (k * Math.PI) / 6;
+        this.straighten();
+        return [this.crossings() + length() / 1e6, spot.turn];
+      });
+      [, spot.turn] = tried.reduce((least, one) => (one[0] < least[0] ? one : least));
+      this.straighten();
+    });
   }
 
   /** The vertices along each face, in the directions of its roads. */
@@ -128,7 +145,8 @@ class Sketch {
   face(part) {
     this.spots.forEach((spot, v) => {
       const turns = this.turns(v), sum = (part) => turns.reduce((all, [, turn]) => all + part(turn), 0);
-      spot.turn += part * Math.atan2(sum(Math.sin), sum(Math.cos));
+      const [sin, cos] = [sum(Math.sin), sum(Math.cos)];
+      if (Math.hypot(sin, cos) > 0.01) spot.turn += part * Math.atan2(sin, cos);
     });
   }
 
@@ -163,6 +181,7 @@ class Sketch {
   /** Where the neighbours lie in the order of the rotation, turn roads most of the way towards them. */
   straighten() {
     const off = new Map();
+    this.off = null;
     this.vertices.forEach((rotation, v) => {
       const degree = rotation.length, turns = this.turns(v);
       const gaps = turns.map(([place, turn], k) => {
