@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import importlib.util
 import json
+import subprocess
 import sys
 from pathlib import Path
 from types import ModuleType
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -17,6 +19,9 @@ from tests.pages import ROOT
 from topo_verify.world.drawing.read_back import read, untruths
 from topo_verify.world.families import FAMILIES
 from topo_verify.world.resolve import resolve_world
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
 
 DOCS = ROOT / "docs"
 
@@ -169,6 +174,46 @@ def test_code_that_the_page_names_is_linked_at_its_line(name: str, file: str, be
 @pytest.mark.parametrize("name", ["basic", "Embedding.confir", "CITATION.cff", "no/file.py:f"])
 def test_other_words_of_the_page_are_not_linked(name: str) -> None:
     assert part("site/codelines.py").line_named(name) is None
+
+
+@pytest.fixture(scope="module")
+def small_site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A site with the theme and the styles of docs/: a wide table, and long names in the index."""
+    for module in ("furo", "myst_parser"):
+        pytest.importorskip(module, reason=f"{module} is not installed")
+    folder = tmp_path_factory.mktemp("site")
+    row = "|" + " enhancement-iii |" * 10
+    long = "topo_verify.world.enumeration.classes.WorldClass.admits"
+    names = (f"```{{py:method}} {long}{i}\n```\n" for i in range(2))
+    table = f"# Wide\n\n{row}\n{'| --- ' * 10}|\n{row}\n\n## Part\n\n"
+    (folder / "index.md").write_text(table + "".join(names))
+    options = {
+        "extensions": "myst_parser",
+        "html_theme": "furo",
+        "html_static_path": DOCS / "site" / "static",
+        "html_css_files": "site.css",
+    }
+    settings = [f"-D{name}={value}" for name, value in options.items()]
+    command = [sys.executable, "-m", "sphinx", "-q", "-C", *settings, str(folder), f"{folder}/out"]
+    subprocess.run(command, check=True)
+    return folder / "out"
+
+
+@pytest.mark.parametrize("width", [360, 768, 1024, 1280, 1312, 1366, 1440, 1600, 1920])
+@pytest.mark.parametrize("name", ["index", "genindex"])
+def test_no_page_is_wider_than_its_window(
+    name: str, width: int, small_site: Path, browser: Browser
+) -> None:
+    page = browser.new_page(viewport={"width": width, "height": 800})
+    page.goto((small_site / f"{name}.html").as_uri())
+    widths = page.evaluate(
+        "() => [document.documentElement.scrollWidth,"
+        " document.querySelector('.toc-drawer').getBoundingClientRect().right]"
+    )
+    page.close()
+    assert widths[0] <= width
+    if name == "index" and width > 1312:  # below, the theme puts the contents behind a button
+        assert widths[1] <= width
 
 
 def test_the_gallery_has_every_family_and_the_first_genera() -> None:
