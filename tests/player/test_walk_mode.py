@@ -55,6 +55,12 @@ def test_who_walks_as_a_sound_mapper_does_has_proved_the_map(show: Open, text: s
     assert page.locator("#walk .says li").count() == len(WORLD.edges)
     for pane in (0, 1):
         assert page.locator("#walk .pane").nth(pane).locator(".road.followed").count() == 8
+    assert (
+        page.inner_text("#walk .pane:nth-child(2) small")
+        == "no unexplored exit; drawn like the world"
+    )
+    drawings = page.locator("#walk .pane > svg").evaluate_all("all => all.map((o) => o.innerHTML)")
+    assert drawings[0] == drawings[1]
 
 
 def test_who_guesses_right_is_told_that_it_was_luck(show: Open, text: str) -> None:
@@ -69,7 +75,10 @@ def test_who_guesses_right_is_told_that_it_was_luck(show: Open, text: str) -> No
     assert said(page) == "The map is right, but 1 of 8 decisions was luck"
     (luck,) = page.locator("#walk .says li.luck").all_inner_texts()
     assert luck.startswith("A road between places known: luck, for ")
-    assert "The history does not prove the world" in page.inner_text("#walk .says")
+    assert (
+        "The history does not prove the world: the road marked orange may end elsewhere."
+        in page.inner_text("#walk .says")
+    )
     assert page.locator("#walk .road.luck").count() == 2
     page.keyboard.press("s")
     assert page.inner_text("#walk .pane h2 span") == "Another world"
@@ -98,6 +107,21 @@ def test_a_wrong_declaration_is_shown_where_it_is_wrong(show: Open, text: str) -
     assert page.locator("#walk .pane").nth(0).locator(".road.wrong").count() == 1
     assert page.locator("#walk .pane").nth(1).locator('.road.wrong[data-darts="3 6"]').count() == 0
     assert page.locator("#walk .pane").nth(1).locator(".road.wrong").count() == 1
+
+
+def test_where_a_wrong_road_ends_is_ringed_and_one_can_go_on_from_there(show: Open) -> None:
+    page = show(page_of(World.from_id("m4/41"), "basic"), at="#walk")
+    keys(page, "0 n 1 n 1 1 a 0 2 0 Enter")
+    assert page.locator("#walk li.wrong").inner_text() == (
+        "A road between places known: wrong, the road ends at the exit with the green ring."
+    )
+    ring = page.locator("#walk .pane").nth(1).locator(".ring.truth")
+    (x, y) = (ring.get_attribute("cx"), ring.get_attribute("cy"))
+    assert page.locator(f'#walk .stub circle[cx^="{str(x)[:6]}"][cy^="{str(y)[:6]}"]').count() == 1
+    keys(page, "u")  # the wrong decision is taken back, the moves are kept
+    assert said(page) == "A new road: where does it end?"
+    assert page.inner_text("#walk .says .end") == "7 moves"
+    assert page.locator("#walk .badge").count() == 3
 
 
 def test_at_the_marker_only_an_exit_at_the_marker_is_offered(show: Open) -> None:

@@ -126,7 +126,7 @@ def squeezed(text: str, name: str) -> str:
         text = re.sub(r"^\s*/\*.*?\*/$\n?", "", text, flags=re.MULTILINE | re.DOTALL)
         text = re.sub(r"(^|[ \t]+)//[ \t].*", "", text, flags=re.MULTILINE)
     if name.endswith(".css"):
-        text = re.sub(r"\s*([{};,])\s*|(?<=:)\s+", r"\1", text)
+        text = re.sub(r"\s*([{};,])\s*|(?<=:)\s+", r"\1", text).replace(";}", "}")
     return re.sub(r"^\s+", "", text, flags=re.MULTILINE)
 
 

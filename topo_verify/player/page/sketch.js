@@ -35,7 +35,7 @@ class Sketch {
 
   /** Turn each vertex with several roads to one place so that few roads cross and they are short. */
   untwist() {
-    const length = () => [...this.alpha.keys()].flatMap((dart) => this.along(dart)).reduce((sum, [[a, b], [c, d]]) => sum + Math.hypot(c - a, d - b), 0);
+    const length = () => [...this.alpha.keys()].reduce((sum, dart) => sum + new Trail(flattened(this.road(dart))).length, 0);
     this.spots.forEach((spot, v) => {
       const { turn } = spot, ends = this.vertices[v].flatMap((dart) => this.owner.get(this.alpha.get(dart))?.[0] ?? []);
       if (new Set(ends).size === ends.length) return;
@@ -108,11 +108,7 @@ class Sketch {
 
   /** The road of a dart as short straight pieces. */
   along(dart) {
-    const numbers = this.road(dart).match(/-?[\d.]+/g).map(Number), points = [];
-    for (let k = 0; k + 8 <= numbers.length; k += 6) {
-      const at = (u, c) => [1, 3, 3, 1].reduce((sum, times, n) => sum + times * u ** n * (1 - u) ** (3 - n) * numbers[k + 2 * n + c], 0);
-      for (let n = 0; n <= 12; n += 1) points.push([at(n / 12, 0), at(n / 12, 1)]);
-    }
+    const [points] = flattened(this.road(dart));
     return points.slice(1).map((point, n) => [points[n], point]);
   }
 

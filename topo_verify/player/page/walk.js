@@ -266,13 +266,19 @@ class WalkMode {
     const { walk, ended, says } = this, { found } = ended;
     const luck = found.filter(({ fate }) => fate === 'luck'), wrong = found.find(({ fate }) => fate === 'wrong');
     this.reveal();
-    const kinds = this.kinds(found);
-    this.sketch.show(this.right.svg, { marker: walk.size ? 0 : null, kinds });
+    if (walk.complete && !wrong) {
+      this.right.note.textContent = 'no unexplored exit; drawn like the world';
+      this.showWorld(this.right.svg);
+    } else this.sketch.show(this.right.svg, { marker: walk.size ? 0 : null, kinds: this.kinds(found) });
+    if (wrong && wrong.truth !== null) {
+      const [cx, cy] = this.sketch.out(wrong.truth, 2.35 * ROUND);
+      draw('circle', { class: 'ring truth', cx, cy, r: 10 }, this.right.svg);
+    }
     says.replaceChildren();
     const good = !wrong && !luck.length && ended.proved && walk.complete;
     says.className = `card says ${wrong ? 'bad' : good ? 'good' : ''}`;
     html('h3', '', says, this.headline(wrong, luck, good));
-    html('p', '', says, this.cost());
+    html('p', '', says, `${this.cost()} ${this.proof(wrong, luck)}`);
     const list = html('ol', '', says);
     for (const one of found) html('li', one.fate, list, this.fate(one));
     if (wrong && walk.events.slice(wrong.when + 1).some(({ type }) => type === 'augment')) html('p', '', says, 'What came later is not judged: it stands on a wrong map.');
@@ -284,7 +290,11 @@ class WalkMode {
     }
     const row = html('div', 'bar', says);
     this.button(row, 'Walk it again', 'w', () => this.begin(walk.world));
-    if (walk.moves && !wrong) this.button(row, 'Walk on', 'o', () => ((this.ended = null), this.show()));
+    const on = () => {
+      this.ended = null;
+      if (wrong) walk.takeBack(wrong.when);
+    };
+    if (walk.moves) this.button(row, ...(wrong ? ['Take it back and walk on', 'u'] : ['Walk on', 'o']), () => this.act(on));
     const witness = luck.at(-1)?.witness ?? (wrong ? null : ended.witness);
     if (witness) this.button(row, ended.other ? 'Show this world' : 'Show another world with this walk', 's', () => this.act(() => (ended.other = ended.other ? null : witness)));
   }
@@ -301,26 +311,38 @@ class WalkMode {
   cost() {
     const { walk } = this, least = walk.world.leastCost();
     const runs = walk.world !== this.page.world ? [] : this.recording.runs.map((run) => `${run.name} takes ${run.events.replace(/[^wcvtm]/g, '').length}`);
-    const proof = this.ended.proved ? 'The history proves the world.' : 'The history does not prove the world: exits are left that may lead anywhere.';
-    return `You made ${many(walk.moves, 'move')}. With the map in hand, a proof of this world takes ${least}${runs.length ? `; ${runs.join(', ')}` : ''}. ${proof}`;
+    return `You made ${many(walk.moves, 'move')}. With the map in hand, a proof of this world takes ${least}${runs.length ? `; ${runs.join(', ')}` : ''}.`;
+  }
+
+  /** Whether the history proves the world; if not, what is left open. */
+  proof(wrong, luck) {
+    if (this.ended.proved) return 'The history proves the world.';
+    const left = !this.walk.complete ? ': exits are left that may lead anywhere' : wrong ? '' : `: ${luck.length === 1 ? 'the' : 'a'} road marked orange may end elsewhere`;
+    return `The history does not prove the world${left}.`;
   }
 
   fate({ event, fate, truth, given }) {
     const said = event.kind === 'new' ? 'A new place' : 'A road between places known';
     if (fate === 'followed') return `${said}: it followed${given ? ', if what was luck is taken for true' : ''}.`;
     if (fate === 'luck') return `${said}: luck, for ${WHY[event.kind]}.`;
-    return truth === null ? `${said}: wrong, the place behind it was new.` : event.kind === 'new' ? `${said}: wrong, you had been there.` : `${said}: wrong, it ends elsewhere.`;
+    return `${said}: wrong, ${truth === null ? 'the place behind it was new' : `${event.kind === 'new' ? 'you had been there: ' : ''}the road ends at the exit with the green ring`}.`;
   }
 
-  /** Show the world or its witness, with the declarations in colours. */
+  /** Show the world or its witness. */
   reveal() {
-    const { walk, ended } = this, { svg, title, note } = this.left, { phi } = ended;
-    const kinds = new Map(ended.found.map(({ event, fate }) => [phi.get(event.edge), fate]));
+    const { walk, ended } = this, { svg, title, note } = this.left;
     title.textContent = ended.other ? 'Another world' : 'The world';
     note.textContent = ended.other ? 'the same doors show the same there; dotted: never walked' : walk.world.words;
     if (ended.other) sketchOf(ended.other).show(svg, { marker: ended.other.marker, kinds: this.untaken(new WalkWorld(ended.other)) });
-    else if (walk.world.drawn) this.picture(svg, kinds);
-    else sketchOf(walk.world).show(svg, { marker: walk.world.marker, kinds });
+    else this.showWorld(svg);
+  }
+
+  /** Show the world with the declarations in colours. */
+  showWorld(svg) {
+    const { found, phi } = this.ended, { world } = this.walk;
+    const kinds = new Map(found.map(({ event, fate }) => [phi.get(event.edge), fate]));
+    if (world.drawn) this.picture(svg, kinds);
+    else sketchOf(world).show(svg, { marker: world.marker, kinds });
   }
 
   /** The darts of another world that the same doors do not cross. */

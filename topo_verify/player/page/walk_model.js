@@ -76,11 +76,9 @@ class Walk {
     this.declared(event);
   }
 
-  /** Take back the last declaration; the moves since then are kept. */
-  takeBack() {
-    const last = this.events.findLastIndex(({ type }) => type === 'augment');
-    if (last < 0) return;
-    this.events.splice(last, 1);
+  /** Take back the declarations from an event on, by default the last; all moves are kept. */
+  takeBack(from = this.events.findLastIndex(({ type }) => type === 'augment')) {
+    this.events = this.events.filter(({ type }, when) => when < from || type !== 'augment');
     this.replay();
   }
 
