@@ -48,7 +48,7 @@ def test_the_head_names_coq_and_the_number_of_its_files(
     done = call("prove coq-confirmed")
     first, second, *_ = done.stdout.splitlines()
     assert first == "coqc 8.16.1: 1 theorem (1 mechanised)"
-    assert second == "First coqc compiles 18 files and coqchk checks them again: some minutes."
+    assert second == "First coqc compiles 3 files and coqchk checks them again: some minutes."
     assert (done.exit_code, "UNKNOWN" in done.stdout, "late" in done.stdout) == (3, True, True)
     both = call("prove coq-confirmed percept").stdout.splitlines()[0]
     assert re.fullmatch(r"z3 .*, seed 0; coqc 8.16.1: 2 theorems .*", both)

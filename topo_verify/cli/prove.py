@@ -167,7 +167,8 @@ def prove(
     NAME is a theorem, one in Coq also by its place there (Undirected.undirected_not_enough); by
     default all quick ones are proved. Inductive theorems hold in worlds of
     any size, bounded ones in every world of a few edges; negatives and mutants must be REFUTED.
-    For a theorem in Coq, coqc compiles each file that it needs (18 to 90), some minutes.
+    For a theorem in Coq, coqc compiles the files that it needs (3 to 53; 90 for all), and coqchk
+    checks them and what they use of Coq's standard library: some minutes.
     A vacuous theorem is UNKNOWN, which does not pass (exit 3).
     """
     from topo_verify.proofs.catalogue import choose

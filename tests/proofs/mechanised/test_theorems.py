@@ -82,10 +82,18 @@ def test_a_library_with_a_gap_is_refused(
 
 
 def test_a_theorem_needs_the_files_behind_it_and_all_theorems_need_every_file() -> None:
-    files = theorems.needed(["coq-twins", "no theorem in Coq"])
-    assert {*toolchain.required("Undirected"), "Examples", "RunExists"} < {*files}
-    assert len(files) < len(toolchain.files()) / 4
+    confirmed = ("World", "Rotation", "Embedding")
+    assert theorems.needed(["coq-confirmed", "no theorem in Coq"]) == confirmed
     assert theorems.needed(NAMES) == toolchain.files()
+
+
+def test_what_is_said_of_all_worlds_runs_or_mappers_is_compiled_with_one_of_them() -> None:
+    assert theorems.in_coq("Rotation", "edge_alone_world").startswith("edge_alone_world : world")
+    for row in STATEMENTS:
+        rests_on, files = toolchain.required(row.file), theorems.needed([row.name])
+        assert "Rotation" in files
+        assert "Run" not in rests_on or "RunExists" in files
+        assert "Mapper" not in rests_on or "Examples" in files
 
 
 def test_the_symbols_are_the_statement_in_its_file_with_the_variables_of_its_section() -> None:

@@ -6,7 +6,7 @@
     undone, so walks by one and the same list of doors are injective.
 
     The file begins with lemmas on lists and counting and ends with the decidable equality of
-    percepts. *)
+    percepts, and with one world. *)
 From Coq Require Import Arith Lia List Bool.
 Import ListNotations.
 From Topo Require Import World.
@@ -238,4 +238,17 @@ Proof.
   destruct p as [d i], q as [c j]. unfold percept_eqb; simpl.
   destruct (Nat.eqb_spec d c), i as [i|], j as [j|]; simpl; try (constructor; congruence).
   destruct (Nat.eqb_spec i j); constructor; congruence.
+Qed.
+
+(** The world of one edge: what is said of all worlds, and of the maps in them, is not vacuous. *)
+Definition edge_alone := {| darts := 2; sigma := fun d => d; alpha := fun d => Some (1 - d);
+  root := 0 |}.
+
+(** It is a world, and a map embedded in itself. *)
+Example edge_alone_world : world edge_alone /\ embedded edge_alone edge_alone (fun d => d).
+Proof.
+  split; [|split; auto]. split; [split|..]; simpl; auto; try discriminate.
+  - intros [|[|d]] e L H; simpl in *; injection H as <-; repeat split; lia.
+  - intros [|[|d]] L; [constructor|apply reach_alpha with 0; [constructor|reflexivity]|].
+    simpl in L. lia.
 Qed.
