@@ -370,12 +370,12 @@ def test_a_scheduler_without_workers_is_told(monkeypatch: pytest.MonkeyPatch) ->
         pass
 
 
-def test_without_dask_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_dask_the_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     def nothing(_name: str) -> None:
         return None
 
     monkeypatch.setattr(clusters, "find_spec", nothing)
-    words = r"--dask local needs dask.distributed: pip install 'topo-verify\[cluster\]'"
+    words = r"--dask local needs dask.distributed: .* -m pip install 'dask\[distributed\]'"
     with pytest.raises(InputError, match=words), connected("local"):
         pass
 

@@ -16,6 +16,7 @@ of a worker that loaded a file that differs here.
 from __future__ import annotations
 
 import os
+import sys
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
@@ -110,7 +111,8 @@ def connected(address: str) -> Generator[Cluster]:
     """
     if find_spec("distributed") is None:
         raise InputError(
-            f"--dask {address} needs dask.distributed: pip install 'topo-verify[cluster]'"
+            f"--dask {address} needs dask.distributed: {sys.executable} -m pip install"
+            " 'dask[distributed]'"
         )
     dask: Any = import_module("dask")
     # Its loggers would repeat what is handled or reported here.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+import sys
 from collections.abc import Iterator, Sequence
 from importlib.util import find_spec
 from pathlib import Path
@@ -25,8 +26,8 @@ from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
 MATPLOTLIB = (
-    "no pictures: they need matplotlib, install it with: pip install 'topo-verify[plots]'; the CSV"
-    " files are written all the same"
+    f"no pictures: they need matplotlib: {sys.executable} -m pip install matplotlib; the CSV files"
+    " are written all the same"
 )
 
 _Found = list[tuple[fig.Figure, list[pts.FigurePoint]]]

@@ -119,5 +119,5 @@ def test_several_are_checked_only_if_all_are() -> None:
 @pytest.mark.parametrize("module", ["drup", "pysat.solvers"])
 def test_a_missing_tool_is_said(module: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, module, None)
-    with pytest.raises(InputError, match=r"does not load here .* install topo-verify\[proofs\]"):
+    with pytest.raises(InputError, match=r"does not load here .* -m pip install \S+ \("):
         theorem(named("bounded-closed"), range(1, 2)).prove(Budget(certify=True))

@@ -83,5 +83,5 @@ def test_a_script_is_written_for_other_solvers(tmp_path: Path) -> None:
 
 def test_a_missing_cvc5_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "cvc5", None)
-    with pytest.raises(InputError, match=r"install topo-verify\[proofs\]"):
+    with pytest.raises(InputError, match=r"-m pip install cvc5, or"):
         ask(CONTRADICTION)

@@ -12,6 +12,7 @@ Source: M. Heule, W. Hunt, N. Wetzler, "Trimming while checking clausal proofs",
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from importlib import import_module, metadata
 from typing import Any
@@ -47,8 +48,8 @@ def require_tools() -> None:
         except (ImportError, OSError) as error:
             raise InputError(
                 f"certificates need the package {package}, which does not load here ({error}):"
-                " install topo-verify[proofs] (drup brings its checker for Linux on x86_64 and for"
-                " nothing else), or leave out --certify"
+                f" {sys.executable} -m pip install {package} (drup brings its checker for Linux on"
+                " x86_64 and for nothing else), or leave out --certify"
             ) from error
 
 

@@ -6,6 +6,7 @@ quantifiers are then asked again with `full-saturate-quant`.
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -51,8 +52,8 @@ def require_tools() -> None:
         import_module("cvc5")
     except (ImportError, OSError) as error:
         raise InputError(
-            f"a second opinion needs the package cvc5, which does not load here ({error}): install"
-            " topo-verify[proofs], or leave out --solver"
+            f"a second opinion needs the package cvc5, which does not load here ({error}):"
+            f" {sys.executable} -m pip install cvc5, or leave out --solver"
         ) from error
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from base64 import b64encode
 from hashlib import sha256
 from typing import Literal
@@ -82,7 +83,8 @@ def _rendered(layout: Layout, svg: str, kind: Literal["png", "pdf"]) -> bytes:
         import typst
     except ImportError as error:
         raise InputError(
-            f"a picture as {kind.upper()} needs typst: install 'topo-verify[draw]', or write .svg"
+            f"a picture as {kind.upper()} needs typst: {sys.executable} -m pip install typst,"
+            " or write .svg"
         ) from error
     content: bytes = typst.compile(
         _TYPST,
