@@ -162,9 +162,19 @@ def test_a_picture_shows_what_is_known_and_each_open_door_dotted(
     assert 'class="tv-stub"' not in Path("whole.svg").read_text()
     refused("certify short.jsonl ring.jsonl --draw known.svg", "expected one TRACE, got 2")
     done = call("certify ring.jsonl --draw missing/known.svg")
-    assert done.exit_code == 0
+    assert done.exit_code == 3
+    assert "PROVED" in done.stdout
     assert "--draw missing/known.svg: not written: " in done.stderr
+    refused("certify ring.jsonl --draw known.txt", "expected a name that ends in .svg, .png")
     refused("certify ring.jsonl -o map.svg", "expected a name for data, as w.json")
+
+
+def test_a_map_that_does_not_fit_in_the_plane_is_remarked(call: Call, results: Results) -> None:
+    call("explore m2/8 --algorithm basic --trace torus.jsonl")  # two loops that cross
+    (entry,) = results("certify torus.jsonl")["results"]
+    assert (entry["verdict"], entry["genus"]) == ("PROVED", 1)
+    assert "does not fit in the plane (genus 1)" in call("certify torus.jsonl").stdout
+    assert "does not fit" not in call("certify ring.jsonl").stdout
 
 
 def test_a_contradiction_in_a_table_names_its_row(call: Call) -> None:

@@ -40,7 +40,7 @@ REFUSED = [
     ("world sample --edges 5 -o mappers.py", "-o mappers.py: cannot create this folder"),
     (f"replay {'x' * 5000}", "no such world: 'xxx"),
     ("replay nothing.jsonl", "no such world: 'nothing.jsonl'"),
-    ("replay m3/14 --world m3/15", "expected a trace in JSON Lines, got m3/14"),
+    ("replay m3/14 --world m3/15", "expected a trace or a log in a file, got m3/14"),
     ("replay m3/14 --target all", "names 9 mappers"),
     ("search", "expected either a TARGET or two mappers with --compare A,B"),
     ("search basic --compare basic,folding", "either a TARGET or two mappers with --compare"),

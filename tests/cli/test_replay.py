@@ -169,6 +169,14 @@ def test_the_walk_is_a_block_of_code_in_markdown(call: Call, trace: Path) -> Non
     assert "```\nA place is named by" in call(f"replay {trace.name} --all --format markdown").stdout
 
 
+def test_the_log_of_a_robot_is_watched_in_its_map(call: Call) -> None:
+    Path("log.csv").write_text("door,degree,marker\n,2,0\n0,2,\n1,2,1\n")
+    assert "--world" in call("replay log.csv").stderr
+    call("certify log.csv -o map.json")
+    call("replay log.csv --world map.json --player drive.html")
+    assert "<title>" in Path("drive.html").read_text()
+
+
 def test_a_trace_keeps_why_the_run_ended_without_a_map(
     call: Call, results: Results, folder: Path
 ) -> None:

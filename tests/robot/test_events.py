@@ -161,7 +161,9 @@ def test_a_trace_may_hold_only_start_and_moves_without_purposes_and_more_fields(
     ],
 )
 def test_a_line_that_is_no_event_is_refused_by_its_number(line: bytes) -> None:
-    with pytest.raises(InputError, match=r"^t\.jsonl, line 2: expected an event of a trace: "):
+    with pytest.raises(
+        InputError, match=r"^t\.jsonl, line 2: expected an event of a trace, as .*: "
+    ):
         ev.read_trace(ev.write_trace([START]) + line, name="t.jsonl")
 
 

@@ -68,6 +68,12 @@ def test_the_words_of_a_picture_stand_below_its_places() -> None:
     assert float(words[1]) - float(words[0]) >= lowest
 
 
+def test_a_log_with_more_edges_than_a_picture_has_is_refused_at_once() -> None:
+    log: list[Event] = [Start(percept=Percept(1001, 0)), Move(0, Percept(3, None))]
+    with pytest.raises(tv.InputError, match=r"no picture of 1,003 edges, expected up to 1,000"):
+        tv.certify(log).draw()
+
+
 def test_of_a_robot_that_can_go_nowhere_its_only_place_is_known() -> None:
     certificate = tv.certify([Start(percept=Percept(0, None))])
     assert certificate.known == tv.World((), (), None)

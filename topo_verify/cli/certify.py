@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shlex
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -50,6 +51,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
         verdict: PROVED. UNKNOWN: several worlds show the log. REFUTED: no world shows it, or a
             map or decision in it does not follow.
         vertices, edges: of the proved map, else of the smaller witness.
+        genus: of the proved map; null unless it is proved.
         moves: of the log, in edge traversals.
         least_cost: of a proof of this map, in edge traversals; null unless it is proved.
         apart: the events of two readings of one place that differ; null unless that refutes it.
@@ -68,6 +70,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     verdict: str
     vertices: int
     edges: int
+    genus: int | None
     moves: int
     least_cost: int | None
     open_darts: int
@@ -150,6 +153,10 @@ def certify(
         for option, file in (("-o", map_file), ("--draw", picture)):
             if file is not None and len(traces) != 1:
                 raise InputError(f"{option} {file}: expected one TRACE, got {len(traces)}")
+        if picture is not None:
+            from topo_verify.world.drawing import format_of
+
+            format_of(picture)  # refused before the work
         with certificates.checking(timeout=timeout, progress=doing) as check:
             for number, trace in enumerate(traces):
                 output.progress(f"folding {trace}", number, len(traces))
@@ -164,24 +171,27 @@ def certify(
                     certificate.known.save(map_file)
                 elif map_file is not None:
                     output.note(f"-o {map_file}: not written, for the log proves no map")
-                if picture is not None and certificate.shown:
-                    _draw(output, certificate, picture)
-                elif picture is not None:
-                    output.note(f"--draw {picture}: not written, for no world shows the log")
+                drawn = picture is None or _draw(output, certificate, picture)
                 proof = None
                 if proving:
                     file = f"{_stem(traces, number)}.cert"
                     proof = study.prove_log(trace, log, certificate, file, check)
-                yield _result(trace, certificate, folder, proof)
+                result = _result(trace, certificate, folder, proof)
+                yield result if drawn else replace(result, incomplete=True)
 
     return output.run("certify", certified, _show)
 
 
-def _draw(output: Output, certificate: Certificate, picture: str) -> None:
+def _draw(output: Output, certificate: Certificate, picture: str) -> bool:
+    if not certificate.shown:
+        output.note(f"--draw {picture}: not written, for no world shows the log")
+        return False
     try:
         certificate.draw(picture, doors=True)
     except InputError as error:  # the verdict is not lost
         output.note(f"--draw {picture}: not written: {error}")
+        return False
+    return True
 
 
 def _require_one_task(
@@ -210,6 +220,7 @@ def _result(
         certificate,
         trace=trace,
         moves=sum(isinstance(event, Move) for event in certificate.log),
+        genus=None if certificate.map is None else certificate.map.genus,
         least_cost=None if certificate.map is None else certificate.map.least_cost(),
         open_doors=tuple(certificate.open_doors(MOST_OPEN_DOORS)),
         advice=certificate.advice,
@@ -271,6 +282,12 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield Text(
                 f"{entry.trace}: {plural(entry.moves, 'move')}; a proof of this map takes at least"
                 f" {entry.least_cost}."
+            )
+        if entry.genus:
+            yield Text(
+                f"This map does not fit in the plane (genus {entry.genus}). Of one floor that means"
+                " that doors were counted in a wrong order somewhere, or corridors cross. In its"
+                " picture equal borders are one line."
             )
         if entry.advice is not None:
             yield from _show_open(entry, entry.advice)

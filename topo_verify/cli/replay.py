@@ -22,6 +22,7 @@ from topo_verify.proofs.mechanised import judge
 from topo_verify.report.blocks import Block, Text
 from topo_verify.robot.events import Finish, Start, read_trace
 from topo_verify.robot.limits import Limits
+from topo_verify.studies.log_file import read_log
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
@@ -92,18 +93,19 @@ def replay(
 ) -> int:
     """Judge a trace again, or run a mapper again in one world, and show the walk.
 
-    A trace from explore --trace is judged in the world that it names, or in that of --world. In
-    a WORLD the mapper of --target is run. The last moves before the first finding are shown:
-    where the robot really was, what the mapper decided and why, and its map beside the world.
-    With --kernel the judge that is proved in Coq judges the run as well; exit code 3: Coq or
-    OCaml is missing.
+    A trace from explore --trace is judged in the world that it names, or in that of --world,
+    where the log of a robot may stand as well. In a WORLD the mapper of --target is run. The last
+    moves before the first finding are shown: where the robot really was, what the mapper decided
+    and why, and its map beside the world. With --kernel the judge that is proved in Coq judges
+    the run as well; exit code 3: Coq or OCaml is missing.
     """
     reports: list[Report] = []
 
     def replayed() -> Iterator[Result[ReplayEntry]]:
         runs.require_one_world(player, 1)
         data = _bytes(subject)
-        if data is not None and _is_trace(data):
+        is_log = world_text is not None and data is not None and subject != "-"
+        if data is not None and (is_log or _is_trace(data)):
             # These options would be ignored silently.
             words = [name for name in options.given() if name in OF_A_MAPPER]
             if words := [*words, *limits.options]:
@@ -116,8 +118,8 @@ def replay(
         else:
             if world_text is not None:
                 raise InputError(
-                    f"--world {world_text}: expected a trace in JSON Lines, got {subject}; leave"
-                    " --world out, or, for a log in a table, use topo-verify tour MAP --against LOG"
+                    f"--world {world_text}: expected a trace or a log in a file, got {subject};"
+                    " leave --world out"
                 )
             mapper = mappers.load_one()
             trace, at = None, runs.named_world(subject, marker, data)
@@ -174,9 +176,9 @@ def _judged(
     strict: bool,
 ) -> tuple[Report, str | None]:
     name = "standard input" if subject == "-" else subject
-    trace = read_trace(data, name=name)
+    trace = read_trace(data, name=name) if _is_trace(data) else read_log(subject)
     start = trace[0]
-    assert isinstance(start, Start), "read_trace refuses any other first event"
+    assert isinstance(start, Start), "any other first event was refused"
     at = (
         runs.named_world(world_text, marker)
         if world_text is not None

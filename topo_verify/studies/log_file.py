@@ -122,7 +122,9 @@ def table_events(lines: Iterable[bytes], name: str) -> Iterator[tuple[int, Event
         yield number, _event(dict(zip(titles, cells, strict=True)), place, begun=begun)
         begun = True
     if not begun:
-        raise InputError(f"{name}: expected a row with the percept at the start, got none")
+        raise InputError(
+            f"{name}: expected a row with the percept at the start, as ',2,0', got none"
+        )
 
 
 def _require_columns(titles: Sequence[str], place: str) -> None:

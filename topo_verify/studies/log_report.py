@@ -105,12 +105,14 @@ class Certificate:
         each place.
 
         Raises:
-            InputError: no world shows the log, it has over about 1,000 edges, or the file cannot
-                be written.
+            InputError: no world shows the log, its picture has over 1,000 edges, or the file
+                cannot be written.
         """
-        from topo_verify.world.drawing import document, format_of, lay_out_known, to_svg
+        from topo_verify.world.drawing import WHOLE, document, format_of, lay_out_known, to_svg
 
         kind = None if path is None else format_of(fspath(path))
+        if self.edges > WHOLE:
+            raise InputError(f"no picture of {self.edges:,} edges, expected up to {WHOLE:,}")
         known = self.known
         layout = lay_out_known(known, len(known.vertices) - self.open_darts)
         if path is not None and kind is not None:

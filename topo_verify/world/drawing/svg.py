@@ -34,6 +34,9 @@ STYLE = (
 )
 """Colours only, so that two pictures in one page do not disturb each other."""
 
+SMALL = 260.0
+"""Pixels of width below which a picture is shown larger, up to twice."""
+
 SIDES = "abcd"
 """Colours repeat; letters do not."""
 
@@ -91,9 +94,14 @@ def _shown(layout: Layout) -> list[str]:
 def _head(world: World, layout: Layout) -> Iterator[str]:
     width, height = number(layout.width), number(layout.height)
     title = text(caption(world, layout))
+    larger = min(2.0, max(1.0, SMALL / layout.width))
+    shown = " ".join(
+        f'{name}="{number(larger * size)}"'
+        for name, size in (("width", layout.width), ("height", layout.height))
+    )
     yield (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}"'
-        f' height="{height}" style="max-width:100%;height:auto" role="img" aria-label="{title}">'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" {shown}'
+        f' style="max-width:100%;height:auto" role="img" aria-label="{title}">'
     )
     yield f"<title>{title}</title><style>{STYLE}</style>"
     yield f'<rect class="tv-card" fill="#fdfcf9" width="{width}" height="{height}"/>'
