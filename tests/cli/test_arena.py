@@ -302,6 +302,16 @@ def test_what_is_not_decided_has_no_place_and_exits_3(call: Call) -> None:
     done = call("arena basic mappers.py:loops --suite triangle --world-timeout 0.02 --workers 0")
     assert done.exit_code == 3
     assert "mappers.py:loops has no place in triangle: 1 world of 1 not decided" in done.stdout
+    assert "family:cycle(3): the mapper was stopped after 0.02 s in this world\n" in done.stdout
+
+
+def test_the_line_of_a_hanging_mapper_is_in_no_file_but_those_of_its_run(call: Call) -> None:
+    """The line is one of many by chance."""
+    line = "arena mappers.py:loops --suite triangle --move-timeout 0.05 --workers 0 --out here"
+    assert "it was at mappers.py, line" in " ".join(call(line).stdout.split())
+    for name in ("table.md", "table.csv", "results.json"):
+        assert "it was at" not in Path("here", name).read_text()
+    assert "the mapper did not move for 0.05 s" in Path("here/table.md").read_text()
 
 
 def test_the_standings_come_first_then_where_each_lost(call: Call) -> None:

@@ -62,6 +62,9 @@ if TYPE_CHECKING:
     from topo_verify.player.recording import PlayedRun
 
 
+WAS_AT = "; it was at "
+"""Before the line at which a mapper was when its time was up: another one each time."""
+
 MOST_SHOWN = 10_000
 """Most events of a run that a notebook plays: about two seconds."""
 
@@ -312,7 +315,7 @@ def _run(
         if not isinstance(stop, TimeLimitExceeded):  # where it was then would be chance
             return None, str(stop), None, stop.limit
         line = mapper.line() if isinstance(mapper, Program) else stopped_at(stop)
-        return None, f"{stop}; it was at {line}" if line else str(stop), None, stop.limit
+        return None, f"{stop}{WAS_AT}{line}" if line else str(stop), None, stop.limit
     except KeyboardInterrupt as ctrl_c:
         moves = plural(robot.cost, "move")
         interrupted = ExaminationInterrupted(f"after {moves}; the run is not kept")

@@ -8,7 +8,7 @@
     players/MAPPER.html      a ranked mapper where it loses most, beside the first
     counterexamples/         of a mapper without a place: the world, drawn, and its run
 
-All but `timing.json` and the page are equal, byte for byte, for equal runs.
+All but `timing.json` and the pages are equal, byte for byte, for equal runs.
 """
 
 from __future__ import annotations

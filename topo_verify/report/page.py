@@ -1,8 +1,8 @@
 """The report of a run as one self-contained page that makes no request.
 
-Only the section `timing` differs when the same run is repeated. A content security policy allows by
-hash the styles and scripts of this page and of the player, which runs in sandboxed frames. Texts of
-a mapper, a world or a file name are escaped.
+Only the section `timing`, and a run that a time limit ended, differs when the same run is repeated.
+A content security policy allows by hash the styles and scripts of this page and of the player,
+which runs in sandboxed frames. Texts of a mapper, a world or a file name are escaped.
 """
 
 from __future__ import annotations

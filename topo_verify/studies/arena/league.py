@@ -28,6 +28,7 @@ import msgspec
 from topo_verify.algorithms import Algorithm, Steered
 from topo_verify.campaign.judge import replay_line
 from topo_verify.campaign.row import Row
+from topo_verify.campaign.run import WAS_AT
 from topo_verify.campaign.tally import Counts
 from topo_verify.checkers import Judgement, Status
 from topo_verify.programs.loader import Target
@@ -259,7 +260,9 @@ class League:
             worlds=len(decided),
             total=suite.size,
             undecided=len(runs) - len(decided),
-            why=tuple(f"{r.world}: {r.undecided}" for r in runs if r.undecided)[:KEPT_REASONS],
+            why=tuple(f"{r.world}: {_placeless(r.undecided)}" for r in runs if r.undecided)[
+                :KEPT_REASONS
+            ],
             place=None,
             ratio=_interval(suite, [run.ratio for run in decided]) if whole else None,
             behind=None,
@@ -316,8 +319,12 @@ class League:
         suite = next(part.name for part in self.suites if failure.world in part.worlds(self.seed))
         return LeagueCounterexample(
             *(suite, failure.world, failure.edges, failure.ended),
-            *(finding.claim, finding.message, replay),
+            *(finding.claim, _placeless(finding.message), replay),
         )
+
+
+def _placeless(words: str) -> str:
+    return words.partition(WAS_AT)[0]
 
 
 def split(suite: Suite, values: Sequence[T]) -> Iterator[tuple[SuiteFamily, Sequence[T]]]:
