@@ -384,12 +384,60 @@ def test_where_a_build_server_runs_a_property_of_a_mapper_nothing_is_explained(
             own = test_one._hypothesis_internal_use_settings
             assert own.deadline is None and own.derandomize
             assert Phase.explain not in own.phases
+        """,
+        test_b="""
+        from hypothesis import settings
 
         def test_others():
             assert settings.get_current_profile_name() == "ci"
-        """
+        """,
     )
     session("-p", "no:cacheprovider").assert_outcomes(passed=3)
+
+
+@pytest.mark.parametrize(
+    ("of_the_user", "phases"), [("", "generate shrink"), ("load_profile('mine')", "explain")]
+)
+def test_what_a_test_runs_itself_has_the_settings_of_a_property_of_a_mapper(
+    session: Session, of_the_user: str, phases: str
+) -> None:
+    load = of_the_user and f"settings.{of_the_user}"
+    result = session(
+        test=f"""
+        import unittest
+        from hypothesis import Phase, given, settings, strategies as st
+        from hypothesis.stateful import RuleBasedStateMachine, rule, run_state_machine_as_test
+
+        phases = [Phase.generate, Phase.explain]
+        settings.register_profile("mine", deadline=3000, phases=phases)
+        {load}
+
+        def machine():
+            class Walk(RuleBasedStateMachine):
+                @rule()
+                def look(self):
+                    phases = {{phase.name for phase in settings().phases}}
+                    assert phases >= set("{phases}".split())
+                    assert ("explain" in phases) is ("explain" in "{phases}")
+
+            run_state_machine_as_test(Walk)
+
+        def test_robot(topo_robot):
+            machine()
+
+        class TestOld(unittest.TestCase):
+            def test_method(self):
+                machine()
+
+        def test_inner():
+            @given(st.just(0))
+            def inner(_number):
+                assert (settings().deadline is None) is {not of_the_user}
+
+            inner()
+        """
+    )
+    result.assert_outcomes(passed=3)
 
 
 @pytest.mark.parametrize(

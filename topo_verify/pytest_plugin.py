@@ -20,6 +20,7 @@ from __future__ import annotations
 import argparse
 import inspect
 import itertools
+import re
 import sys
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import contextmanager
@@ -220,15 +221,15 @@ def pytest_make_collect_report(
 
 
 @contextmanager
-def _profile(collector: pytest.Collector) -> Generator[None]:
+def _profile(module: pytest.Collector | None) -> Generator[None]:
     """Let property tests of mappers have no deadline, unless the user has loaded a profile.
 
-    A busy machine exceeds Hypothesis's 200 ms an example. A test takes its settings when its
-    module is imported, so the profile `topo` is active while a module that mentions both
-    libraries is imported.
+    A busy machine exceeds Hypothesis's 200 ms an example. A property test takes its settings when
+    its module is imported, a state machine in a test when the test runs. So the profile `topo` is
+    active at both times, for a module that mentions Hypothesis and topo_verify or its fixtures.
     """
-    text = collector.path.read_bytes() if isinstance(collector, pytest.Module) else b""
-    if b"hypothesis" not in text or b"topo_verify" not in text:
+    text = module.path.read_bytes() if isinstance(module, pytest.Module) else b""
+    if b"hypothesis" not in text or not re.search(rb"topo_(verify|robot|examine)", text):
         yield
         return
     from hypothesis import Phase, settings
@@ -298,6 +299,13 @@ def _case(item: pytest.Item) -> ClaimTest | None:
 
 
 # ---------------------------------------------------------------- running
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item: pytest.Item) -> Generator[None]:
+    """Give what a test runs, such as a state machine, the settings of a property test."""
+    with _profile(item.getparent(pytest.Module)):
+        yield
 
 
 @pytest.hookimpl(wrapper=True)
