@@ -1,6 +1,7 @@
 """The basic algorithm (listing 1): no rule rejects; each hypothesis is walked until it differs.
 
-Only where vu shows the marker, the percept at vu itself may differ, before the first move.
+One case needs no move. The robot sees the marker at vu, and the hypothesis predicts another
+direction of it: the hypothesis is rejected at once, and reports count it as rejected free.
 
 Source: H. Wang, M. Jenkin, P. Dymond, "The relative power of immovable markers in topological
     mapping", ICRA 2011. Cost O(m²n) edge traversals.

@@ -55,7 +55,8 @@ class ExploreEntry(msgspec.Struct, frozen=True):
         place: the vertex of the marker.
         same_as: with `--marker all`, a smaller dart from which the world looks the same; this
             run is that one's.
-        rejected_free: hypotheses rejected without a move since the decision before.
+        rejected_free: hypotheses rejected without a move since the decision before; by `basic`,
+            where vu shows the marker in another direction than the hypothesis predicts.
         rejected_moving: hypotheses rejected by a move.
         confirmed: hypotheses confirmed.
         by_compiled_judge: the compiled judge, which is not trusted, judged the run; the checkers
@@ -172,7 +173,8 @@ def explore(
     """Run algorithms in given worlds and show what each run costs and which claims hold.
 
     WORLD is a file, a world id (m5/17), family:lattice(10,10,holes=0.2,seed=7), nyc (a real street
-    network) or - (world JSON on standard input).
+    network) or - (world JSON on standard input). Rejected free: without a move, by basic only where
+    the marker's direction at the end of the new edge differs at once.
     """
     everywhere = marker == "all"
 
