@@ -1,6 +1,6 @@
 """What the paper leaves open, and what it costs: policies, ways home, and how long records live.
 
-    .venv/bin/python benchmarks/left_open.py        # about a minute
+    .venv/bin/python benchmarks/left_open.py        # one to three minutes
 
 Means over 30 graphs of a family of the paper, and by how much one mapper costs more than another
 one, ± the standard error of the difference. Of each family two tables:
