@@ -7,6 +7,7 @@ import hashlib
 import subprocess
 import sys
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -69,6 +70,15 @@ def test_files_that_are_imported_or_read_count_and_others_do_not(folder: Path) -
     (hashed,) = (made for path, made in found.files.items() if path == str(folder / "read"))
     assert hashed == hashlib.sha256(b"read").hexdigest()
     assert found.distributions.keys() >= {"msgspec", "networkx"}
+
+
+HAS_SETUPTOOLS = find_spec("setuptools") is not None
+
+
+@pytest.mark.skipif(not HAS_SETUPTOOLS, reason="setuptools is not installed")
+def test_what_every_python_imports_at_its_start_does_not_count(folder: Path) -> None:
+    assert "setuptools" not in after(folder, "import _distutils_hack").distributions
+    assert "setuptools" in after(folder, "import setuptools").distributions
 
 
 def test_files_of_distributions_are_not_the_users_wherever_they_are_installed() -> None:

@@ -31,6 +31,9 @@ _PACKAGE = str(Path(errors.__file__).resolve().parent)
 
 _NO_FILES = ("/proc/", "/sys/", "/dev/")
 
+_START_HOOKS = ("_distutils_hack",)
+"""Modules that a .pth file of setuptools imports at the start of every Python, for any mapper."""
+
 
 class Loaded(msgspec.Struct, frozen=True):
     """What a mapper's process has loaded.
@@ -107,8 +110,9 @@ def loaded(values: str = "") -> Loaded:
             _enter(files, whole := os.path.abspath(path))  # noqa: PTH100
             if whole in files and name != "__main__":
                 modules[name] = whole
-            if _is_installed(path):
-                tops.add(name.partition(".")[0])
+            top = name.partition(".")[0]
+            if _is_installed(path) and top not in _START_HOOKS:
+                tops.add(top)
     for path in list(_opened):
         _enter(files, path)
     return Loaded(files, _versions(frozenset(tops)), values, modules)
