@@ -203,8 +203,13 @@ def test_a_folder_has_the_page_a_player_and_the_counterexample(call: Call) -> No
     (picture,) = (name for name in made if name.endswith(".svg") and "counterexamples" in name)
     assert made >= {"report.html", "players/basic.html", picture.replace(".svg", ".html")}
     page = Path("here/report.html").read_text()
-    for words in ("REFUTED", "Worlds to look at", "cost / LB by family", 'id="run-2"'):
+    for words in (
+        "REFUTED: first in triangle: basic; 1 of 2 mappers break a claim<",
+        *("Worlds to look at", "cost / LB by family", 'id="run-2"'),
+        '<a href="#world-1">drawn in another run</a>',
+    ):
         assert words in page
+    assert page.count("<figure>") == 1, "the world of both runs is drawn once"
     assert "<svg" in Path("here", picture).read_text()
     entries = json.loads(Path("here/results.json").read_text())["results"]
     assert not any("ms_per_move" in entry for entry in entries)
@@ -221,7 +226,9 @@ def test_a_page_plays_each_beside_the_first_where_it_loses_most(call: Call) -> N
     words = f"loses most: {loss['cost']} edge traversals, folding {loss['other']}"
     assert words in Path("here/table.md").read_text()
     assert words in Path("here/report.html").read_text()
-    assert "; first in small: folding</" in Path("here/report.html").read_text()
+    assert (
+        " SAMPLED: first in small: folding; 8 of 8 runs</" in Path("here/report.html").read_text()
+    )
     assert '<a href="#world-1">basic</a>' in Path("here/report.html").read_text()
     page = Path("here/players/basic.html").read_text()
     assert f"<title>folding beside basic in {loss['world']}<" in page
@@ -268,6 +275,19 @@ def test_a_counterexample_ends_soon_after_the_failing_claim(call: Call, results:
     )
     assert "The walk of Team in" in named.stdout
     assert [*Path("here/counterexamples").glob("Team*.html")]
+
+
+def test_over_budget_is_told_apart_from_wrong(call: Call) -> None:
+    line = f"arena basic,folding {FAULT} --suite small --workers 0 --in-process --out here"
+    assert call(f"{line} --budget 30").exit_code == 1
+    text = Path("here/table.md").read_text()
+    assert "No place: a claim fails, or --budget is exceeded" in text
+    assert "| basic | over budget | budget |" in text
+    assert f"| {FAULT} | over budget" not in text
+    assert (
+        "1 of 3 mappers break a claim; 2 of 3 mappers are over budget"
+        in Path("here/report.html").read_text()
+    )
 
 
 def test_mappers_have_names_in_the_tables(call: Call, refused: Refused) -> None:

@@ -328,19 +328,22 @@ def _account(
     exact: bool,
 ) -> acc.Account:
     mappers = list(dict.fromkeys(entry.name for entry in table))
-    broken = {entry.name for entry in table if entry.counterexample is not None}
+    broken = {e.name: e.counterexample for e in table if e.counterexample is not None}
+    over = sum(example.over_budget for example in broken.values())
     runs, planned = sum(e.worlds for e in table), sum(e.total for e in table)
     verdict: Verdict = "UNKNOWN" if runs < planned else "EXHAUSTED" if exact else "SAMPLED"
     first: dict[str, list[str]] = {}
     for entry in table:
         if entry.place == 1:
             first.setdefault(entry.suite, []).append(entry.name)
-    words = acc.counted(runs, planned, "runs")
+    words = [f"first in {suite}: {' = '.join(names)}" for suite, names in first.items()]
     if broken:
         verdict = "REFUTED"
-        words = acc.counted(len(broken), len(mappers), "mappers break a claim")
-    words += "".join(f"; first in {suite}: {' = '.join(names)}" for suite, names in first.items())
-    judged = acc.JudgedExtent(verdict, words)
+        for number, what in ((len(broken) - over, "break a claim"), (over, "are over budget")):
+            words += [acc.counted(number, len(mappers), f"mappers {what}")] if number else []
+    else:
+        words.append(acc.counted(runs, planned, "runs"))
+    judged = acc.JudgedExtent(verdict, "; ".join(words))
     return acc.Account(
         mappers[0] if len(mappers) == 1 else plural(len(mappers), "mapper"),
         judged,

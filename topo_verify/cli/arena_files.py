@@ -204,7 +204,7 @@ def broken_blocks(entries: Sequence[lg.LeagueEntry]) -> Iterator[Block]:
                 total[entry.name] += worlds
         rows = [
             (
-                *(mapper, Cell(example.claim, tone="failed"), example.ended),
+                *(mapper, _failure(example), example.ended),
                 *(example.world, example.suite),
                 " of ".join(str(total[mapper]) for total in totals),
             )
@@ -212,13 +212,19 @@ def broken_blocks(entries: Sequence[lg.LeagueEntry]) -> Iterator[Block]:
         ]
         yield Text("")
         columns = ("mapper", "claim that fails", "ended by", "world", "suite", ">played")
-        yield TextTable(columns, rows, title="No place, for a claim fails")
+        yield TextTable(columns, rows, title="No place: a claim fails, or --budget is exceeded")
     for mapper, example in broken.items():
         yield Text("")
         yield Text(f"{mapper} in {example.world}:")
         yield Bullets((f"{example.claim}: {example.message}",))
         if example.replay:
             yield Command(example.replay, "again: ")
+
+
+def _failure(example: lg.LeagueCounterexample) -> Cell:
+    if example.over_budget:
+        return Cell("over budget", tone="open")
+    return Cell(example.claim, tone="failed")
 
 
 # ---------------------------------------------------------------- the files

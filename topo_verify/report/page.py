@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib import resources
-from itertools import count
+from itertools import count, repeat
 from typing import Any, cast
 
 from topo_verify.errors import map_size
@@ -26,6 +26,7 @@ from topo_verify.player.recording import recording
 from topo_verify.report.account import UNFINISHED, Account, Ending, Exhibit, JudgedCase, JudgedSuite
 from topo_verify.report.blocks import PALETTE, TONES, clean
 from topo_verify.report.html import blocks_as_html, code, picture, toned, xml_text
+from topo_verify.world.rooted_map import World
 
 MOST_DRAWN = 200
 """Most edges of a world that is drawn and played; larger ones take seconds."""
@@ -107,7 +108,9 @@ def _again(line: str) -> str:
 
 
 def _sections(account: Account, run: Ending) -> Iterator[str]:
-    exhibits = [*map(_exhibit, count(1), account.exhibits)]
+    every = account.exhibits + account.others
+    drawn = {e.world: number for number, e in reversed([*enumerate(every, 1)]) if _is_drawn(e)}
+    exhibits = [*map(_exhibit, count(1), account.exhibits, repeat(drawn))]
     if account.left_out:
         exhibits.append(f"<p>{account.left_out} more are not shown here.</p>")
     refuted = account.extent.verdict == "REFUTED"
@@ -116,7 +119,8 @@ def _sections(account: Account, run: Ending) -> Iterator[str]:
         yield results
     if exhibits and refuted:
         yield _section("counterexamples", "Counterexamples", exhibits)
-    numbered = map(_exhibit, count(1 + len(account.exhibits)), account.others)
+    start = 1 + len(account.exhibits)
+    numbered = map(_exhibit, count(start), account.others, repeat(drawn))
     worlds = [_section("worlds", "Worlds to look at", numbered)] if account.others else []
     if account.results_first:
         yield from worlds
@@ -193,12 +197,13 @@ def _is_played(exhibit: Exhibit) -> bool:
     return bool(exhibit.runs) and _is_drawn(exhibit)
 
 
-def _exhibit(number: int, exhibit: Exhibit) -> str:
+def _exhibit(number: int, exhibit: Exhibit, drawn: Mapping[World, int]) -> str:
     title = xml_text(clean(exhibit.title))
     notes = "".join(f"<li>{xml_text(clean(note))}</li>" for note in exhibit.notes)
     parts = [f'<article id="{_place(number)}">\n<h3>{title}</h3>']
     parts += [f"<ul>{notes}</ul>"] if notes else []
-    parts.append(_picture(exhibit))
+    first = drawn.get(exhibit.world, number)
+    parts.append(_picture(exhibit, first if first != number else None))
     if _is_played(exhibit):
         parts.append(
             f'<details class="play" data-recording="run-{number}" data-title="{title}">'
@@ -207,12 +212,15 @@ def _exhibit(number: int, exhibit: Exhibit) -> str:
     return "\n".join([*parts, _again(exhibit.again), "</article>"])
 
 
-def _picture(exhibit: Exhibit) -> str:
+def _picture(exhibit: Exhibit, elsewhere: int | None) -> str:
     world = exhibit.world
     size = f"{map_size(len(world.vertices), len(world.edges))}, genus {world.genus}"
     caption = xml_text(f"{clean(exhibit.name)}: {size}")
     if not _is_drawn(exhibit):
         return f'<p class="soft">{caption}; too large to be drawn here.</p>'
+    if elsewhere is not None:
+        link = f'<a href="#{_place(elsewhere)}">drawn in another run</a>'
+        return f'<p class="soft">{caption}; {link}.</p>'
     image = picture(world.draw(), f"The world {clean(exhibit.name)}: {size}")
     return f"<figure>{image}<figcaption>{caption}</figcaption></figure>"
 

@@ -102,6 +102,7 @@ class LeagueCounterexample(msgspec.Struct, frozen=True):
 
     Attributes:
         ended: `map`, a limit, a misbehaviour, `no-map` or `worker-lost`.
+        over_budget: --budget ended the run, and nothing else is wrong up to there.
     """
 
     suite: str
@@ -111,6 +112,7 @@ class LeagueCounterexample(msgspec.Struct, frozen=True):
     claim: str
     message: str
     replay: str
+    over_budget: bool
 
 
 class LeagueEntry(msgspec.Struct, frozen=True, kw_only=True):
@@ -320,6 +322,9 @@ class League:
         return LeagueCounterexample(
             *(suite, failure.world, failure.edges, failure.ended),
             *(finding.claim, _placeless(finding.message), replay),
+            over_budget=limits.budget is not None
+            and failure.ended == "budget"
+            and failure.failed == ("map-isomorphic",),
         )
 
 
