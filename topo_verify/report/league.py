@@ -15,7 +15,7 @@ from topo_verify.report.html import with_dark_colours, xml_text
 from topo_verify.studies.arena.league import LeagueEntry, MeanInterval
 from topo_verify.studies.arena.suites import Suite
 
-LEFT, RIGHT, TOP, BOTTOM = 62, 210, 44, 96
+LEFT, RIGHT, TOP, BOTTOM = 62, 210, 44, 34
 WIDE, HIGH = 448, 320
 """Pixels of the frame, at least; and its margins."""
 
@@ -23,7 +23,7 @@ BAND, STEP = 26.0, 26.0
 """Least pixels of a family, and most between the signs of two mappers in it."""
 
 LINE = 20
-"""Pixels of a line of the legend."""
+"""Pixels of a line of a legend."""
 
 COLOURS = (
     *("#0072b2", "#d55e00", "#00805f", "#9e4a86", "#946b00", "#22282e", "#3a8fb7", "#b3261e"),
@@ -105,7 +105,7 @@ def ratio_plot(suite: Suite, ranked: Sequence[LeagueEntry], ratios: Mapping[str,
     values += [f.ratio.high for e in ranked for f in e.families if f.ratio.high is not None]
     y = Axis(min(1.0, *values) / 1.04, max(1.1, *values) * 1.08, bottom, TOP)
     end = round(LEFT + band * len(suite.families), 1)
-    width, height = round(end) + RIGHT, bottom + BOTTOM
+    width, height = round(end) + RIGHT, bottom + BOTTOM + LINE * len(suite.families)
     card = PALETTE["card"].light
     parts = [f'<rect width="{width}" height="{height}" fill="{card}"/>']
     parts += [*_frame(suite, y, end), *_names(ranked[0], frame)]
@@ -151,9 +151,9 @@ def _names(entry: LeagueEntry, frame: Frame) -> Iterator[str]:
             at = round(LEFT + frame.band * place, 1)
             yield f'<path d="M {at} {TOP} V {bottom}" stroke="{line}"/>'
         at = round(LEFT + frame.band * (place + 0.5), 1)
-        turn = f' font-size="11" transform="rotate(20 {at} {bottom + 16})"'
-        words = f"{_short(family.family)}: {family.edges:.0f} edges"
-        yield _text(at, bottom + 16, words, soft=True, more=turn)
+        yield _text(at, bottom + 16, f"{place + 1}", soft=True, more=' text-anchor="middle"')
+        words = f"{place + 1}: {family.family}, {family.edges:.0f} edges"
+        yield _text(LEFT, bottom + BOTTOM + 6 + LINE * place, words)
 
 
 def _dots(ratios: Sequence[float], at: float, colour: str, y: Axis) -> Iterator[str]:
