@@ -65,9 +65,9 @@ class Player(SphinxDirective):
         name = make(command, Path(self.env.app.outdir) / FOLDER)
         up = "../" * (len(PurePosixPath(self.env.docname).parts) - 1)
         frame = (
+            f'<p class="player"><a href="{up}{FOLDER}/{name}">The whole page</a></p>\n'
             f'<iframe class="player" src="{up}{FOLDER}/{name}" loading="lazy" '
-            f'title="The player: {nodes.unescape(command)}"></iframe>\n'
-            f'<p class="player"><a href="{up}{FOLDER}/{name}">The whole page</a></p>'
+            f'title="The player: {nodes.unescape(command)}"></iframe>'
         )
         return [code, nodes.raw("", frame, format="html")]
 

@@ -104,7 +104,7 @@ def test_a_walk_in_circles_opens_at_the_end_of_its_first_round(show: Open) -> No
     assert page.inner_text("#key").count("moves") == 1
 
 
-@pytest.mark.parametrize(("width", "height"), [(1366, 768), (1280, 800), (1600, 900)])
+@pytest.mark.parametrize(("width", "height"), [(1366, 768), (1280, 800), (1600, 900), (720, 691)])
 def test_no_caption_is_cut(show: Open, wrong: str, two: str, width: int, height: int) -> None:
     for text in (wrong, two):
         page = show(text, width=width, height=height)
@@ -306,7 +306,7 @@ SIZES = ((1400, 900), (390, 800), (360, 740), (1600, 1000), (3840, 2160))
 @pytest.mark.parametrize("name", ["lattice", "wrong", "two"])
 def test_nothing_has_to_be_scrolled(show: Open, name: str, request: pytest.FixtureRequest) -> None:
     page = show(request.getfixturevalue(name))
-    for width, height in (*SIZES, (720, 736)):
+    for width, height in (*SIZES, (720, 736), (720, 691)):
         page.set_viewport_size({"width": width, "height": height})
         # In one go: the panes are made anew shortly after the size has changed.
         root, *panes = page.evaluate(
