@@ -78,6 +78,7 @@ def test_arguments_are_numbers_words_and_truth_values(text: str, simplest: str) 
         ("worlds(", "'(' was never closed; the strategy is worlds(min_edges="),
         ("worlds(min_edges=__import__('os'))", "expected a literal, got '__import__('os')'"),
         ("worlds(edges=3)", "unexpected keyword argument 'edges'; the strategy is"),
+        ("worlds(max_edge=3)", "marker=any); did you mean 'max_edges'?"),
         ("worlds(3)", "too many positional arguments"),
         ("worlds(simple=yes)", "expected a literal, got 'yes'; the strategy is worlds("),
         ("worlds(simple='yes')", "worlds: simple='yes', expected True or False"),

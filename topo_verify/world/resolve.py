@@ -15,7 +15,7 @@ from importlib import resources
 from pathlib import Path
 from typing import IO, TypeVar, cast
 
-from topo_verify.errors import InputError, shown
+from topo_verify.errors import InputError, close_name, shown
 from topo_verify.world.families import FAMILIES
 from topo_verify.world.formats import files, world_json
 from topo_verify.world.rooted_map import World
@@ -64,6 +64,7 @@ def call(
             f" as in {syntax.example}"
         )
     signature = inspect.signature(known[name])
+    named: dict[str, Argument] = {}
     try:
         positional, named = _arguments(f"{name}()" if bare and text == name else text, syntax)
         bound = signature.bind(*positional, **named)
@@ -72,9 +73,11 @@ def call(
             key if parameter.default is parameter.empty else f"{key}={parameter.default}"
             for key, parameter in signature.parameters.items()
         )
+        strange = next((key for key in named if key not in signature.parameters), "")
         raise InputError(
             f"'{shown(syntax.before + text, limit=60)}': {shown(str(error))};"
             f" the {syntax.kind.split()[0]} is {name}({parameters})"
+            f"{close_name(strange, signature.parameters)}"
         ) from error
     # outside the `try`: a TypeError from here is the function's defect
     return known[name](*bound.args, **bound.kwargs)
