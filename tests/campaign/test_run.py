@@ -178,7 +178,7 @@ def test_a_mapper_that_walks_for_ever_ends_with_its_budget() -> None:
 
 def test_a_mapper_that_takes_a_door_that_is_not_there_is_a_finding() -> None:
     assert why(lambda robot: robot.move(9)) == (
-        "the mapper asked for door 9 at a vertex with 3 doors"
+        "the mapper asked for door 9 at a vertex with 3 doors; the first is 0"
     )
 
 
@@ -230,7 +230,7 @@ def test_a_mapper_that_swallows_what_stops_it_has_not_delivered(
             robot.move(9)
         return WORLD
 
-    assert why(swallow) == "the mapper asked for door 9 at a vertex with 3 doors"
+    assert why(swallow) == "the mapper asked for door 9 at a vertex with 3 doors; the first is 0"
 
 
 def test_a_mapper_that_swallows_what_stops_it_and_then_raises_is_stopped_for_the_first_reason() -> (
@@ -242,7 +242,7 @@ def test_a_mapper_that_swallows_what_stops_it_and_then_raises_is_stopped_for_the
         raise ValueError("lost")
 
     run = explore(WORLD, swallow)
-    assert run.stopped == "the mapper asked for door 9 at a vertex with 3 doors"
+    assert run.stopped == "the mapper asked for door 9 at a vertex with 3 doors; the first is 0"
     assert isinstance(run.error, ValueError)
 
 

@@ -37,14 +37,14 @@ SEEN, OTHER = Percept(7, None), Percept(3, None)
     ("changes", "why"),
     [
         ({"step": 0}, "observed is (degree 7, no marker)"),  # expected and observed there
-        ({"step": 2}, "step 2 of sequence None was not executed"),
-        ({"step": -1}, "step -1 of sequence None was not executed"),
+        ({"step": 2}, "step 2, which it cites, was not executed"),
+        ({"step": -1}, "step -1, which it cites, was not executed"),
         ({"step": 10**20}, "was not executed"),
         ({"expected": OTHER}, "expected is (degree 1, marker at door 0), not (degree 3,"),
         ({"expected": SEEN}, "expected is (degree 1, marker at door 0), not (degree 7,"),
         ({"observed": OTHER}, "observed is (degree 7, no marker), not (degree 3, no marker)"),
         ({"observed": Percept(1, 0)}, "observed is (degree 7, no marker)"),
-        ({"sequence": 0}, "step 1 of sequence 0 was not executed"),
+        ({"sequence": 0}, "step 1, which it cites, was not executed"),
         ({"at": 3}, "on S the doors end at dart 0: cite that dart"),
         ({"record": ev.Record(3, ())}, "on S the doors end at dart 0: cite that dart"),
     ],

@@ -249,7 +249,7 @@ def _percepts_agree(
 ) -> str:
     cited, word, when = event.evidence, _executed(decision, event), decision.when
     if word is None:
-        return f"step {cited.step} of sequence {cited.sequence} was not executed"
+        return f"step {cited.step}, which it cites, was not executed"
     observed = word[-1].percept if word else run.map.seen_at(end)
     if cited.observed != observed:
         return f"observed is {observed}, not {cited.observed}"

@@ -11,7 +11,7 @@ import importlib
 import importlib.util
 import re
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
@@ -214,8 +214,11 @@ SHOWN = 5
 def close_attribute(whole: object, name: str) -> str:
     """A hint: the closest attribute, else the first candidates, if any."""
     known = [key for key in _callables(whole) if not key.startswith("_")]
-    listed = f"; it has {', '.join(known[:SHOWN])}" if known else ""
-    return close_name(name, known) or listed
+    return close_name(name, known) or (f"; it has {_listed(known)}" if known else "")
+
+
+def _listed(names: Sequence[str]) -> str:
+    return ", ".join(names[:SHOWN]) + ", …" * (len(names) > SHOWN)
 
 
 def _callables(whole: object) -> list[str]:
@@ -242,7 +245,8 @@ def missing_attribute(name: str) -> str | None:
     except (SyntaxError, ValueError, OSError):
         body = []
     makers = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
-    names = [node.name for node in body if isinstance(node, makers) and node.name[0] != "_"]
-    first = names[0] if names else "explore"
-    listed = f" (it has {', '.join(names[:SHOWN])})" if names else ""
+    found = [node for node in body if isinstance(node, makers) and node.name[0] != "_"]
+    names = [node.name for node in sorted(found, key=lambda node: isinstance(node, ast.ClassDef))]
+    first = "explore" if "explore" in names or not names else names[0]
+    listed = f" (it has {_listed(names)})" if names else ""
     return f"{place} is a file; name a mapper in it, as {name}:{first}{listed}"

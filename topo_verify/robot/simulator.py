@@ -68,7 +68,8 @@ def door_number(door: object, degree: int) -> Door:
         number = -1
     if not 0 <= number < degree:
         doors = plural(degree, "door")
-        raise Misuse(f"the mapper asked for door {door!r} at a vertex with {doors}")
+        where = f"at a vertex with {doors}; the first is 0"
+        raise Misuse(f"the mapper asked for door {door!r} {where}")
     return number
 
 
