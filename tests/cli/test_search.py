@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from tests.cli.conftest import Call, Results, interrupted
+from topo_verify import search
+from topo_verify.studies.search.search import LostWorker
 
 
 def test_the_entry_of_an_exhausted_class_has_its_numbers_and_worst_worlds(results: Results) -> None:
@@ -38,6 +42,18 @@ def test_a_mapper_out_of_time_exits_3(results: Results, call: Call) -> None:
 
 
 # ---------------------------------------------------------------- for people
+
+
+def test_a_library_that_does_not_do_the_same_again_is_led_to_the_sanitizer() -> None:
+    lost = (LostWorker("m3/8", "it ended its process (signal 6)"),) * 5
+    entry = search("basic", edges=1)
+    change = partial(msgspec.structs.replace, entry, lost=lost, verdict="REFUTED")
+    shown = " ".join(str(change(target="--library ./mapper.so")).split())
+    assert "2 of 2 worlds checked, another verdict when one was run again" in shown
+    assert "the library does not do the same in these worlds" in shown
+    assert "-fsanitize=address and put LD_PRELOAD=" in shown
+    assert "and 2 more: --format json has them" in shown
+    assert "which another program may have killed" in str(change(target="basic"))
 
 
 def test_the_table_says_how_many_worlds_were_checked(call: Call) -> None:

@@ -200,7 +200,7 @@ class _CompiledShard:
             self._rows[place, row.turn] = row
         if not (result.tally.failing or result.tally.undecided):
             text, limits = self._mappers[0].text, self._campaign.limits
-            row = lost_row(world, place, name, text, limits, str(wrong), external=True)
+            row = lost_row(world, place, name, text, limits, wrong.how, external=True)
             self._rows[place, 0] = row
             tally += Tally(undecided=1, lost=1)
         return tally
@@ -344,7 +344,7 @@ class _Disagreement(InternalError):
 
     def __init__(self, where: str, difference: str, rank: int) -> None:
         super().__init__(f"{where}: the engines disagree: {difference}")
-        self.rank = rank
+        self.rank, self.how = rank, f"the engines disagree: {difference}"
 
 
 def _snapshots(

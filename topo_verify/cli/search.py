@@ -21,6 +21,7 @@ from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import unjudged
 from topo_verify.errors import InputError, plural
+from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
@@ -273,6 +274,19 @@ def _failing(claim: study.FailingClaim) -> acc.JudgedCase:
 SHOWN = 3
 
 
+OUTSIDE = (
+    "A worker was lost, which another program may have killed, or lacked memory; tried again,"
+    " nothing failed:"
+)
+
+UNLIKE = (
+    "Tried again, the library does not do the same in these worlds: it writes out of place, perhaps"
+    " in another world, or keeps something from world to world. To find the line, build it with -g"
+    " -fsanitize=address and put LD_PRELOAD=$(gcc -print-file-name=libasan.so)"
+    " ASAN_OPTIONS=detect_leaks=0 before this whole search."
+)
+
+
 def shown(entry: study.SearchEntry, *, worst: bool = False) -> Iterator[Block]:
     """A search as the command shows it; `worst`: with the highest costs."""
     policies = "" if entry.policies == "reference" else f", policies {entry.policies}"
@@ -298,11 +312,11 @@ def shown(entry: study.SearchEntry, *, worst: bool = False) -> Iterator[Block]:
     yield Text("")
     yield Text(f"{entry.verdict}: {_conclusion(entry)}")
     if entry.lost:
-        yield Text(
-            "A worker was lost, which another program may have killed, or lacked memory; tried"
-            " again, nothing failed:"
-        )
-        yield Bullets(tuple(f"{lost.world}: {lost.how}" for lost in entry.lost[:SHOWN]))
+        yield Text(UNLIKE if entry.target.startswith(LIBRARY) else OUTSIDE)
+        more = len(entry.lost) - SHOWN
+        rest = (f"and {more} more: --format json has them",) if more > 0 else ()
+        named = tuple(f"{lost.world}: {lost.how}" for lost in entry.lost[:SHOWN])
+        yield Bullets((*named, *rest))
     if entry.run_again is not None and entry.run_again.others:
         others = entry.run_again.others
         yield Text(
@@ -387,6 +401,8 @@ def _conclusion(entry: study.SearchEntry) -> str:
     late = f"; {undecided} more not decided" if undecided else ""
     if entry.undecided is not None:
         late += f", first {entry.undecided.world}: {entry.undecided.why}"
+    if entry.verdict == "REFUTED" and not failing:
+        return f"{worlds}, another verdict when one was run again{late}"
     if entry.verdict == "REFUTED":
         return f"{worlds}, a claim fails in {failing}{late}"
     if entry.verdict == "UNKNOWN":
