@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from topo_verify.world import families
     from topo_verify.world.enumeration.classes import WorldClass
     from topo_verify.world.enumeration.pruned import worlds
+    from topo_verify.world.resolve import resolve_world
     from topo_verify.world.rooted_map import World
 
 __version__ = "0.3.0"
@@ -63,6 +64,7 @@ __all__ = [
     "explore",
     "families",
     "read_log",
+    "resolve_world",
     "search",
     "strategies",
     "worlds",
@@ -88,6 +90,7 @@ _MODULES = {
     "world": ("families",),
     "world.enumeration.classes": ("WorldClass",),
     "world.enumeration.pruned": ("worlds",),
+    "world.resolve": ("resolve_world",),
     "world.rooted_map": ("World",),
 }
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import shutil
 from pathlib import Path
 
@@ -84,22 +83,19 @@ def test_a_misdeed_convicts_the_mapper_in_its_world(deed: str, tmp_path: Path) -
     assert MISDEEDS[deed] in entry.counterexample.message
 
 
-def test_a_note_names_the_world_of_an_endless_loop_once_after_the_limit_of_a_move(
-    tmp_path: Path,
-) -> None:
+def test_a_note_names_the_world_of_an_endless_loop_once(tmp_path: Path) -> None:
     mappers = [one_target(hostile(tmp_path, "loop"))]
-    campaign = search_campaign(mappers, edges=2, limits=Limits(move_timeout=1.5))
+    campaign = search_campaign(mappers, edges=2)
     notes: list[str] = []
     study = Search(campaign, mappers, pooled(1, note=notes.append))
     study.work()
     (note,) = notes
-    seconds = re.match(r"m2/7: the mapper gave no sign of life for (\d+) s;", note)
-    assert seconds is not None
-    assert int(seconds[1]) < Limits().move_timeout
+    assert note.startswith("m2/7: the mapper gave no sign of life for ")
 
 
-def test_a_limit_of_a_whole_run_is_refused(tmp_path: Path) -> None:
+def test_a_limit_of_a_move_is_taken_and_one_of_a_whole_run_is_refused(tmp_path: Path) -> None:
     mappers = [one_target(hostile(tmp_path, "loop"))]
+    assert search_campaign(mappers, edges=2, limits=Limits(move_timeout=1)).engine == "compiled"
     with pytest.raises(InputError, match="number of moves: leave out --world-timeout, or add"):
         search_campaign(mappers, edges=2, limits=Limits(world_timeout=1))
 

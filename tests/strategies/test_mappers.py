@@ -72,3 +72,7 @@ def test_door_words_reach_every_vertex_and_shrink_to_few_low_doors() -> None:
 
 def test_where_there_is_no_door_the_only_word_is_empty() -> None:
     assert find(door_words(World((), (), None)), lambda _: True) == ()
+
+
+def test_a_text_names_the_world_of_door_words() -> None:
+    assert find(door_words("m2/0", min_length=2), lambda _: True) == (0, 0)

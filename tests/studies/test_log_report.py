@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 from random import Random
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -98,6 +99,23 @@ def test_events_may_be_dictionaries_as_in_the_lines_of_a_file() -> None:
     assert tv.certify(log).verdict == "PROVED"
     with pytest.raises(tv.InputError, match="the list of events, line 2: expected an event of a"):
         tv.certify([log[0], {**log[1], "door": "left"}])
+
+
+def test_a_table_in_memory_is_told_to_be_written() -> None:
+    table: Any = SimpleNamespace(columns=("door", "degree", "marker"))
+    with pytest.raises(tv.InputError, match=r"write it by to_csv\('log.csv', index=False\)"):
+        tv.certify(table)
+
+
+def test_lines_may_end_as_on_an_old_mac(tmp_path: Path) -> None:
+    (tmp_path / "log.csv").write_bytes(b"door,degree,marker\r,1,0\r0,1,\r")
+    assert tv.certify(tmp_path / "log.csv").verdict == "PROVED"
+
+
+def test_a_cell_that_no_table_has_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "log.csv").write_text("door,degree,marker\n,1," + "0" * 200_000)
+    with pytest.raises(tv.InputError, match="row 2: expected cells of a table: field larger"):
+        tv.certify(tmp_path / "log.csv")
 
 
 def test_a_finding_names_the_row_of_the_file(tmp_path: Path) -> None:

@@ -18,6 +18,7 @@ from topo_verify.robot.percept import Door
 from topo_verify.robot.simulator import exit_dart
 from topo_verify.strategies.draws import draw_bytes, shown_as_called
 from topo_verify.strategies.shapes import LARGEST, integer
+from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
 _MAX_SEED = 10**6
@@ -73,14 +74,14 @@ def _named(names: Iterable[str], random: bool) -> SearchStrategy[str]:  # noqa: 
 
 @shown_as_called
 def door_words(
-    world: World, *, min_length: int = 0, max_length: int = 100
+    world: World | str, *, min_length: int = 0, max_length: int = 100
 ) -> SearchStrategy[tuple[Door, ...]]:
     """Sequences of doors, each less than the degree of the vertex that it leads out of.
 
     Shrinks to few doors, then to low ones. Of more than 256 doors only the first 256 are drawn.
 
     Args:
-        world: where the robot walks, from the marker on.
+        world: where the robot walks, from the marker on; or a text, as on the command line.
         min_length, max_length: the number of doors.
     Example:
         >>> from hypothesis import find
@@ -94,6 +95,7 @@ def door_words(
             f"door_words: min_length={least}, max_length={most}, expected"
             f" min_length <= max_length <= {LARGEST}"
         )
+    world = resolve_world(world) if isinstance(world, str) else world
     if not world.alpha:
         if least:
             raise InputError(

@@ -101,15 +101,19 @@ def table_events(lines: Iterable[bytes], name: str) -> Iterator[tuple[int, Event
     titles: list[str] = []
     separator = ","
     begun = False
-    for number, line in enumerate(lines, 1):
-        text = line.decode("utf-8-sig", errors="replace").strip("\r\n")
+    rows = (row for line in lines for row in line.splitlines())
+    for number, line in enumerate(rows, 1):
+        text = line.decode("utf-8-sig", errors="replace")
         if not titles:
             separator = max(",;\t", key=text.count)
-        (row,) = csv.reader([text], delimiter=separator)
+        place = f"{name}, row {number}"
+        try:
+            (row,) = csv.reader([text], delimiter=separator)
+        except csv.Error as error:
+            raise InputError(f"{place}: expected cells of a table: {error}") from error
         cells = [cell.strip() for cell in row]
         if not any(cells):
             continue
-        place = f"{name}, row {number}"
         if not titles:
             titles = [cell.lower() for cell in cells]
             _require_columns(titles, place)

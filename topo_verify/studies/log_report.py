@@ -175,6 +175,11 @@ def certify(
 def _events(log: Sequence[Event | Mapping[str, Any]] | str | PathLike[str]) -> Sequence[Event]:
     if isinstance(log, str | PathLike):
         return read_log(log)
+    if hasattr(log, "columns"):
+        raise InputError(
+            "expected a log: events, or a file; got a table: write it by to_csv('log.csv',"
+            " index=False), with the columns door, degree and marker, and give that name"
+        )
     if not hasattr(log, "__len__"):
         raise InputError(f"expected a log: events, as run.trace, or a file; got {log!r}")
     if any(isinstance(event, Mapping) for event in log):
