@@ -26,7 +26,7 @@ import msgspec
 import pytest
 
 from tests.cli.conftest import Call
-from topo_verify.campaign import campaign
+from topo_verify.campaign import progress
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli.output import ProgressBar, entry_of
 from topo_verify.faults import FAULTS
@@ -212,7 +212,7 @@ def interrupt(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], None]:
             if next(calls) == at:
                 raise KeyboardInterrupt
 
-        monkeypatch.setattr(campaign, "INTERVAL", 0)  # it is told of everything, however fast
+        monkeypatch.setattr(progress, "INTERVAL", 0)  # it is told of everything, however fast
         monkeypatch.setattr(ProgressBar, "__call__", pressed)
 
     return interrupt
