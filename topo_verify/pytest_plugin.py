@@ -67,7 +67,7 @@ _SESSION = pytest.StashKey[_Session]()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the options."""
+    """Add the options of the plugin to those of pytest."""
     group = parser.getgroup("topo-verify", "topo-verify (mappers with one robot and one marker)")
     group.addoption(
         "--topo-target",

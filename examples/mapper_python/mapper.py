@@ -1,16 +1,24 @@
 """Listing 1, the basic algorithm, from docs/semantics.md alone: sections 2 to 6."""
 
 
+def views(seen):  # the percept at each dart of a vertex, from that at its first
+    degree, marker = seen["degree"], seen["marker"]
+    turned = (None if marker is None else (marker - k) % degree for k in range(degree))
+    return [{"degree": degree, "marker": door} for door in turned]
+
+
+def signature(seen):  # what can be compared before the robot knows which door is which
+    return seen["degree"], seen["marker"] is None
+
+
 def explore(robot):  # noqa: C901, PLR0915  one listing, one function
     base, vertex, looks, alpha, unexplored = [], [], [], {}, set()
 
     def add_vertex(seen):  # its darts take the next numbers; each has the percept that it looks at
-        degree, marker = seen["degree"], seen["marker"]
         base.append(len(vertex))
-        unexplored.update(range(base[-1], base[-1] + degree))
-        for k in range(degree):
-            vertex.append(len(base) - 1)
-            looks.append({**seen, "marker": None if marker is None else (marker - k) % degree})
+        looks.extend(views(seen))
+        vertex.extend([len(base) - 1] * seen["degree"])
+        unexplored.update(range(base[-1], len(vertex)))
         return base[-1]
 
     def darts(v):
@@ -54,8 +62,7 @@ def explore(robot):  # noqa: C901, PLR0915  one listing, one function
         for door in doors:
             go(door, "walk")
         seen = go(e - arrivals[-1], "cross")
-        here = (seen["degree"], seen["marker"] is None)
-        alike = [h for h in unexplored if (looks[h]["degree"], looks[h]["marker"] is None) == here]
+        alike = [h for h in unexplored if signature(looks[h]) == signature(seen)]
         alike.sort(key=lambda h: (home[vertex[h]][0], h))
         say("pose", hypotheses=alike)
         turned, entry = 0, None
@@ -73,8 +80,7 @@ def explore(robot):  # noqa: C901, PLR0915  one listing, one function
             for door in reversed(doors[:step]):
                 go(-turned, "retrace")
                 turned = door
-        kind = "new" if entry is None else "loop"
-        entry = add_vertex(seen) if entry is None else entry
+        kind, entry = ("new", add_vertex(seen)) if entry is None else ("loop", entry)
         alpha[e], alpha[entry] = entry, e
         unexplored.remove(entry)
         say("augment", kind=kind, dart=entry, degree=seen["degree"])

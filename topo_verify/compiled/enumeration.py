@@ -232,7 +232,7 @@ def ranked_tables(
     *,
     layout: WordLayout = SMALL,
 ) -> Iterator[tuple[int, rank_order.Table]]:
-    """Twin of `pruned.ranked_tables`.
+    """The rank and the table of each world of a class, as `pruned.ranked_tables` gives them.
 
     Raises:
         InputError: numba is missing, or there are too many edges.

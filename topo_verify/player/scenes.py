@@ -37,7 +37,7 @@ class Spent(NamedTuple):
 
     @property
     def cost(self) -> int:
-        """Their sum."""
+        """All edge traversals, whatever their purpose."""
         return sum(self)
 
 

@@ -121,7 +121,7 @@ class Cell:
 
 @dataclass(frozen=True)
 class TextTable:
-    """A table.
+    """A table of text, with one tuple of cells a row.
 
     Attributes:
         columns: titles; a leading `>` means flush right.

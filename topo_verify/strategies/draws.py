@@ -120,7 +120,7 @@ class Sizes:
         return cls(_one_of(firsts), seconds) if firsts else None
 
     def draw(self, draw: st.DrawFn) -> tuple[int, int]:
-        """A pair."""
+        """A number, and one of its partners."""
         first = draw(self.firsts)
         return first, draw(self.seconds[first])
 

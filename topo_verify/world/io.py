@@ -47,7 +47,7 @@ def format_of_name(path: str | PathLike[str]) -> str:
 
 
 def written_format(path: str | PathLike[str]) -> str:
-    """The same. InputError: it is read and not written."""
+    """The format by the name of a file to be written; InputError if it is only read."""
     if (kind := format_of_name(path)) not in WRITTEN:
         endings = ", ".join(WRITTEN.values())
         raise InputError(
@@ -152,7 +152,7 @@ def draw(
 
 
 def twin(world: World, model: Literal["undirected", "none"]) -> World | None:
-    """`World.twin`."""
+    """Another world that looks the same without the marker's direction: `World.twin`."""
     from topo_verify.world.twins import find_twin
 
     return find_twin(world, model)[0]

@@ -212,5 +212,5 @@ class ListedChoices:
         return replace(run, mapper=None)
 
     def named(self, report: Report, limits: Limits) -> Report:
-        """See `with_choices`."""
+        """The report, whose findings name the command that repeats the choices of this run."""
         return with_choices(report, self.target.text, self._choices, limits)

@@ -66,7 +66,7 @@ class MeteredRobot:
         return percept
 
     def declare(self, event: Decision) -> None:
-        """Record a decision."""
+        """Put a decision on record, in the trace too."""
         self._robot.declare(event)
         self.trace.append(event)
 
