@@ -205,8 +205,9 @@ def test_two_runs_in_one_world_are_saved_side_by_side(tmp_path: Path) -> None:
     assert "<title>basic beside folding in m3/5" in (tmp_path / "two.html").read_text()
     with pytest.raises(tv.InputError, match="a run in another world"):
         run.save(tmp_path / "other.html", beside=tv.explore("m3/6", "basic"))
-    with pytest.raises(tv.InputError, match="a run is shown by a page; name a file that ends in"):
-        run.save(tmp_path / "run.pdf")
+    for name in ("run.pdf", "run.SVG"):
+        with pytest.raises(tv.InputError, match="a run is shown by a page; name a file that ends"):
+            run.save(tmp_path / name)
     assert not (tmp_path / "other.html").exists()
 
 

@@ -139,10 +139,10 @@ class Exploration:
             InputError: the file cannot be written, or its name ends in .pdf or alike; no trace was
                 kept, or the other run has another world.
         """
-        from topo_verify.player.page import player_page
+        from topo_verify.player.page import player_page, require_page
         from topo_verify.world.formats import files
 
-        files.require_page(path)
+        require_page(path)
         runs = [self] if beside is None else [self, beside]
         if any(run.world != self.world for run in runs):
             raise InputError("beside: a run in another world; explore this run's world with both")

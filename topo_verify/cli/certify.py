@@ -24,7 +24,7 @@ from topo_verify.robot.events import Move
 from topo_verify.robot.limits import MOST_SECONDS
 from topo_verify.studies import certificates as study
 from topo_verify.studies.advice import Advice
-from topo_verify.studies.log_file import line_of, read_log
+from topo_verify.studies.log_file import event_in, line_of, read_log
 from topo_verify.studies.log_report import Certificate, OpenDoor, readings_apart
 from topo_verify.studies.log_report import certify as judge
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
@@ -266,7 +266,7 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             if event is not None and (line := line_of(entry.trace, event)):
                 yield Text(f"Event {event} is {line} of {entry.trace}.")
             if entry.apart is not None:
-                readings = " and ".join(_event(entry.trace, when) for when in entry.apart)
+                readings = " and ".join(event_in(entry.trace, when) for when in entry.apart)
                 yield Text(f"The readings of {readings} would be of one place.")
             elif any(TURNED in finding.message for finding in entry.findings):
                 yield Text(
@@ -297,11 +297,6 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield Bullets(entry.witnesses)
         if entry.kernel is not None:
             yield from _show_proof(entry.kernel)
-
-
-def _event(trace: str, when: int) -> str:
-    line = line_of(trace, when)
-    return f"event {when} ({line})" if line else f"event {when}"
 
 
 def _sizes(entry: CertifyEntry) -> tuple[str, str, str]:

@@ -255,7 +255,9 @@ def require_one_world(file: str | None, number: int) -> None:
     if file is not None and number != 1:
         raise InputError(f"--player {file}: expected one WORLD, got {number}; name one")
     if file is not None:
-        files.require_page(file)
+        from topo_verify.player.page import require_page
+
+        require_page(file)
 
 
 def write_page(file: str, world: World, name: str, runs: Sequence[PlayedRun]) -> None:

@@ -274,12 +274,12 @@ def _failing(claim: study.FailingClaim) -> acc.JudgedCase:
 SHOWN = 3
 
 
-OUTSIDE = (
+LOST_WORKER = (
     "A worker was lost, which another program may have killed, or lacked memory; tried again,"
     " nothing failed:"
 )
 
-UNLIKE = (
+NOT_THE_SAME = (
     "Tried again, the library does not do the same in these worlds: it writes out of place, perhaps"
     " in another world, or keeps something from world to world. To find the line, build it with -g"
     " -fsanitize=address and put LD_PRELOAD=$(gcc -print-file-name=libasan.so)"
@@ -312,7 +312,7 @@ def shown(entry: study.SearchEntry, *, worst: bool = False) -> Iterator[Block]:
     yield Text("")
     yield Text(f"{entry.verdict}: {_conclusion(entry)}")
     if entry.lost:
-        yield Text(UNLIKE if entry.target.startswith(LIBRARY) else OUTSIDE)
+        yield Text(NOT_THE_SAME if entry.target.startswith(LIBRARY) else LOST_WORKER)
         more = len(entry.lost) - SHOWN
         rest = (f"and {more} more: --format json has them",) if more > 0 else ()
         named = tuple(f"{lost.world}: {lost.how}" for lost in entry.lost[:SHOWN])

@@ -15,8 +15,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
+from os import PathLike
+from pathlib import Path
 
-from topo_verify.errors import shown
+from topo_verify.errors import InputError, shown
 from topo_verify.player.recording import PlayedRun, recording
 from topo_verify.world.rooted_map import World
 
@@ -81,6 +83,15 @@ def json_in_page(data: object) -> str:
     """The data as JSON that can stand in a script element."""
     # Only "<" can end or open anything in a script; the JSON stays the same.
     return json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+
+
+NO_PAGES = (".gif", ".jpeg", ".jpg", ".json", ".pdf", ".png", ".svg")
+
+
+def require_page(path: str | PathLike[str]) -> None:
+    """Raise InputError if the name promises something else than a page (HTML)."""
+    if Path(path).suffix.lower() in NO_PAGES:
+        raise InputError(f"{shown(path)}: a run is shown by a page; name a file that ends in .html")
 
 
 def player_page(world: World, runs: Sequence[PlayedRun], *, name: str = "") -> str:

@@ -232,7 +232,7 @@ _MOST_KEPT = 2**16
 """Distinct Move lines that are shared; most logs have fewer."""
 
 
-EXAMPLE = '{"type": "move", "door": 0, "percept": {"degree": 3, "marker": null}}'
+_EXAMPLE = '{"type": "move", "door": 0, "percept": {"degree": 3, "marker": null}}'
 
 
 def _event(line: bytes, place: str) -> Event:
@@ -247,7 +247,9 @@ def _event(line: bytes, place: str) -> Event:
         # msgspec keeps the last of two equal keys
         json.loads(line, object_pairs_hook=see, parse_int=str, strict=False)
     except (msgspec.MsgspecError, RecursionError, ValueError) as error:
-        raise InputError(f"{place}: expected an event of a trace, as {EXAMPLE}: {error}") from error
+        raise InputError(
+            f"{place}: expected an event of a trace, as {_EXAMPLE}: {error}"
+        ) from error
     if doubled:
         raise InputError(f"{place}: the key {doubled[0]!r} stands twice: leave one of the two out")
     return event

@@ -59,6 +59,12 @@ def line_of(path: str, event: int) -> str:
         return f"line {next(islice(filled, event, None))}"
 
 
+def event_in(path: str, event: int) -> str:
+    """An event in words, with its place in its file if it has one: `event 3 (row 5)`."""
+    line = path and line_of(path, event)
+    return f"event {event} ({line})" if line else f"event {event}"
+
+
 def write_log(path: str, trace: Trace) -> None:
     """Write the start and the moves as CSV if the name ends in .csv, else every event as JSON."""
     if not path.lower().endswith(".csv"):

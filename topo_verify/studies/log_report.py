@@ -27,7 +27,7 @@ from topo_verify.errors import LINE, InputError, map_size, plural, shown
 from topo_verify.robot.events import Event, Move, Start, read_events
 from topo_verify.robot.percept import Door, Percept
 from topo_verify.studies.advice import Advice, advice, doors_of, places_from
-from topo_verify.studies.log_file import line_of, read_log
+from topo_verify.studies.log_file import event_in, read_log
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
@@ -271,7 +271,7 @@ def _headline(certificate: Certificate) -> str:
 
 def _next_steps(certificate: Certificate) -> Iterator[str]:
     for finding in certificate.findings[:MOST_LISTED]:
-        event = "" if finding.event is None else f", {_event(certificate, finding.event)}"
+        event = "" if finding.event is None else f", {event_in(certificate.source, finding.event)}"
         yield shown(f"{finding.claim}{event}: {finding.message}", limit=LINE)
     for door in certificate.open_doors(MOST_LISTED):
         yield f"door {door.door} of place {door.place}: {_by_doors(door.walk)}"
@@ -281,11 +281,6 @@ def _next_steps(certificate: Certificate) -> Iterator[str]:
         yield f"Next: {_by_doors(advice.walk)}, and certify the longer log."
     else:
         yield f"Next: go back to the marker, {_by_doors(advice.home)}, and certify the longer log."
-
-
-def _event(certificate: Certificate, when: int) -> str:
-    line = certificate.source and line_of(certificate.source, when)
-    return f"event {when} ({line} of {certificate.source})" if line else f"event {when}"
 
 
 def _by_doors(walk: Sequence[Door]) -> str:

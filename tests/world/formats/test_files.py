@@ -190,13 +190,3 @@ def test_standard_input_that_was_closed_is_one_sentence(monkeypatch: pytest.Monk
     monkeypatch.setattr("sys.stdin", None)
     with pytest.raises(InputError, match="standard input is closed: name a file"):
         files.standard_input()
-
-
-@pytest.mark.parametrize("name", ["run.pdf", "run.SVG"])
-def test_a_page_is_not_named_as_a_picture(name: str) -> None:
-    files.require_page("run.html")
-    files.require_page("run")
-    with pytest.raises(
-        InputError, match=r"a run is shown by a page; name a file that ends in \.html"
-    ):
-        files.require_page(name)

@@ -103,15 +103,6 @@ def _replace(target: Path, data: bytes) -> None:
         raise
 
 
-NO_PAGES = (".gif", ".jpeg", ".jpg", ".json", ".pdf", ".png", ".svg")
-
-
-def require_page(path: str | PathLike[str]) -> None:
-    """Raise InputError if the name promises something else than a page (HTML)."""
-    if Path(path).suffix.lower() in NO_PAGES:
-        raise InputError(f"{shown(path)}: a run is shown by a page; name a file that ends in .html")
-
-
 def stem(path: str | PathLike[str]) -> str:
     """The file's name without its ending."""
     return os.fsencode(Path(path).stem).decode("utf-8", "replace")
