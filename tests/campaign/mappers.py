@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import itertools
 import os
 import random
 import signal
@@ -29,9 +30,8 @@ def in_some_worlds(deed: Callable[[], object]) -> Killer:
     return explore
 
 
-def forever() -> None:
-    while True:
-        pass
+def forever() -> bool:
+    return all(number >= 0 for number in itertools.count())  # one line: a finding names it
 
 
 def hold_the_interpreter() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import time
 from pathlib import Path
 from typing import Any
@@ -71,8 +72,7 @@ def raises(_robot: Robot) -> object:
 
 
 def loops(_robot: Robot) -> object:
-    while True:
-        pass
+    return all(number >= 0 for number in itertools.count())  # one line: a finding names it
 
 
 def walks(robot: Robot) -> object:
