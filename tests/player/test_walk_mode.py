@@ -179,6 +179,20 @@ def test_the_reader_sees_percepts_only(show: Open, text: str) -> None:
     assert page.locator("main").evaluate("one => one.inert")
 
 
+def test_the_first_world_is_one_that_the_reader_has_not_seen(show: Open, text: str) -> None:
+    page = show(text)
+    page.click("#walk-it")
+    assert page.input_value("#walk select") == "random"
+    page = show(text, at="#step=3")
+    for _ in range(2):  # the second time it is open already
+        page.evaluate("location.hash = '#walk'")  # typed behind the address, it loads nothing
+        page.wait_for_selector("#walk")
+        page.evaluate("location.hash = ''")
+    assert page.input_value("#walk select") == "page"
+    page.keyboard.press("Escape")
+    assert not page.locator("main").evaluate("one => one.inert")
+
+
 def test_where_one_answer_is_left_the_game_does_not_advise_to_walk_on(show: Open) -> None:
     page = show(page_of(World.from_id("m1/0"), "basic"), at="#walk")
     keys(page, "0")

@@ -77,8 +77,11 @@ def play(
     return output.run("play", played, _show, in_process=mappers.in_process)
 
 
+HOW = "Open it in a browser; with #walk behind its address, you are the robot."
+
+
 def _show(entries: Sequence[PlayEntry]) -> Iterator[Block]:
     for entry in entries:
         names = ", ".join(entry.algorithms)
         marked = f"; {plural(entry.findings, 'finding')}" if entry.findings else ""
-        yield Text(f"{entry.file}: {names} in {entry.world}{marked}. Open it in a browser.")
+        yield Text(f"{entry.file}: {names} in {entry.world}{marked}. {HOW}")

@@ -6,7 +6,9 @@ const asked = location.hash; // the player writes its step there
 function begin() {
   new Player(recording);
   const walkMode = new WalkMode(recording);
-  if (asked === '#walk') walkMode.open();
+  const walk = () => walkMode.open('page');
+  if (asked === '#walk') walk();
+  addEventListener('hashchange', () => location.hash === '#walk' && walk());
 }
 
 // In a frame that has just been made the pictures may have no room yet to be fitted into.

@@ -20,7 +20,7 @@ class WalkMode {
     button.id = 'walk-it';
     button.title = 'Be the robot: see only what it sees, choose doors, draw the map';
     button.addEventListener('click', () => {
-      this.open();
+      this.open('random');
       this.head.focus();
     });
     addEventListener('keydown', (event) => this.key(event), { capture: true });
@@ -28,12 +28,14 @@ class WalkMode {
 
   // ---------------------------------------------------------------- the frame
 
-  open() {
+  /** Begin in this world, or where the walk was. */
+  open(world) {
+    if (this.section?.isConnected) return;
     this.outside = [...document.body.children].filter((one) => !['walk', 'help'].includes(one.id) && !one.inert);
     for (const one of this.outside) one.inert = true;
     this.section ??= this.frame();
     document.body.append(this.section);
-    if (!this.section.classList.contains('begun')) this.choose('page');
+    if (!this.section.classList.contains('begun')) this.choose(world);
     this.section.classList.add('begun');
   }
 
@@ -285,7 +287,7 @@ class WalkMode {
     const key = html('p', 'kinds', says);
     for (const [kind, text] of [['followed', 'followed'], ['luck', 'true by luck'], ['wrong', 'wrong']]) {
       const part = html('span', '', key);
-      html('i', `swatch ${kind === 'wrong' ? 'false' : kind}`, part);
+      html('i', `swatch ${kind}`, part);
       part.append(text);
     }
     const row = html('div', 'bar', says);
