@@ -157,6 +157,14 @@ def test_rings_are_where_the_evidence_was_seen_and_where_it_was_expected() -> No
         vertices = [min(range(7), key=lambda v: dist(layout.centres[v], ring)) for ring in shown]
         signatures = {percepts(WORLD)[WORLD.vertices[v][0]].signature for v in vertices}
         assert signatures == {evidence.observed.signature, evidence.expected.signature}
+        (dashed,) = [
+            min(range(7), key=lambda v: dist(layout.centres[v], centre))
+            for group, ring in film.groups("ring")
+            if film.is_shown(group, at) and ring.get("stroke-dasharray")
+            for centre in [(float(ring.get("cx", "")), float(ring.get("cy", "")))]
+        ]  # "the dashed ring" of the caption
+        expected = percepts(WORLD)[WORLD.vertices[dashed][0]]
+        assert expected.signature == evidence.expected.signature
     assert rejections == 3
 
 

@@ -215,7 +215,7 @@ def test_evidence_that_is_not_there_is_not_told_as_seen() -> None:
 
     assert cites(step=9) == "What it cites is not to be found in its walk."
     assert "It says that it saw 7 exits." in cites(observed=Percept(7, None))
-    assert "It says that at the ring on its map it would see 7 exits." in cites(
+    assert "It says that at the dashed ring it would see 7 exits." in cites(
         expected=Percept(7, None)
     )
 

@@ -199,7 +199,7 @@ def test_a_run_with_findings_opens_at_the_first_and_goes_on_to_the_next(
     assert title(page) == "Guess 2 is wrong, it says"
     assert "true-hypothesis-kept" in page.inner_text(".say .wrong")
     assert page.locator(".world .ring").count() >= 1
-    assert page.locator(".map .ring").count() == 1
+    assert page.locator(".map .ring.would").count() == 1  # "the dashed ring" of the sentence
     assert page.inner_text(".compared b") == "≠"
     page.keyboard.press("f")
     assert step(page) > first

@@ -216,11 +216,11 @@ class Narrator:
         known = there == expected if mismatch.leaves is None else recorded
         is_sure = known and is_seen and not moment.findings
         if is_sure and observed.signature == expected.signature:
-            yield "At the ring on its map the marker would have to point another way."
+            yield "At the dashed ring the marker would have to point another way."
             return
         sees = "sees" if reject.rule == "motion" else "saw"
         at = "At" if is_sure else "It says that at"
-        yield f"{at} the ring on its map it would see {_sight(expected)}."
+        yield f"{at} the dashed ring it would see {_sight(expected)}."
         yield f"It {sees if is_seen else 'says that it saw'} {_sight(observed)}."
 
     def _contradicted(self, number: int, contradiction: str, name: str) -> Saying:

@@ -238,10 +238,11 @@ def _questions(tracks: Tracks, stage: Stage) -> Iterator[str]:
 def _walkers(tracks: Tracks, stage: Stage) -> Iterator[str]:
     r = tracks.layout.radius
     line = f'fill="none" stroke-width="{number(0.2 * r)}"'
-    for (x, y), spans in tracks.clashes().items():
-        at = f'cx="{number(x)}" cy="{number(y)}" r="{number(1.6 * r)}"'
-        yield f'<g{stage.during(*spans)}><circle class="ring" {line} {at}/></g>'
     dots = f'stroke-dasharray="{number(0.5 * r)}"'
+    for ((x, y), is_expected), spans in tracks.clashes().items():
+        at = f'cx="{number(x)}" cy="{number(y)}" r="{number((2 if is_expected else 1.6) * r)}"'
+        at += f" {dots}" if is_expected else ""
+        yield f'<g{stage.during(*spans)}><circle class="ring" {line} {at}/></g>'
     for ghost in tracks.ghosts():
         ring = f'<circle class="ghost" {line} {dots} r="{number(1.3 * r)}"/>'
         way = timed(ghost.steps, stage.begins)

@@ -188,18 +188,18 @@ class Tracks:
         x, y = curves.place(along, away).tolist()
         return x, y
 
-    def clashes(self) -> dict[Point, list[Span]]:
-        """The rings at a rejection: where the evidence was seen and where it is expected."""
-        rings: dict[Point, list[Span]] = {}
+    def clashes(self) -> dict[tuple[Point, bool], list[Span]]:
+        """The rings at a rejection: where the evidence was seen; True: where it is expected."""
+        rings: dict[tuple[Point, bool], list[Span]] = {}
         for moment in self.moments:
             mismatch = moment.mismatch
             if mismatch is None or mismatch.evidence.contradiction is not None:
                 continue
-            at = {self.centre(mismatch.trail[-1])}
+            at = {(self.centre(mismatch.trail[-1]), False)}
             if mismatch.leaves is None:
-                at.add(self.centre(self.playback.map.phi[mismatch.traced[-1]]))
-            for point in sorted(at):
-                rings.setdefault(point, []).append((moment.number, moment.number + 1))
+                at.add((self.centre(self.playback.map.phi[mismatch.traced[-1]]), True))
+            for ring in sorted(at):
+                rings.setdefault(ring, []).append((moment.number, moment.number + 1))
         return rings
 
     # ------------------------------------------------------------ who walks

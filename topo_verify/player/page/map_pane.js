@@ -197,8 +197,8 @@ class MapPane extends Pane {
     for (const dart of believed.left) this.band(dart, 'way bad');
     if (believed.rest.length) {
       const [cx, cy] = this.end(believed.at);
-      draw('circle', { cx, cy, r: 12 * this.u, class: 'ring' }, this.moment);
-    } else this.ring(this.centre(run.map.darts[believed.at].image), 'ring', this.moment);
+      draw('circle', { cx, cy, r: 12 * this.u, class: 'ring would' }, this.moment);
+    } else this.ring(this.centre(run.map.darts[believed.at].image), 'ring would', this.moment);
   }
 
   /** What an augmentation has just added. */
