@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 import topo_verify as tv
-from topo_verify.robot.events import Move, Start
+from topo_verify.robot.events import MapData, Move, Start
 
 
 def guess(_robot: tv.Robot) -> dict[str, Any]:
@@ -218,6 +218,12 @@ def test_a_run_without_its_trace_says_so(tmp_path: Path) -> None:
     with pytest.raises(tv.InputError, match="trace=False keeps nothing to play"):
         run.save(tmp_path / "run.html")
     assert not (tmp_path / "run.html").exists()
+
+
+def test_a_delivered_map_is_a_picture_and_what_is_no_map_is_its_text() -> None:
+    run = tv.explore("m3/5", "basic")
+    assert html_of(run.map) == html_of(tv.World.from_map(run.map))
+    assert html_of(MapData(((0,),), (), 0)) is None, "so that IPython shows the repr"
 
 
 def test_a_long_run_is_shown_as_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:

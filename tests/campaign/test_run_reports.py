@@ -53,6 +53,20 @@ def test_a_report_shows_what_fails_and_how_to_see_it_again() -> None:
     )
 
 
+def test_a_report_shows_the_first_finding_of_a_claim_and_how_many_more_there_are() -> None:
+    report = tv.examine(mistaken, WORLD)
+    first, second, *others = report.findings
+    assert second.claim != first.claim
+    many: Any = report.with_findings([*[first] * 36, second, *others])
+    lines = str(many).splitlines()
+    assert lines[1].startswith("  map-isomorphic (event 1): the map")
+    assert lines[2] == "    … and 35 more"
+    assert lines[3].startswith("  cost-within-bound: a cost of 0")
+    assert many._repr_html_().count("is not isomorphic to the true map") == 1
+    assert " … and 35 more</li>" in many._repr_html_()
+    assert str(many).count(" more") == 1
+
+
 def test_the_text_of_a_report_shows_the_walk() -> None:
     report = tv.examine(lambda robot: robot.move(9), tv.World.from_id("m3/8"))
     assert "asked for door 9 at a vertex with 1 door" in str(report)
@@ -269,6 +283,9 @@ def test_a_text_names_a_world_as_on_the_command_line(tmp_path: Path) -> None:
         assert tv.examine("basic", text).ok
     with pytest.raises(tv.InputError, match="expected a World or a text that names one"):
         tv.explore(cast("Any", 5))
+    entry: Any = tv.search(mistaken, edges=1)
+    with pytest.raises(tv.InputError, match=r"got Counterexample\(.*\); give its \.world$"):
+        tv.examine(mistaken, entry.counterexample)
     with pytest.raises(tv.InputError, match="no such world: 'm3/x'"):
         tv.examine("basic", "m3/x")
 

@@ -11,6 +11,8 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property, lru_cache
+from itertools import groupby
+from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import msgspec
@@ -149,9 +151,10 @@ class Report(msgspec.Struct, frozen=True, dict=True):
     def __str__(self) -> str:
         lines = [self.head]
         lines += [f"  {line}" for line in shortfalls(self.judgements)]
-        for finding in self.findings:
+        for claim, (finding, *more) in groupby(self.findings, attrgetter("claim")):
             place = "" if finding.event is None else f" (event {finding.event})"
-            lines.append(f"  {finding.claim}{place}: {finding.message}")
+            lines.append(f"  {claim}{place}: {finding.message}")
+            lines += [f"    … and {len(more)} more"] if more else []
         lines += self.walk()
         if self.findings and self.findings[0].replay:
             lines.append(f"  again: {self.findings[0].replay}")

@@ -55,6 +55,7 @@ from topo_verify.robot.limits import (
 )
 from topo_verify.robot.simulator import SimulatedRobot, first_percept
 from topo_verify.world.enumeration import rank_order
+from topo_verify.world.io import notebook
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
@@ -174,6 +175,16 @@ class Exploration:
         return PlayedRun(self.algorithm, self.trace, judgements, self.stopped)
 
 
+def _picture(delivered: MapData) -> str | None:
+    """The picture of a delivered map in a notebook; None, so that it shows the text: no map."""
+    try:
+        return notebook(World.from_map(delivered))
+    except InputError:
+        return None
+
+
+setattr(MapData, "_repr_html_", _picture)  # noqa: B010  the record knows no picture
+
 HUNG = (
     "an endless loop, an answer that was not flushed, or it waits for an answer to a message that"
     " has none"
@@ -256,7 +267,9 @@ def _resolved(world: object, mapper: object) -> World:
         return world
     if isinstance(world, str):
         return resolve_world(world)
-    raise InputError(f"expected a World or a text that names one, as m5/17 or nyc, got {world!r}")
+    mend = "; give its .world" if hasattr(world, "world") else ""
+    expected = "expected a World or a text that names one, as m5/17 or nyc"
+    raise InputError(f"{expected}, got {world!r}{mend}")
 
 
 def _on(engine: Engine, target: Target, limits: Limits, *, trace: bool) -> Target:

@@ -26,10 +26,12 @@ def report_card(
         head: mapper, world, and how many claims hold.
         again: the replay command, or "".
     """
-    findings = [finding for judgement in judgements for finding in judgement.findings]
+    failed = [judgement.findings for judgement in judgements if judgement.findings]
     parts = [f"<p><strong>{_text(head)}</strong></p>", _claims(judgements)]
-    if findings:
-        parts += [f"<ul>{''.join(f'<li>{_sentence(finding)}</li>' for finding in findings)}</ul>"]
+    if failed:
+        more = (f" … and {len(others)} more" if others else "" for _, *others in failed)
+        items = (f"<li>{_sentence(of[0])}{n}</li>" for of, n in zip(failed, more, strict=True))
+        parts += [f"<ul>{''.join(items)}</ul>"]
         if playback is not None:
             parts += [_picture(playback.world, "the world"), _walk(playback)]
         parts += _again(again)
