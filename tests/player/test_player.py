@@ -317,6 +317,16 @@ def test_nothing_has_to_be_scrolled(show: Open, name: str, request: pytest.Fixtu
         assert min(height for _, height in panes) > 100
 
 
+def test_three_findings_can_be_read_whole_on_a_phone(show: Open) -> None:
+    def walks_nowhere(robot: object) -> object:
+        return {"vertices": [[0], [1]], "edges": [[0, 1]], "marker": 0}
+
+    page = show(page_of(World.from_id("m4/41"), walks_nowhere), width=360, height=740)
+    assert page.locator(".say .wrong li:not(.remark)").count() == 3
+    assert page.eval_on_selector(".said", "one => one.scrollHeight <= one.clientHeight")
+    assert page.evaluate("document.documentElement.scrollHeight") == 740
+
+
 def test_every_control_has_a_name_and_a_place_in_the_order_of_focus(show: Open, wrong: str) -> None:
     page = show(wrong)
     names = page.eval_on_selector_all(
