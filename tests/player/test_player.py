@@ -318,7 +318,7 @@ def test_nothing_has_to_be_scrolled(show: Open, name: str, request: pytest.Fixtu
 
 
 def test_three_findings_can_be_read_whole_on_a_phone(show: Open) -> None:
-    def walks_nowhere(robot: object) -> object:
+    def walks_nowhere(_robot: object) -> object:
         return {"vertices": [[0], [1]], "edges": [[0, 1]], "marker": 0}
 
     page = show(page_of(World.from_id("m4/41"), walks_nowhere), width=360, height=740)

@@ -183,6 +183,9 @@ def test_the_first_world_is_one_that_the_reader_has_not_seen(show: Open, text: s
     page = show(text)
     page.click("#walk-it")
     assert page.input_value("#walk select") == "random"
+    assert said(page) == "Find out where every exit leads"
+    page.keyboard.press("0")  # a loop at the marker: what is seen says which exit it ends at
+    assert "Its arrow tells which: count from it. Say so:" in page.inner_text("#walk .says p")
     page = show(text, at="#step=3")
     for _ in range(2):  # the second time it is open already
         page.evaluate("location.hash = '#walk'")  # typed behind the address, it loads nothing

@@ -247,12 +247,14 @@ class WalkMode {
     }
     const fate = !last ? '' : last.fate === 'followed' ? 'Your last decision followed. ' : `Your last decision is true, but did not follow: ${WHY[last.event.kind]}. `;
     if (walk.complete) return ['Nothing on your map is unexplored', `${fate}Is every decision certain? Walk on, or have it judged.`];
-    if (!pending) return ['You know where you are', `${fate}Choose a door, by click or by its number. Door 0 ${walk.moves ? 'leads back' : 'is the one at which the marker points'}; the others count clockwise.`];
-    const guesses = walk.hypotheses().length, exits = guesses === 1 ? 'the exit with the letter' : `one of the ${guesses} exits with letters`;
-    const alone = guesses + walk.mayBeNew() === 1;
-    const places = !walk.mayBeNew() ? `You see the marker, so no place is new here: the road ends at ${exits}` : guesses ? `It may be a new place, or ${exits}` : 'No unexplored exit of your map looks like it, so it is a new place';
-    if (pending.word.length) return [`You are ${many(pending.word.length, 'door')} past the end of the new road`, `${fate}If you know now where the road (?) ends, say so: ${walk.mayBeNew() ? 'it is a new place, or an exit of your map' : 'it is an exit at the marker'}.`];
-    return ['A new road: where does it end?', `${fate}${places}. ${alone ? 'Say so' : 'Walk on to find out, or say so'}: ${guesses ? 'choose a letter on your map' : 'press “It is a new place”'}${guesses && walk.mayBeNew() ? ', or “It is a new place”' : ''}.`];
+    const doors = `Choose a door, by click or by its number. Door 0 ${walk.moves ? 'leads back' : 'is the one at which the marker points'}; the others count clockwise.`;
+    if (!walk.moves) return ['Find out where every exit leads', `Places look alike, but for the one with the marker, the red arrow. ${doors}`];
+    if (!pending) return ['You know where you are', fate + doors];
+    const guesses = walk.hypotheses().length, exits = guesses === 1 ? 'the exit with the letter' : `one of the ${guesses} exits with letters`, mayBeNew = walk.mayBeNew();
+    const alone = !guesses || !mayBeNew;
+    const places = !mayBeNew ? `You see the marker, so no place is new here: the road ends at ${exits}${guesses > 1 ? '. Its arrow tells which: count from it' : ''}` : guesses ? `It may be a new place, or ${exits}` : 'No unexplored exit of your map looks like it, so it is a new place';
+    if (pending.word.length) return [`You are ${many(pending.word.length, 'door')} past the end of the new road`, `${fate}If you know now where the road (?) ends, say so: ${mayBeNew ? 'it is a new place, or an exit of your map' : 'it is an exit at the marker'}.`];
+    return ['A new road: where does it end?', `${fate}${places}. ${alone ? 'Say so' : 'Walk on to find out, or say so'}: ${guesses ? 'choose a letter on your map' : 'press “It is a new place”'}${guesses && mayBeNew ? ', or “It is a new place”' : ''}.`];
   }
 
   // ---------------------------------------------------------------- the end
