@@ -51,6 +51,15 @@ def delivers(result: object) -> Mapper:
     return mapper
 
 
+NO_DOOR = "the mapper asked for door 9 at a vertex with 3 doors; the first is 0; it was at {}"
+
+
+def line(mapper: Callable[..., object], behind: int = 1) -> str:
+    """The line so many lines behind the first one of a function."""
+    number = mapper.__code__.co_firstlineno + behind
+    return f"{Path(__file__).relative_to(Path.cwd())}, line {number}"
+
+
 def why(mapper: Mapper, limits: Limits | None = None) -> str:
     """Why no map was delivered: the one thing that is wrong with this mapper."""
     report = examine(mapper, WORLD, limits=limits)
@@ -177,22 +186,25 @@ def test_a_mapper_that_walks_for_ever_ends_with_its_budget() -> None:
 
 
 def test_a_mapper_that_takes_a_door_that_is_not_there_is_a_finding() -> None:
-    assert why(lambda robot: robot.move(9)) == (
-        "the mapper asked for door 9 at a vertex with 3 doors; the first is 0"
-    )
+    def astray(robot: Robot) -> object:
+        return robot.move(9)
+
+    assert why(astray) == NO_DOOR.format(line(astray))
 
 
 def test_a_mapper_that_declares_nonsense_is_a_finding() -> None:
-    assert why(lambda robot: robot.declare(cast("Any", {"type": "boast"}))).startswith(
-        "expected a decision (pose, reject, confirm, augment): "
-    )
+    def boast(robot: Robot) -> object:
+        robot.declare(cast("Any", {"type": "boast"}))
+        return WORLD
+
+    assert why(boast).startswith("expected a decision (pose, reject, confirm, augment): ")
+    assert why(boast).endswith(f"; it was at {line(boast)}")
 
 
 @pytest.mark.parametrize("nap", [lambda: time.sleep(30), lambda: [None for _ in iter(int, 1)]])
 def test_a_mapper_that_sleeps_or_loops_without_moving_is_stopped(nap: Callable[[], object]) -> None:
     run = explore(WORLD, lambda _robot: nap(), limits=SHORT)
-    line = f"{Path(__file__).relative_to(Path.cwd())}, line {nap.__code__.co_firstlineno}"
-    assert run.stopped == f"the mapper did not move for 0.15 s; it was at {line}"
+    assert run.stopped == f"the mapper did not move for 0.15 s; it was at {line(nap, 0)}"
     assert run.limit == "move-timeout"
 
 
@@ -230,7 +242,7 @@ def test_a_mapper_that_swallows_what_stops_it_has_not_delivered(
             robot.move(9)
         return WORLD
 
-    assert why(swallow) == "the mapper asked for door 9 at a vertex with 3 doors; the first is 0"
+    assert why(swallow) == NO_DOOR.format(line(swallow, 2))
 
 
 def test_a_mapper_that_swallows_what_stops_it_and_then_raises_is_stopped_for_the_first_reason() -> (
@@ -242,7 +254,7 @@ def test_a_mapper_that_swallows_what_stops_it_and_then_raises_is_stopped_for_the
         raise ValueError("lost")
 
     run = explore(WORLD, swallow)
-    assert run.stopped == "the mapper asked for door 9 at a vertex with 3 doors; the first is 0"
+    assert run.stopped == NO_DOOR.format(line(swallow, 2))
     assert isinstance(run.error, ValueError)
 
 

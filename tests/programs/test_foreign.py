@@ -222,6 +222,15 @@ def test_the_line_of_a_hang_is_told(folder: Path, in_process: bool) -> None:
     assert told == f"the mapper did not move for 0.3 s; it was at mine.py, line {line}"
 
 
+@pytest.mark.parametrize("in_process", [False, True])
+@pytest.mark.parametrize("name", ["no_door", "no_purpose", "no_decision", "no_json"])
+def test_the_line_of_a_misuse_is_told(folder: Path, name: str, in_process: bool) -> None:
+    line = (folder / "mine.py").read_text().splitlines().index(f"def {name}(robot):") + 2
+    told = why(name, in_process=in_process)
+    assert told is not None
+    assert told.endswith(f"; it was at mine.py, line {line}")
+
+
 def test_the_clock_ends_a_mapper_that_uses_the_alarm_itself() -> None:
     told = str(why("own_alarm", limits=Limits(move_timeout=0.3)))
     assert told.startswith("the mapper did not move for 0.3 s; it was at mine.py, line ")

@@ -29,7 +29,7 @@ from topo_verify.campaign.targets import one_target
 from topo_verify.checkers import check
 from topo_verify.compiled import require
 from topo_verify.errors import ExaminationInterrupted, InputError, InternalError, plural, shown
-from topo_verify.programs.delivery import Undelivered, deliver, stopped_at
+from topo_verify.programs.delivery import Undelivered, deliver, stop_text
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.misbehaviour import Misbehaved
@@ -49,7 +49,6 @@ from topo_verify.robot.limits import (
     Limit,
     Limits,
     MapperStopped,
-    TimeLimitExceeded,
     given_limits,
     within,
 )
@@ -62,9 +61,6 @@ from topo_verify.world.rooted_map import World
 if TYPE_CHECKING:
     from topo_verify.player.recording import PlayedRun
 
-
-WAS_AT = "; it was at "
-"""Before the line at which a mapper was when its time was up: another one each time."""
 
 MOST_SHOWN = 10_000
 """Most events of a run that a notebook plays: about two seconds."""
@@ -323,12 +319,9 @@ def _run(
     try:
         result = within(limits, lambda: robot.cost, survey)
     except MapperStopped as stop:
-        if robot.stopped is not None:
-            return None, str(robot.stopped), None, robot.stopped.limit
-        if not isinstance(stop, TimeLimitExceeded):  # where it was then would be chance
-            return None, str(stop), None, stop.limit
-        line = mapper.line() if isinstance(mapper, Program) else stopped_at(stop)
-        return None, f"{stop}{WAS_AT}{line}" if line else str(stop), None, stop.limit
+        line = mapper.line if isinstance(mapper, Program) else None
+        limit = (robot.stopped or stop).limit  # no name for the stop, which holds this frame
+        return None, stop_text(robot.stopped or stop, line), None, limit
     except KeyboardInterrupt as ctrl_c:
         moves = plural(robot.cost, "move")
         interrupted = ExaminationInterrupted(f"after {moves}; the run is not kept")
@@ -336,7 +329,7 @@ def _run(
     error = result.error if isinstance(result, Undelivered) else None
     # The first limit counts, even if the mapper swallowed the robot's exception.
     if robot.stopped is not None:
-        return None, str(robot.stopped), error, robot.stopped.limit
+        return None, stop_text(robot.stopped), error, robot.stopped.limit
     if isinstance(result, Undelivered):
         return None, result.why, error, None
     return result, None, None, None

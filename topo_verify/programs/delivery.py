@@ -21,6 +21,7 @@ from topo_verify.errors import LINE, InputError, shown
 from topo_verify.programs.loaded import is_users
 from topo_verify.robot.events import Finish, MapData
 from topo_verify.robot.limits import MapperStopped, TimeLimitExceeded
+from topo_verify.robot.simulator import Misuse
 from topo_verify.world.validation import map_parts, optional_part
 
 R = TypeVar("R")
@@ -29,6 +30,9 @@ _PACKAGE = Path(errors.__file__).resolve().parent
 
 DEBUG = "; a debugger needs --in-process --move-timeout 9999 --world-timeout 9999"
 """What is added for a debugger in a process whose standard input is empty."""
+
+WAS_AT = "; it was at "
+"""Before the line at which a mapper was stopped; after a time limit another one each time."""
 
 TEST_TOOLS = ("hypothesis", "_pytest", "pytest")
 """Their exceptions end a test, not the mapper in the same process."""
@@ -134,9 +138,16 @@ def _line(file: str, line: int) -> str:
     return f"{os.fspath(path)}, line {line}"
 
 
-def stopped_at(stop: MapperStopped) -> str:
-    """Where a mapper in this process was when a time limit stopped it, or ""."""
-    return users_line(_frames(stop)) if isinstance(stop, TimeLimitExceeded) else ""
+def stop_text(stop: MapperStopped, line: Callable[[], str] | None = None) -> str:
+    """Why a mapper was stopped, with the line at which it hung or misused the robot.
+
+    Args:
+        line: returns the line of a mapper in another process.
+    """
+    if not isinstance(stop, TimeLimitExceeded | Misuse):  # where it was then would be chance
+        return str(stop)
+    place = users_line(_frames(stop)) if line is None else line()
+    return f"{stop}{WAS_AT}{place}" if place else str(stop)
 
 
 def finish_of(result: object) -> Finish:

@@ -31,7 +31,7 @@ from topo_verify.programs.program import Program
 from topo_verify.programs.serve import WHERE
 from topo_verify.robot.events import Finish, Robot
 from topo_verify.robot.limits import Limits, MapperStopped, helped_by, within
-from topo_verify.robot.simulator import EXPECTED, SimulatedRobot
+from topo_verify.robot.simulator import SimulatedRobot
 
 T = TypeVar("T")
 
@@ -56,17 +56,6 @@ _from_stock: msgspec.json.Decoder[ms.FromStock] = msgspec.json.Decoder(ms.FromSt
 _OVER = msgspec.json.encode(ms.OverMessage()) + b"\n"
 
 _WORLD_ENDS = ms.DoneMessage | ms.UndeliveredMessage
-
-
-def _decoded(line: bytes) -> ms.FromChild:
-    """The child's message; what is no decision is refused in a Python robot's words."""
-    try:
-        return _from_child.decode(line)
-    except msgspec.ValidationError as error:
-        if "`$.event" not in str(error):
-            raise
-        words = str(error).replace("`$.event", "`$")
-    raise Misbehaved("bad-declaration", f"{EXPECTED}: {words}")
 
 
 _MEMORY_SIGNALS = ("SIGSEGV", "SIGBUS", "SIGABRT")
@@ -94,7 +83,7 @@ class Foreign(Program):
         served = "serve:fresh" if fresh else "serve:child"
         super().__init__(python_command(f"topo_verify.programs.{served}", text))
         self.text = text
-        self._decode = _decoded
+        self._decode = _from_child.decode
         self._was_loaded = False
         self._says_line = not fresh and not text.startswith(LIBRARY)
 

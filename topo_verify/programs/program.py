@@ -111,7 +111,6 @@ class Program:
             # A copy: the traceback of `why` refers to this frame, and a program in a circle of
             # references is not ended when its last user drops it.
             self.misbehaved = why.copy()
-            self._halted = why.kind == "bad-declaration"
             raise
         except BudgetExceeded:
             self._halted = True

@@ -23,13 +23,13 @@ import msgspec
 from topo_verify.errors import InputError
 from topo_verify.programs import isolation, loaded
 from topo_verify.programs import protocol as ms
-from topo_verify.programs.delivery import Undelivered, deliver, finish_of
+from topo_verify.programs.delivery import Undelivered, deliver, finish_of, stop_text
 from topo_verify.programs.library import LIBRARY, Skipped
 from topo_verify.programs.loader import Mapper, compiled_once, is_python, load
 from topo_verify.robot.events import Decision
 from topo_verify.robot.limits import MapperStopped
 from topo_verify.robot.percept import Door, Percept, Purpose
-from topo_verify.robot.simulator import EXPECTED, Misuse, door_number, require_purpose
+from topo_verify.robot.simulator import Misuse, door_number, plain_decision, require_purpose
 
 CATALOGUE = "topo_verify.algorithms:NAMED.{}"
 """The place of a name without a colon, as text, since programs/ imports no algorithms."""
@@ -98,12 +98,11 @@ class RemoteRobot:
         """Declare a decision; it is sent with the next move."""
         self._require_usable()
         try:
-            line = _encode({"type": "declare", "event": event})
-        except (msgspec.MsgspecError, TypeError, OverflowError) as error:
-            why = Misuse(f"{EXPECTED}: {error}")
+            message = ms.DeclareMessage(plain_decision(event))
+        except Misuse as why:
             self.misuse = ("bad-declaration", why)
-            raise why from None
-        self._writer.write(line + b"\n")
+            raise
+        self._writer.write(_encode(message) + b"\n")
 
     def _require_usable(self) -> None:
         if self.misuse is not None:
@@ -170,7 +169,7 @@ def _as_child(mapper: Mapper, robot: RemoteRobot) -> object:
         result = Undelivered(str(stop))
     if robot.misuse is not None:
         kind, misuse = robot.misuse
-        return ms.UndeliveredMessage(kind, _words(str(misuse)))
+        return ms.UndeliveredMessage(kind, _words(stop_text(misuse)))
     if isinstance(result, Undelivered):
         return ms.UndeliveredMessage("no-map", _words(result.why))
     return ms.DoneMessage(result.map, result.cost)

@@ -26,10 +26,6 @@ _plain = msgspec.msgpack.Encoder(enc_hook=index)
 _decision: msgspec.msgpack.Decoder[ev.Decision] = msgspec.msgpack.Decoder(ev.Decision)
 
 
-EXPECTED = "expected a decision (pose, reject, confirm, augment)"
-"""Start of the error message for a malformed declaration."""
-
-
 class Misuse(MapperStopped):
     """The mapper asked for a door that is not there, or declared a malformed event."""
 
@@ -91,7 +87,8 @@ def plain_decision(event: ev.Decision | Mapping[str, object]) -> ev.Decision:
         # a struct may have been built with anything inside
         return _decision.decode(_plain.encode(event))
     except (msgspec.MsgspecError, TypeError, OverflowError) as error:
-        raise Misuse(f"{EXPECTED}: {error}") from None
+        expected = "expected a decision (pose, reject, confirm, augment)"
+        raise Misuse(f"{expected}: {error}") from None
 
 
 class RobotHandle:

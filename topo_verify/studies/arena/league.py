@@ -28,9 +28,9 @@ import msgspec
 from topo_verify.algorithms import Algorithm, Steered
 from topo_verify.campaign.judge import replay_line
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import WAS_AT
 from topo_verify.campaign.tally import Counts
 from topo_verify.checkers import Judgement, Status
+from topo_verify.programs.delivery import WAS_AT
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.arena.suites import Suite, SuiteFamily
