@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import json
+import os
 import re
 import sys
 from contextlib import chdir, redirect_stdout
@@ -29,8 +30,14 @@ def shown(code: str, names: dict[str, Any]) -> str:
     printed = StringIO()
     with redirect_stdout(printed):
         exec(compile(tree, "<cell>", "exec"), names)  # noqa: S102  our own notebook
-        value = eval(ast.unparse(last), names) if last else None  # noqa: S307
+        value: Any = eval(ast.unparse(last), names) if last else None  # noqa: S307
     html = f"<pre>{escape(printed.getvalue())}</pre>" if printed.getvalue() else ""
+    if plt := names.get("plt"):
+        for number in plt.get_fignums():
+            plt.figure(number).savefig(picture := StringIO(), format="svg")
+            inside = picture.getvalue().partition("<svg")[2]
+            html += f"<svg style='max-width:100%;height:auto'{inside}"
+        plt.close("all")
     if hasattr(value, "_repr_html_"):
         return html + value._repr_html_()
     return html if value is None else f"{html}<pre>{escape(repr(value))}</pre>"
@@ -61,5 +68,6 @@ def _read(_app: Sphinx, _page: str, source: list[str]) -> None:
 
 def setup(app: Sphinx) -> dict[str, bool]:
     """Called by Sphinx."""
+    os.environ.setdefault("MPLBACKEND", "svg")  # a plot opens no window
     app.connect("source-read", _read)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

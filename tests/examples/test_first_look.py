@@ -42,7 +42,7 @@ def outputs(tmp_path_factory: pytest.TempPathFactory) -> Cells:
 def _shown(cells: list[Any]) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for output in cells:
-        assert output.output_type in {"execute_result", "stream"}, output
+        assert output.output_type in {"execute_result", "display_data", "stream"}, output
         if output.output_type == "stream":
             assert output.name == "stdout", output.text
             found["stdout"] = output.text
@@ -58,7 +58,7 @@ def words(page: str) -> str:
 def test_it_is_committed_without_outputs() -> None:
     cells = json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"]
     code = [cell for cell in cells if cell["cell_type"] == "code"]
-    assert len(code) == 9
+    assert len(code) == 11
     assert all((cell["outputs"], cell["execution_count"]) == ([], None) for cell in code)
 
 
@@ -91,3 +91,8 @@ def test_the_hunt_ends_in_the_world_of_docs_search(outputs: Cells) -> None:
     assert "undirected in m4/183, " in words(outputs["smallest"]["text/html"])
     assert "!! no-false-confirm: edge 6 leads to dart 2" in outputs["smallest"]["text/html"]
     assert "smallest counterexample: m4/183" in words(outputs["search"]["text/html"])
+
+
+def test_the_costs_are_a_plot_and_the_log_proves_a_ring(outputs: Cells) -> None:
+    assert "image/png" in outputs["costs"]
+    assert "PROVED: one world alone shows this log" in words(outputs["log"]["text/html"])
