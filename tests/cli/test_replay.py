@@ -173,8 +173,25 @@ def test_the_log_of_a_robot_is_watched_in_its_map(call: Call) -> None:
     Path("log.csv").write_text("door,degree,marker\n,2,0\n0,2,\n1,2,1\n")
     assert "--world" in call("replay log.csv").stderr
     call("certify log.csv -o map.json")
-    call("replay log.csv --world map.json --player drive.html")
-    assert "<title>" in Path("drive.html").read_text()
+    watched = call("replay log.csv --world map.json --player drive.html")
+    assert watched.exit_code == 0
+    assert watched.stdout.startswith(
+        "log.csv in map, 2 edge traversals: 3 of 10 claims hold, 7 not declared\n"
+        "The log proves its map.\n"
+    )
+    page = Path("drive.html").read_text()
+    assert "<title>log.csv in map" in page
+    assert "no map was delivered" not in page
+
+
+def test_a_log_need_not_prove_its_map_but_fit_the_world(call: Call, results: Results) -> None:
+    Path("log.csv").write_text("door,degree,marker\n,2,0\n0,2,\n")
+    families.cycle(2).save("ring.json")
+    assert "It does not prove its map yet" in call("replay log.csv --world ring.json").stdout
+    (entry,) = results("replay log.csv --world ring.json")["results"]
+    assert (entry["ok"], entry["findings"]) == (True, [])
+    (entry,) = results("replay log.csv --world m2/0", code=1)["results"]
+    assert {finding["claim"] for finding in entry["findings"]} == {"percepts-true"}
 
 
 def test_a_trace_keeps_why_the_run_ended_without_a_map(

@@ -20,15 +20,18 @@ from topo_verify.player.walk import Extent
 from topo_verify.programs.loader import Target
 from topo_verify.proofs.mechanised import judge
 from topo_verify.report.blocks import Block, Text
-from topo_verify.robot.events import Finish, Start, read_trace
+from topo_verify.robot.events import Finish, Move, Start, read_trace
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.log_file import read_log
+from topo_verify.studies.log_report import certify
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
 OF_A_MAPPER = ("--target", "--cmd", "--library", "--pick", "--order")
 """Options that have no meaning for a trace."""
 
+MAP = "map-isomorphic"
+"""The claim that a log need not meet."""
 
 KERNEL_TIMEOUT = 600
 """Time limit of each program of Coq and OCaml, in seconds."""
@@ -93,11 +96,11 @@ def replay(
 ) -> int:
     """Judge a trace again, or run a mapper again in one world, and show the walk.
 
-    A trace from explore --trace is judged in the world that it names, or in that of --world,
-    where the log of a robot may stand as well. In a WORLD the mapper of --target is run. The last
-    moves before the first finding are shown: where the robot really was, what the mapper decided
-    and why, and its map beside the world. With --kernel the judge that is proved in Coq judges
-    the run as well; exit code 3: Coq or OCaml is missing.
+    A trace from explore --trace is judged in the world that it names, or in that of --world; the
+    log of a robot in that of --world, where it need not deliver a map. In a WORLD the mapper of
+    --target is run. The last moves before the first finding are shown: where the robot really was,
+    what the mapper decided and why, and its map beside the world. With --kernel the judge that is
+    proved in Coq judges the run as well; exit code 3: Coq or OCaml is missing.
     """
     reports: list[Report] = []
 
@@ -127,13 +130,15 @@ def replay(
         events = len(report.run.trace) if report.run else 1
         if first is not None and first >= events:
             raise InputError(f"--from {first}: expected an event of the run, 0 to {events - 1}")
+        kernel = _judged_in_coq(output, report) if proved else None
+        if trace is not None and _is_log(report):
+            report = _of_a_log(report, "the log" if subject == "-" else Path(subject).name)
         if player is not None and report.run is not None:
             run = report.run
             played = PlayedRun(report.target, tuple(run.trace), report.judgements, run.stopped)
             runs.write_page(player, run.world, report.world, [played])
         reports.append(report)
         ok = not report.findings and not incomplete
-        kernel = _judged_in_coq(output, report) if proved else None
         incomplete = incomplete or (kernel is not None and bool(kernel.why))
         entry = entry_of(ReplayEntry, report, ok=ok, trace=trace, stopped=stopped, kernel=kernel)
         yield Result(entry, failed=bool(report.findings), incomplete=incomplete)
@@ -205,6 +210,23 @@ def _judged(
     return msgspec.structs.replace(report, world=at.name).of(report.run), stopped
 
 
+def _is_log(report: Report) -> bool:
+    start, *events = () if report.run is None else report.run.trace
+    own = isinstance(start, Start) and start.algorithm is None and not start.stopped
+    return own and all(isinstance(event, Move) for event in events)
+
+
+def _of_a_log(report: Report, name: str) -> Report:
+    """The report on the log of a robot, which is no mapper and need not deliver a map."""
+    findings = [finding for finding in report.findings if finding.claim != MAP]
+    run, report = report.run, report.with_findings(findings)
+    judged = {judgement.claim: judgement for judgement in report.judgements}
+    judged[MAP] = msgspec.structs.replace(judged[MAP], status="not-declared")
+    claims = {claim: judgement.status for claim, judgement in judged.items()}
+    changes = {"claims": claims, "judgements": tuple(judged.values())}
+    return msgspec.structs.replace(report, target=name, ok=not findings, **changes).of(run)
+
+
 def _own_world(name: str, start: Start, marker: int | None) -> runs.NamedWorld:
     """The world that a trace names by its id: a trace must not choose which file is read."""
     if start.world is None:
@@ -251,12 +273,17 @@ def _show(
         undecided = entry.stopped is not None and not entry.ok and not entry.findings
         reason = f"not decided, {entry.stopped}"
         yield Text(words + (reason if undecided else in_words(entry.claims, "claims hold")))
-        if not undecided:
+        is_log = entry.claims[MAP] == "not-declared"
+        if not undecided and not is_log:
             yield from runs.unjudged(entry.target, entry.world, entry.judgements)
         if entry.kernel is not None:
             by, why, number = entry.kernel.by, entry.kernel.why, len(entry.kernel.judgements)
             same = f"Judged again by {by}: the same of {number} of 10 claims."
             yield Text(f"Not judged by the judge that is proved in Coq: {why}" if why else same)
+        if is_log and report.run is not None and entry.ok:
+            proved = certify(report.run.trace).verdict == "PROVED"
+            unproved = "It does not prove its map yet: certify says where to go next."
+            yield Text("The log proves its map." if proved else unproved)
         if not entry.ok or asked.to_end:
             yield Text("")
             yield from runs.walk_view(report, asked)
