@@ -211,9 +211,11 @@ def _judged(
 
 
 def _is_log(report: Report) -> bool:
-    start, *events = () if report.run is None else report.run.trace
-    own = isinstance(start, Start) and start.algorithm is None and not start.stopped
-    return own and all(isinstance(event, Move) for event in events)
+    trace = () if report.run is None else report.run.trace
+    if not trace or not isinstance(start := trace[0], Start):
+        return False
+    no_mapper = start.algorithm is None and not start.stopped
+    return no_mapper and all(isinstance(event, Move) for event in trace[1:])
 
 
 def _of_a_log(report: Report, name: str) -> Report:
