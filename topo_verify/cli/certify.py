@@ -50,7 +50,8 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     Attributes:
         verdict: PROVED. UNKNOWN: several worlds show the log. REFUTED: no world shows it, or a
             map or decision in it does not follow.
-        vertices, edges: of the proved map, else of the smaller witness.
+        vertices, edges: of the proved map; UNKNOWN: of the smaller of the two witnesses, where each
+            open door leads to a vertex of degree 1; REFUTED: 0.
         genus: of the proved map; null unless it is proved.
         moves: of the log, in edge traversals.
         least_cost: of a proof of this map, in edge traversals; null unless it is proved.
@@ -286,8 +287,7 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
         if entry.genus:
             yield Text(
                 f"This map does not fit in the plane (genus {entry.genus}). Of one floor that means"
-                " that doors were counted in a wrong order somewhere, or corridors cross. In its"
-                " picture equal borders are one line."
+                " that doors were counted in a wrong order somewhere, or corridors cross."
             )
         if entry.advice is not None:
             yield from _show_open(entry, entry.advice)
