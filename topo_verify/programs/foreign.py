@@ -26,7 +26,7 @@ from topo_verify.programs.isolation import python_command
 from topo_verify.programs.library import LIBRARY, library_file
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
-from topo_verify.programs.misbehaviour import Misbehaved, crash_report, decoded
+from topo_verify.programs.misbehaviour import CRASHES, Misbehaved, crash_report, decoded
 from topo_verify.programs.program import Program
 from topo_verify.programs.serve import WHERE
 from topo_verify.robot.events import Finish, Robot
@@ -58,10 +58,6 @@ _OVER = msgspec.json.encode(ms.OverMessage()) + b"\n"
 _WORLD_ENDS = ms.DoneMessage | ms.UndeliveredMessage
 
 
-_MEMORY_SIGNALS = ("SIGSEGV", "SIGBUS", "SIGABRT")
-"""Signals that end a library which wrote out of place."""
-
-
 class Unlisted(InputError):
     """A mapper's process does not say what it has loaded, though it has played."""
 
@@ -78,6 +74,7 @@ class Foreign(Program):
     """
 
     longest: ClassVar[int] = LONGEST
+    advice: ClassVar[str] = ""
 
     def __init__(self, text: str, *, fresh: bool = False) -> None:
         served = "serve:fresh" if fresh else "serve:child"
@@ -133,7 +130,7 @@ class Foreign(Program):
             if isinstance(robot, SimulatedRobot):
                 moves = f"after {robot.cost} move{'s' * (robot.cost != 1)}"
                 words = words.replace(" before it", f" {moves}, before it", 1)
-            if why.signal in _MEMORY_SIGNALS and not path.endswith(".py"):
+            if why.signal in CRASHES and not path.endswith(".py"):
                 words += "; -fsanitize=address names the line: docs/tutorials/native.md"
             raise Misbehaved(why.kind, words, signal=why.signal) from None
 

@@ -47,6 +47,9 @@ MISBEHAVIOURS: tuple[Misbehaviour, ...] = get_args(Misbehaviour)
 SHOWN = 120
 """Characters of a bad line that a message shows."""
 
+CRASHES = ("SIGSEGV", "SIGBUS", "SIGABRT", "SIGFPE")
+"""Signals by which a fault in machine code ends its process."""
+
 LAST_LINES = 10
 """Last lines of standard error that a message shows."""
 
@@ -124,10 +127,14 @@ def shown_line(line: bytes) -> str:
     return shown(line[: 2 * SHOWN].decode(errors="backslashreplace"), limit=SHOWN)
 
 
-def crash_report(child: Child, due: str) -> Misbehaved:
-    """Why a program's output ended too early; `due` as in "delivered a map"."""
+def crash_report(child: Child, due: str, advice: str = "") -> Misbehaved:
+    """Why a program's output ended too early; `due` as in "delivered a map".
+
+    Args:
+        advice: the end of the message if the program crashed.
+    """
     status = child.exit_status()
-    complaint = last_words(child.stderr())
+    complaint = last_words(child.stderr()) + advice * (child.signal() in CRASHES)
     if child.in_half_a_line:
         end = status or "closed its output"
         message = f"the program {end} in the middle of a line{complaint}"

@@ -68,6 +68,9 @@ class Program:
     longest: ClassVar[int] = ms.LIMIT
     """The most bytes of a message from the program."""
 
+    advice: ClassVar[str] = "; gdb names the line: docs/tutorials/any-language.md"
+    """The end of the message of a crash."""
+
     def __init__(
         self, command: str | Sequence[str], *, validate: bool = False, record: bool = False
     ) -> None:
@@ -170,7 +173,7 @@ class Program:
         if (ended := child.ended_by_itself()) is None:
             self._idle = True
         elif ended:
-            raise crash_report(child, "read the next message")
+            raise crash_report(child, "read the next message", self.advice)
 
     def _send(self, child: Child, message: ms.ToChild) -> None:
         line = _encode(message)
@@ -189,7 +192,7 @@ class Program:
         except TooLong:
             raise Misbehaved("too-long", self._too_long(child)) from None
         except Ended:
-            raise crash_report(child, "delivered a map") from None
+            raise crash_report(child, "delivered a map", self.advice) from None
         if self.record:
             self.lines.append(("<", line))
         return line
