@@ -160,7 +160,7 @@ def arena(
         entries,
         show,
         account=account,
-        extent=lambda: acc.counted(len(league.rows), league.planned, "runs"),
+        extent=lambda _: acc.counted(len(league.rows), league.planned, "runs"),
         suite=words,
         seed=seed,
         in_process=in_process,

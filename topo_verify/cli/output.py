@@ -174,7 +174,7 @@ class Output:
         live: Live[E] | None = None,
         account: Callable[[Sequence[E]], acc.Account] | None = None,
         walk: bool = True,
-        extent: Callable[[], str] | None = None,
+        extent: Callable[[Sequence[E]], str] | None = None,
         **more: Any,
     ) -> int:
         """Run the command, print its results and return the exit code.
@@ -220,7 +220,7 @@ class Output:
             self._collect(done, results(), live)
             self._print(command, done, last(), perf_counter() - begin, more)
             if not done.finished:
-                words = plural(len(done.results), "result") if extent is None else extent()
+                words = extent(done.entries) if extent else plural(len(done.results), "result")
                 say(f"topo-verify: interrupted after {words}")
         except _ReaderGone:
             pass  # files are still written

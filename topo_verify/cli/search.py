@@ -126,7 +126,14 @@ def search(
     def show(entries: Sequence[study.SearchEntry]) -> Iterator[Block]:
         return chain.from_iterable(shown(entry, worst=worst) for entry in entries)
 
-    return output.run("search", searches, show, account=_account, in_process=mappers.in_process)
+    return output.run(
+        "search",
+        searches,
+        show,
+        account=_account,
+        extent=_extent,
+        in_process=mappers.in_process,
+    )
 
 
 def _cluster(dask: str | None, workers: int | None) -> AbstractContextManager[Cluster | None]:
@@ -229,6 +236,12 @@ def _opened(
 
 
 # ---------------------------------------------------------------- the account
+
+
+def _extent(entries: Sequence[study.SearchEntry]) -> str:
+    if len(entries) != 1:
+        return plural(len(entries), "result")
+    return acc.counted(entries[0].checked, entries[0].total, acc.worlds(entries[0].total))
 
 
 def _account(entries: Sequence[study.SearchEntry]) -> acc.Account:
