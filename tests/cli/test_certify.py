@@ -81,17 +81,25 @@ def test_a_csv_table_is_a_log(results: Results, table: str) -> None:
         ("door,degree,marker\n,2,0\n,2,\n", "row 3: expected a door, as in every row but"),
         (
             "door,degree,marker\n\n,2,0\n1,two,\n",
-            "row 4: expected a whole number from 0 on as degree, got 'two'",
+            "row 4: expected a whole number from 0 to 1000000 as degree, got 'two'",
         ),
         (
             "door,degree,marker\n,2,0\n1,2,-1\n",
-            "row 3: expected a whole number from 0 on as marker, got '-1'",
+            "row 3: expected a whole number from 0 to 1000000 as marker, got '-1'; leave it",
         ),
         (
             "door,degree,marker\n,2,0\n1,,\n",
-            "row 3: expected a whole number from 0 on as degree, got ''",
+            "row 3: expected a whole number from 0 to 1000000 as degree, got ''",
         ),
-        ("door,degree,marker\n,2,0\n1,9000000,\n", "row 3: Expected `int` <= 1000000"),
+        ("door,degree,marker\n,2,0\n1,9000000,\n", "from 0 to 1000000 as degree, got '9000000'"),
+        (
+            "door,degree,marker\n,2,0\n# lunch\n",
+            "row 3: expected 3 cells, as in the row of titles, got 1; a table has no comments",
+        ),
+        (
+            'door,degree,marker,note\n,2,0,"a\nb"\n',
+            "row 3: expected 4 cells, as in the row of titles, got 1; a cell may not go on",
+        ),
         (
             "door,degree,marker\n,1,0\n0,1",
             "row 3: expected 3 cells, as in the row",

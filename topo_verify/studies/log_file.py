@@ -20,11 +20,9 @@ from contextlib import contextmanager, nullcontext
 from itertools import chain, islice
 from os import PathLike, fspath
 
-import msgspec
-
 from topo_verify.errors import InputError, plural
 from topo_verify.robot.events import Event, Move, Start, Trace, read_events, write_trace
-from topo_verify.robot.percept import Percept
+from topo_verify.robot.percept import MOST_DOORS, Percept
 from topo_verify.world.formats import files
 
 COLUMNS = ("door", "degree", "marker")
@@ -125,9 +123,14 @@ def table_events(lines: Iterable[bytes], name: str) -> Iterator[tuple[int, Event
             _require_columns(titles, place)
             continue
         if len(cells) != len(titles):
+            mend = "is the file cut?"
+            if text.startswith("#"):
+                mend = "a table has no comments: delete the row"
+            elif text.count('"') % 2:
+                mend = "a cell may not go on in the next row: write it in one"
             raise InputError(
                 f"{place}: expected {plural(len(titles), 'cell')}, as in the row of titles, got"
-                f" {len(cells)}; is the file cut?"
+                f" {len(cells)}; {mend}"
             )
         yield number, _event(dict(zip(titles, cells, strict=True)), place, begun=begun)
         begun = True
@@ -154,13 +157,11 @@ def _event(cells: dict[str, str], place: str, *, begun: bool) -> Event:
         raise InputError(f"{place}: expected {expected}, got {door!r}")
     for column, text in (("door", door), ("degree", degree), ("marker", marker)):
         is_number = text.isascii() and text.isdigit() and len(text) < 10
-        if not is_number and (text or column == "degree"):
+        if (text or column == "degree") and not (is_number and int(text) <= MOST_DOORS):
+            mend = "; leave it empty where no marker is seen" if column == "marker" else ""
             raise InputError(
-                f"{place}: expected a whole number from 0 on as {column}, got {text!r}"
+                f"{place}: expected a whole number from 0 to {MOST_DOORS} as {column},"
+                f" got {text!r}{mend}"
             )
-    data = {"degree": int(degree), "marker": int(marker) if marker else None}
-    try:
-        percept = msgspec.convert(data, Percept)
-    except msgspec.ValidationError as error:
-        raise InputError(f"{place}: {error}") from error
+    percept = Percept(int(degree), int(marker) if marker else None)
     return Move(int(door), percept) if begun else Start(percept=percept)
