@@ -138,7 +138,7 @@ def test_results_are_equal_byte_for_byte_to_those_of_workers_here(
 ) -> None:
     def found(**where: Any) -> SearchEntry:
         kinds = WorldClass.parse(kind)
-        return search(target, edges=3, world_class=kinds, keep_going=keep_going, **where)
+        return search(target, edges=3, cls=kinds, keep_going=keep_going, **where)
 
     assert json(found(dask=address)) == json(found(workers=2))
 
@@ -158,10 +158,10 @@ def test_a_program_runs_on_the_cluster(address: str, folder: Path) -> None:
 
 def test_a_lost_worker_changes_nothing(address: str, folder: Path) -> None:
     target = "cluster_mappers.py:kills_its_dask_worker_once"
-    found = search(target, edges=4, world_class=SIMPLE, dask=address)
+    found = search(target, edges=4, cls=SIMPLE, dask=address)
     assert (folder / "killed").exists()
     assert (found.verdict, found.checked, found.lost) == ("EXHAUSTED", 32, ())
-    assert json(found) == json(search(target, edges=4, world_class=SIMPLE))
+    assert json(found) == json(search(target, edges=4, cls=SIMPLE))
 
 
 def test_a_world_that_takes_every_worker_with_it_is_undecided_and_convicts_nobody() -> None:
@@ -179,7 +179,7 @@ def test_a_mapper_that_lacks_memory_on_a_worker_alone_is_undecided() -> None:
     target = "cluster_mappers.py:takes_two_gib"
     two_gib = str(2**21)
     with started(0) as address, worker(address, memory=two_gib):
-        found = search(target, edges=3, world_class=SIMPLE, dask=address)
+        found = search(target, edges=3, cls=SIMPLE, dask=address)
     assert (found.verdict, found.checked, found.total) == ("UNKNOWN", 8, 9)
     assert found.counterexample is None
     (lost,) = found.lost
@@ -228,9 +228,7 @@ def test_a_lost_scheduler_ends_the_search_with_a_sentence(folder: Path) -> None:
         (folder / "scheduler").write_text(str(scheduler.pid))
         address = msgspec.json.decode((folder / "where").read_bytes())["address"]
         with worker(address), pytest.raises(InputError, match="the scheduler was lost in the cou"):
-            search(
-                "cluster_mappers.py:kills_the_scheduler", edges=3, world_class=SIMPLE, dask=address
-            )
+            search("cluster_mappers.py:kills_the_scheduler", edges=3, cls=SIMPLE, dask=address)
 
 
 def test_a_cluster_whose_workers_are_all_lost_ends_the_search_with_a_sentence(

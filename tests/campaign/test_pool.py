@@ -61,7 +61,7 @@ def test_results_are_equal_byte_for_byte_however_many_work(
             search(
                 target,
                 edges=4 if keep_going else 3,
-                world_class=WorldClass.parse(kind),
+                cls=WorldClass.parse(kind),
                 keep_going=keep_going,
                 workers=number,
             )
@@ -120,7 +120,7 @@ def test_a_world_whose_worker_was_killed_is_not_run_again(monkeypatch: pytest.Mo
     monkeypatch.setattr(again, "MOST", 20)
     monkeypatch.setattr(again, "ROW", 20)
     loopless = WorldClass.parse("loopless")
-    found = search("mappers.py:kills_itself", edges=3, world_class=loopless, workers=1)
+    found = search("mappers.py:kills_itself", edges=3, cls=loopless, workers=1)
     lost = len(found.lost)
     assert (found.verdict, found.total - found.checked) == ("UNKNOWN", lost)
     assert lost > 0

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import cast
+
 import pytest
 
 from topo_verify.campaign import progress as module
 from topo_verify.campaign.progress import Progress, ProgressRate, duration
+from topo_verify.errors import InputError
 
 Report = tuple[str, int, int]
 
@@ -39,6 +42,23 @@ def test_rate_and_time_left_are_those_of_what_was_done_now(clock: list[float]) -
         ("basic, 500 worlds/s, 10 s left", 5_000, 10_000),
         ("basic, 500 worlds/s, 8 s left", 6_000, 10_000),
     ]
+
+
+def test_progress_goes_back_for_no_shard_that_is_still_open(clock: list[float]) -> None:
+    reports: list[Report] = []
+    progress = ProgressRate("basic", 1_000, listener(reports))
+    clock[0] += 1
+    progress.in_flight(700)
+    clock[0] += 1
+    progress.finished(400)  # what other shards have done is told a moment later
+    assert [done for _, done, _ in reports] == [700, 700]
+    progress.finished(600)
+    assert reports[-1] == ("basic, 500 worlds/s, 0 s left", 1_000, 1_000)
+
+
+def test_what_is_no_function_is_refused() -> None:
+    with pytest.raises(InputError, match=r"^tell: expected a function .*print, got True$"):
+        ProgressRate("basic", 10, cast("Progress", True))
 
 
 def test_nobody_is_told_ten_times_in_a_moment(clock: list[float]) -> None:

@@ -6,6 +6,8 @@ from collections.abc import Callable
 from math import inf
 from time import monotonic
 
+from topo_verify.errors import InputError
+
 Progress = Callable[[str, int, int], None]
 """A progress callback: (what is done, how fast and how long; amount done; total)."""
 
@@ -26,10 +28,16 @@ class ProgressRate:
     """
 
     def __init__(self, work: str, total: int, report: Progress | None) -> None:
+        if report is not None and not callable(report):
+            raise InputError(
+                "tell: expected a function of words, the amount done and the total, such as print,"
+                f" got {report!r}"
+            )
         self._work, self._total, self._report = work, total, report
         self._begin = monotonic()
         self._reported = -inf
         self._known = 0  # worlds that a ledger knew: they took no time, so the rate leaves them out
+        self._most = 0  # an open shard that ends early, or is begun again, takes back no progress
         self.done = 0
 
     def known(self, worlds: int) -> None:
@@ -44,8 +52,9 @@ class ProgressRate:
 
     def in_flight(self, worlds: int) -> None:
         """Report the end, and else if it is not too soon; `worlds` of open shards are finished."""
-        now, fresh = monotonic(), self.done + worlds
-        done = min(self._known + fresh, self._total)
+        now = monotonic()
+        done = self._most = max(self._most, min(self._known + self.done + worlds, self._total))
+        fresh = done - self._known
         soon = done < self._total and now < self._reported + INTERVAL
         if self._report is None or soon:
             return

@@ -19,7 +19,7 @@ def test_the_smallest_worlds_that_need_the_marker_are_as_large_as_said(
     monkeypatch.chdir(ROOT)
     for name, edges in (("undirected", undirected), ("unmarked", unmarked)):
         target = f"examples/undirected.py:{name}"
-        found = search(target, edges=4, world_class=WorldClass.parse(kind))
+        found = search(target, edges=4, cls=WorldClass.parse(kind))
         assert found.counterexample is not None
         assert (found.counterexample.edges, found.counterexample.claim) == (
             edges,

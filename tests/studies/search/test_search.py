@@ -45,15 +45,15 @@ def of_class(text: str) -> WorldClass:
     ],
 )
 def test_a_class_is_exhausted_when_its_number_is_met(text: str, numbers: list[int]) -> None:
-    found = search(basic, edges=4, world_class=of_class(text))
+    found = search(basic, edges=4, cls=of_class(text))
     assert found.verdict == "EXHAUSTED"
     assert [size.checked for size in found.by_edges] == numbers
 
 
 def test_the_planar_prior_is_right_in_planar_worlds_and_wrong_in_all_others() -> None:
-    planar = search("folding+planar", edges=4, world_class=of_class("planar"))
+    planar = search("folding+planar", edges=4, cls=of_class("planar"))
     assert planar.verdict == "EXHAUSTED"
-    torus = search("folding+planar", edges=4, world_class=of_class("genus:1"), keep_going=True)
+    torus = search("folding+planar", edges=4, cls=of_class("genus:1"), keep_going=True)
     assert [(size.failing, size.total) for size in torus.by_edges] == [
         (0, 0), (1, 1), (20, 20), (307, 307),
     ]  # fmt: skip
@@ -101,7 +101,7 @@ def test_what_lies_behind_the_counterexample_is_not_counted() -> None:
 )
 def test_a_search_that_cannot_end_is_refused(edges: int, kind: str, words: str) -> None:
     with pytest.raises(InputError, match=words):
-        search(basic, edges=edges, world_class=kind)
+        search(basic, edges=edges, cls=kind)
 
 
 def test_keeping_going_tells_of_each_claim_how_often_it_fails_and_where_first() -> None:
@@ -224,9 +224,9 @@ def test_the_size_of_the_shards_makes_no_difference(
     size: int, text: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for mapper, keep_going in ((mappers.forgets, True), (mappers.forgets, False), (basic, False)):
-        usual = search(mapper, edges=3, world_class=of_class(text), keep_going=keep_going)
+        usual = search(mapper, edges=3, cls=of_class(text), keep_going=keep_going)
         monkeypatch.setitem(choices.SHARD, "reference", size)
-        cut = search(mapper, edges=3, world_class=of_class(text), keep_going=keep_going)
+        cut = search(mapper, edges=3, cls=of_class(text), keep_going=keep_going)
         monkeypatch.undo()
         assert cut == usual
 
@@ -255,10 +255,10 @@ def test_tallies_add_up_in_any_grouping() -> None:
         ({"edges": 0}, "worlds of 1 edge and more"),
         ({"edges": 2, "policies": "some"}, "no policies 'some'"),
         (
-            {"edges": 9, "world_class": of_class("simple,genus:1")},
+            {"edges": 9, "cls": of_class("simple,genus:1")},
             "no formula counts a genus and a property",
         ),
-        ({"edges": 17, "world_class": of_class("simple")}, "expected at most 16 edges, got 17"),
+        ({"edges": 17, "cls": of_class("simple")}, "expected at most 16 edges, got 17"),
         ({"edges": 2, "policies": "all"}, "has no policies"),
         ({"edges": 2, "workers": 2}, "cannot be handed to workers"),
     ],

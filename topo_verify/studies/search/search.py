@@ -240,7 +240,7 @@ def search(  # noqa: PLR0913  an argument an option
     target: Mapper | str | Target,
     *,
     edges: int = 5,
-    world_class: WorldClass | str | None = None,
+    cls: WorldClass | str = "any",
     keep_going: bool = False,
     policies: Choices = "reference",
     limits: Limits | None = None,
@@ -253,13 +253,14 @@ def search(  # noqa: PLR0913  an argument an option
 
     Args:
         target: a callable or a TARGET, which may name several mappers.
-        world_class: a class, or its text as in `worlds(cls=...)`; default: every world.
+        cls: a class, or its text, as in `worlds(cls=...)`.
         keep_going: do not stop at the first counterexample.
         policies: which choices a catalogue algorithm is tried with; `choices.py`.
         workers: number of worker processes; 0: this one.
         dask: the address of a Dask scheduler, or `local`.
         tell: a progress callback, called with words (what is done, how fast), the amount done and
-            the total; default: silent. (To resume a search, use the command line with `--ledger`.)
+            the total, such as `print`; default: silent. (To resume a search, use the command line
+            with `--ledger`.)
     Raises:
         InputError: no such mapper; no formula counts the class; and the like.
         SearchInterrupted: Ctrl-C; its `entry` is the result so far. After it, in a notebook:
@@ -273,7 +274,7 @@ def search(  # noqa: PLR0913  an argument an option
     campaign = search_campaign(
         mappers,
         edges=edges,
-        kind=str(world_class or WorldClass()),
+        kind=str(cls),
         choices=policies,
         keep_going=keep_going,
         limits=limits,

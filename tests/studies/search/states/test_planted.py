@@ -48,7 +48,7 @@ def plant(monkeypatch: pytest.MonkeyPatch) -> Plant:
 
 def smallest(name: str, policies: Choices, edges: int, kind: str = "any") -> str:
     """The smallest counterexample; empty if every world was checked and no claim failed."""
-    found = search(name, edges=edges, world_class=WorldClass.parse(kind), policies=policies)
+    found = search(name, edges=edges, cls=WorldClass.parse(kind), policies=policies)
     assert found.verdict == ("EXHAUSTED" if found.counterexample is None else "REFUTED")
     return "" if found.counterexample is None else found.counterexample.world
 
