@@ -35,8 +35,12 @@ class Machine:
         monkeypatch.setattr(stopwatch, "monotonic", lambda: self.now)
         monkeypatch.setattr(stopwatch, "_read", self.read)
 
+    state = "S"
+
     def read(self, path: str) -> str:
         """The account of a task in /proc: nanoseconds on a processor and waiting, turns."""
+        if path.endswith("/stat"):
+            return f"7 (its (name)) {self.state} 1 7"
         task = path.removeprefix("/proc/").removesuffix("/schedstat")  # or …/children: none
         wait = self.own if task.startswith("self") else self.waits.get(task)
         return "" if wait is None else f"{round(self.ran * 1e9)} {round(wait * 1e9)} 5\n"
@@ -61,6 +65,22 @@ def test_a_wait_that_is_booked_late_is_made_good(machine: Machine) -> None:
     machine.now = 104
     assert watch.seconds() == pytest.approx(4)
     machine.now, machine.own = 105, 4
+    assert watch.seconds() == pytest.approx(1)
+
+
+def test_a_wait_of_a_helper_counts_before_the_kernel_books_it(machine: Machine) -> None:
+    machine.waits, machine.state = {"a": 3}, "R"
+    watch = Stopwatch(lambda: machine.waits)
+    for machine.now in (101, 102, 103):
+        assert watch.seconds() == pytest.approx(0)
+    machine.now, machine.ran, machine.waits = 104, 78, {"a": 3 + 3}
+    assert watch.seconds() == pytest.approx(1)
+
+
+def test_a_helper_that_sleeps_waits_for_no_processor(machine: Machine) -> None:
+    machine.waits = {"a": 3}
+    watch = Stopwatch(lambda: machine.waits)
+    machine.now = 101
     assert watch.seconds() == pytest.approx(1)
 
 
@@ -224,6 +244,26 @@ def test_beside_a_busy_process_it_shows_the_processor_time() -> None:
         busy.kill()
         busy.wait()
     assert 0.4 < used < 0.5 + (passed - 0.5) / 2
+
+
+@pytest.mark.skipif(not ACCOUNTS, reason="the kernel keeps no account of waits here")
+def test_a_program_that_waits_long_for_a_processor_uses_nothing() -> None:
+    loop = [sys.executable, "-c", "while True: pass"]
+    with subprocess.Popen(loop) as busy, subprocess.Popen(loop) as starved:
+        try:
+            shared = {max(os.sched_getaffinity(0))}
+            for process in (busy, starved):
+                os.sched_setaffinity(process.pid, shared)
+            os.sched_setscheduler(starved.pid, os.SCHED_IDLE, os.sched_param(0))
+            watch, began = Stopwatch(lambda: tasks_of(starved.pid)), time.monotonic()
+            most = 0.0
+            while (passed := time.monotonic() - began) < 1:
+                time.sleep(0.05)
+                most = max(most, watch.seconds())
+        finally:
+            busy.kill()
+            starved.kill()
+    assert most < passed / 2
 
 
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="no /proc here")

@@ -59,7 +59,7 @@ class Stopwatch:
         # they take turns, so waits add up
         in_vain = 0.0
         if (helper := self._helper) is not None:
-            helper_ran, helper_waited = helper.since()
+            helper_ran, helper_waited = helper.since(now - self._looked)
             in_vain = helper.in_vain(waited)
             ran, waited = max(ran, helper_ran), waited + helper_waited
         passed = now - self._looked
@@ -117,10 +117,13 @@ class _Helper:
         self._excused = 0.0 if answered else waited
         return in_vain
 
-    def since(self) -> _Account:
+    def since(self, passed: float) -> _Account:
         """The longest run and the longest wait since the last look: tasks work side by side."""
         before = self._accounts
-        self._accounts = {task: _account(task) for task in self._tasks()}
+        self._accounts = {
+            task: _with_open_wait(task, _account(task), before.get(task), passed)
+            for task in self._tasks()
+        }
         # a new task's running time before the last look is unknown
         booked = [
             now.since(before.get(task, _Account(now.ran, 0.0)))
@@ -142,6 +145,21 @@ def tasks_of(process: int) -> Iterator[str]:
 def _account(task: str) -> _Account:
     fields = _read(f"/proc/{task}/schedstat").split()
     return _Account(int(fields[0]) / 1e9, int(fields[1]) / 1e9) if fields else NOTHING
+
+
+def _with_open_wait(task: str, now: _Account, before: _Account | None, passed: float) -> _Account:
+    """The account with a wait that goes on: the kernel books a wait when it ends.
+
+    A limit would have been passed by then. Once it is booked, the difference is small or negative.
+    """
+    if before is None or now.ran != before.ran or not _is_ready(task):
+        return now
+    return _Account(now.ran, before.waited + passed)
+
+
+def _is_ready(task: str) -> bool:
+    """Whether the task runs or waits for a processor."""
+    return _read(f"/proc/{task}/stat").rpartition(")")[2].startswith(" R")
 
 
 def _entries(folder: str) -> list[str]:
