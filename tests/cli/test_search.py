@@ -53,7 +53,7 @@ def test_a_library_that_does_not_do_the_same_again_is_led_to_the_sanitizer() -> 
     assert "the library does not do the same in these worlds" in shown
     assert "-fsanitize=address and put LD_PRELOAD=" in shown
     assert "and 2 more: --format json has them" in shown
-    assert "which another program may have killed" in str(change(target="basic"))
+    assert "another program may be the cause" in str(change(target="basic"))
 
 
 def test_the_table_says_how_many_worlds_were_checked(call: Call) -> None:

@@ -1,8 +1,9 @@
 """An attempt: runs a mapper in a world, judges every claim, and makes the row.
 
-A process may be killed through the mapper's fault or by the out-of-memory killer (SIGKILL), so
-the world is tried again. If the mapper fails again, the first run counts. If it passes, a crash
-is still a finding, and SIGKILL leaves the world undecided.
+A process may be killed through the mapper's fault or by the out-of-memory killer (SIGKILL), and a
+mapper may stand still, or its machine, so the world is tried again. If the mapper fails again, the
+first run counts. If it passes, a crash is still a finding; SIGKILL, and a move that took too long,
+leave the world undecided.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from topo_verify.errors import InputError
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import Program, TranscriptLine
 from topo_verify.robot import events as ev
-from topo_verify.robot.limits import Limits
+from topo_verify.robot.limits import Limits, MoveTimeout
 from topo_verify.robot.stopwatch import tasks_of
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
@@ -42,7 +43,7 @@ class Attempt:
     Attributes:
         seconds: processor time of mapper and robot.
         lines: the transcript of a program that records one.
-        lost: the signal that ended an earlier try, perhaps not by the mapper's fault.
+        lost: how an earlier try ended, perhaps not by the mapper's fault.
         choices: as in a `Row`.
     """
 
@@ -56,7 +57,7 @@ class Attempt:
     @property
     def lost_why(self) -> str | None:
         """Why an earlier try leaves the world undecided, if it does."""
-        return self.lost and f"its process was ended by {self.lost}, {OUTSIDE}"
+        return self.lost and f"{self.lost}, {OUTSIDE}"
 
 
 Look = Callable[[Attempt], Any]
@@ -75,7 +76,7 @@ def attempt(  # noqa: PLR0913  an argument an option
     beat: Callable[[], None] = lambda: None,
     before_judging: Callable[[Exploration], Exploration] = lambda run: run,
 ) -> Attempt:
-    """Run a mapper in a world, again if its process was killed, and judge the run.
+    """Run a mapper in a world, again if it was killed or stood still, and judge the run.
 
     Args:
         where: the world's name on the command line.
@@ -103,13 +104,16 @@ def attempt(  # noqa: PLR0913  an argument an option
     program = target.mapper if isinstance(target.mapper, Program) else None
     first = once()
     signal = first.run.misbehaved and first.run.misbehaved.signal
-    if signal is None:
+    stood_still = first.run.limit == MoveTimeout.limit
+    if signal is None and not stood_still:
         return first
     second = once()
     if not second.report.ok:
         return first
+    if stood_still:
+        return replace(second, lost=first.run.stopped)
     if signal == "SIGKILL":
-        return replace(second, lost=signal)
+        return replace(second, lost=f"its process was ended by {signal}")
     run = replace(first.run, stopped=f"{first.run.stopped}{SECOND_TRY}")
     return replace(first, run=run, report=judge(run, where=where, options=limits.options))
 

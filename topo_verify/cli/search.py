@@ -288,8 +288,8 @@ SHOWN = 3
 
 
 LOST_WORKER = (
-    "A worker was lost, which another program may have killed, or lacked memory; tried again,"
-    " nothing failed:"
+    "A worker was lost, or the mapper stood still: another program may be the cause, or a busy"
+    " machine. Tried again, nothing failed:"
 )
 
 NOT_THE_SAME = (

@@ -144,13 +144,23 @@ def test_a_program_that_is_killed_once_is_tried_again(
     found = search(served(f"{folder / 'mappers.py'}:{deed}"), edges=3)
     assert found.verdict == verdict
     if verdict == "UNKNOWN":
-        assert [(one.world, one.how) for one in found.lost] == [("m3/21", "SIGKILL")]
+        (lost,) = found.lost
+        assert (lost.world, lost.how) == ("m3/21", "its process was ended by SIGKILL")
         assert found.checked == 85
     else:
         assert found.counterexample is not None
         assert found.counterexample.world == "m3/21"
         assert "SIGSEGV before it delivered a map" in found.counterexample.message
         assert "; at the second try it delivered one" in found.counterexample.message
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_mapper_that_stands_still_once_leaves_its_world_undecided() -> None:
+    found = search(mappers.stalls_once, edges=3, limits=Limits(move_timeout=0.5))
+    assert (found.verdict, found.checked, found.total) == ("UNKNOWN", 85, 86)
+    (lost,) = found.lost
+    assert lost.world == "m3/21"
+    assert lost.how.startswith("the mapper did not move for 0.5 s; it was at ")
 
 
 def test_an_interrupted_search_says_how_far_it_came_and_keeps_the_result() -> None:

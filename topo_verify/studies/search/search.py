@@ -60,7 +60,7 @@ class FailingClaim(msgspec.Struct, frozen=True):
 
 
 class LostWorker(msgspec.Struct, frozen=True):
-    """A world in which a worker was lost, and how; a second try went well."""
+    """A world in which a worker was lost or stood still, and how; a second try went well."""
 
     world: str
     how: str
