@@ -48,7 +48,7 @@ def test_who_walks_as_a_sound_mapper_does_has_proved_the_map(show: Open, text: s
     follow(page, explore(WORLD, "enhancement-ii").trace)
     assert said(page) == "Nothing on your map is unexplored"
     page.keyboard.press("Enter")
-    assert said(page) == "All of it followed: your walk proves this map"
+    assert said(page) == "Your walk proves this map"
     told = page.inner_text("#walk .says")
     assert "You made 16 moves. With the map in hand, a proof of this world takes 12" in told
     assert "enhancement-ii takes 16. The history proves the world." in told
@@ -159,9 +159,9 @@ def test_it_may_be_said_at_once_and_taken_back(show: Open, text: str) -> None:
     main = page.locator("#walk .says.bad button.main")
     assert main.inner_text().startswith("Take back the last decision")
     keys(page, "u n")
-    assert "Your last decision is true, but did not follow" in page.inner_text("#walk .says")
+    assert "Your last decision is true, but not proved" in page.inner_text("#walk .says")
     keys(page, "u 1 0 n")
-    assert "Your last decision followed." in page.inner_text("#walk .says")
+    assert "Your last decision is proved." in page.inner_text("#walk .says")
     assert page.inner_text("#walk .says .end") == "6 moves"
 
 
@@ -268,7 +268,7 @@ def test_worlds_of_the_gallery_and_worlds_drawn_by_lot_can_be_walked(show: Open,
 def test_a_world_without_a_road_is_proved_by_looking(show: Open) -> None:
     page = show(page_of(World((), (), None), "basic"), at="#walk")
     keys(page, "Enter")
-    assert said(page) == "All of it followed: your walk proves this map"
+    assert said(page) == "Your walk proves this map"
 
 
 @pytest.mark.parametrize(("width", "height"), [(360, 780), (1600, 900)])

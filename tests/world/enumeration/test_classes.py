@@ -259,7 +259,9 @@ def test_planar_worlds_are_drawn_among_planar_ones() -> None:
 def test_drawing_gives_up_with_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(classes, "MAX_DRAWN_EDGES", 50 * 25)
     with pytest.raises(
-        InputError, match=r"class simple: too few .* \(none of 50 that were .* a wider class$"
+        InputError,
+        match=r"class simple: too few .* \(none of 50 that were .* a wider class,"
+        r" or, if it has few, choose from tv\.worlds\(\d+, cls='simple'\)$",
     ):
         WorldClass.parse("simple").sample(25, Random(0))
 

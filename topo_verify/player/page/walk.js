@@ -245,7 +245,7 @@ class WalkMode {
       const later = walk.events.slice(last.when + 1).some(({ type }) => type === 'augment');
       return [`${later ? 'An earlier' : 'Your last'} decision is wrong`, 'It is red on your map. Take it back, or walk on until your map contradicts what you see.'];
     }
-    const fate = !last ? '' : last.fate === 'followed' ? 'Your last decision followed. ' : `Your last decision is true, but did not follow: ${WHY[last.event.kind]}. `;
+    const fate = !last ? '' : last.fate === 'followed' ? 'Your last decision is proved. ' : `Your last decision is true, but not proved: ${WHY[last.event.kind]}. `;
     if (walk.complete) return ['Nothing on your map is unexplored', `${fate}Is every decision certain? Walk on, or have it judged.`];
     const doors = `Choose a door, by click or by its number. Door 0 ${walk.moves ? 'leads back' : 'is the one at which the marker points'}; the others count clockwise.`;
     if (!walk.moves) return ['Find out where every exit leads', `Places look alike, but for the one with the marker, the red arrow. ${doors}`];
@@ -287,7 +287,7 @@ class WalkMode {
     for (const one of found) html('li', one.fate, list, this.fate(one));
     if (wrong && walk.events.slice(wrong.when + 1).some(({ type }) => type === 'augment')) html('p', '', says, 'What came later is not judged: it stands on a wrong map.');
     const key = html('p', 'kinds', says);
-    for (const [kind, text] of [['followed', 'followed'], ['luck', 'true by luck'], ['wrong', 'wrong']]) {
+    for (const [kind, text] of [['followed', 'proved'], ['luck', 'true by luck'], ['wrong', 'wrong']]) {
       const part = html('span', '', key);
       html('i', `swatch ${kind}`, part);
       part.append(text);
@@ -306,7 +306,7 @@ class WalkMode {
   headline(wrong, luck, good) {
     const { walk, ended } = this, roads = walk.world.edges.length;
     if (wrong) return 'A decision is wrong';
-    if (good) return 'All of it followed: your walk proves this map';
+    if (good) return 'Your walk proves this map';
     const part = walk.complete ? 'The map is right' : `So far it is right, with ${ended.found.length} of ${many(roads, 'road')} on it`;
     if (luck.length) return `${part}, but ${luck.length} of ${ended.found.length} decisions ${luck.length === 1 ? 'was' : 'were'} luck`;
     return walk.complete ? `${part}, but the walk does not prove it` : part;
@@ -327,7 +327,7 @@ class WalkMode {
 
   fate({ event, fate, truth, given }) {
     const said = event.kind === 'new' ? 'A new place' : 'A road between places known';
-    if (fate === 'followed') return `${said}: it followed${given ? ', if what was luck is taken for true' : ''}.`;
+    if (fate === 'followed') return `${said}: proved${given ? ', if what was luck is taken for true' : ''}.`;
     if (fate === 'luck') return `${said}: luck, for ${WHY[event.kind]}.`;
     return `${said}: wrong, ${truth === null ? 'the place behind it was new' : `${event.kind === 'new' ? 'you had been there: ' : ''}the road ends at the exit with the green ring`}.`;
   }

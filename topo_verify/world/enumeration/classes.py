@@ -220,8 +220,8 @@ class WorldClass:
         family = ", or draw from the family random_genus, whose worlds are not equally likely"
         return (
             f"class {self}: too few of the worlds with {edges} edges are in it to draw one"
-            f" ({evidence}): ask for fewer edges or a wider class"
-            f"{family if self._has_formula else ''}"
+            f" ({evidence}): ask for fewer edges or a wider class, or, if it has few, choose"
+            f" from tv.worlds({edges}, cls={str(self)!r}){family if self._has_formula else ''}"
         )
 
 
