@@ -37,7 +37,7 @@ TITLES: dict[ChangeKind, str] = {
     "wrong": "a claim fails",
     "dearer": "costs more",
     "cheaper": "cheaper",
-    "other_decisions": "other decisions at the same cost",
+    "other_decisions": "other moves or decisions, same cost",
     "newly_right": "right now, and not in the baseline",
     "undecided": "not decided",
     "equal": "equal",

@@ -138,7 +138,7 @@ class Comparison(msgspec.Struct, frozen=True, kw_only=True):
         examples: of each kind but `equal`, largest changes of cost first, else smallest worlds.
         wrong: where a claim fails.
         dearer, cheaper: where the cost has changed.
-        other_decisions: where the cost is equal and a decision is not.
+        other_decisions: where the cost is equal and a move or a decision is not.
         equal: where nothing has changed.
         newly_right: where a claim failed in the baseline.
         undecided: where the run was not decided.
