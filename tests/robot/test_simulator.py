@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from topo_verify.robot import events as ev
 from topo_verify.robot import simulator
 from topo_verify.robot.limits import BudgetExceeded, MapperStopped, WorldTimeout
 from topo_verify.robot.percept import Percept
-from topo_verify.robot.simulator import Misuse, SimulatedRobot
+from topo_verify.robot.simulator import Misuse, SimulatedRobot, plain_decision
 
 
 @pytest.fixture
@@ -203,10 +204,19 @@ def test_the_darts_of_a_decision_may_be_of_any_integer_type(robot: SimulatedRobo
     ],
 )
 def test_what_is_no_decision_stops_the_robot(robot: SimulatedRobot, nonsense: Any) -> None:
-    with pytest.raises(Misuse, match=r"expected a decision \(pose, reject, confirm, augment\): "):
+    with pytest.raises(Misuse, match=r"expected a decision \(pose, reject, confirm, augment\)"):
         robot.declare(nonsense)
     assert robot.events == []
     assert robot.stopped is not None
+
+
+@pytest.mark.parametrize("evidence", [{}, {"evidence": {}}])
+def test_a_reject_without_evidence_is_shown_one(robot: SimulatedRobot, evidence: Any) -> None:
+    bare = {"type": "reject", "edge": 0, "hypothesis": 1, "rule": "motion"}
+    with pytest.raises(Misuse, match="got reject: Object missing required field") as misuse:
+        robot.declare({**bare, **evidence})
+    example = json.loads("{" + str(misuse.value).partition("; as in ")[2] + "}")
+    assert plain_decision({**bare, **example})
 
 
 def test_a_robot_shows_what_it_senses() -> None:

@@ -81,14 +81,23 @@ def require_purpose(purpose: Purpose | None) -> None:
         raise Misuse(f"expected a purpose of {', '.join(PURPOSES)}, got {purpose!r}")
 
 
+EVIDENCE = """\
+"evidence": {"step": 1, "expected": {"degree": 1, "marker": 0}, \
+"observed": {"degree": 4, "marker": 2}}"""
+"""An example of the field that mappers forget."""
+
+
 def plain_decision(event: ev.Decision | Mapping[str, object]) -> ev.Decision:
     """The decision that a mapper declares, as a struct or as its JSON; Misuse if it is none."""
     try:
         # a struct may have been built with anything inside
         return _decision.decode(_plain.encode(event))
     except (msgspec.MsgspecError, TypeError, OverflowError) as error:
+        kind = event.get("type") if isinstance(event, Mapping) else type(event).__name__
+        got = f", got {kind:.40}" if isinstance(kind, str) else ""
+        example = f"; as in {EVIDENCE}" if "evidence" in str(error) else ""
         expected = "expected a decision (pose, reject, confirm, augment)"
-        raise Misuse(f"{expected}: {error}") from None
+        raise Misuse(f"{expected}{got}: {error}{example}") from None
 
 
 class RobotHandle:
