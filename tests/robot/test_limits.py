@@ -317,6 +317,7 @@ def test_a_mapper_out_of_moves_is_told_its_budget_and_what_sets_it() -> None:
     assert "more than 1 move, its budget" in told
     assert "claim cost-within-bound" in told
     assert "--budget" in told
+    assert told.endswith("; a right mapper may need more")
 
 
 @pytest.mark.parametrize(

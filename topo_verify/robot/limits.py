@@ -43,7 +43,8 @@ class BudgetExceeded(MapperStopped):
 
     def __init__(self, budget: int) -> None:
         given = "its budget (claim cost-within-bound, --budget, or tv.Limits(budget=…))"
-        super().__init__(f"the mapper asked for more than {plural(budget, 'move')}, {given}")
+        more = f"the mapper asked for more than {plural(budget, 'move')}, {given}"
+        super().__init__(f"{more}; a right mapper may need more")
 
 
 class TimeLimitExceeded(MapperStopped):
