@@ -197,7 +197,8 @@ def test_a_mapper_that_declares_nonsense_is_a_finding() -> None:
         robot.declare(cast("Any", {"type": "boast"}))
         return WORLD
 
-    assert why(boast).startswith("expected a decision (pose, reject, confirm, augment), got boast: ")
+    expected = "expected a decision (pose, reject, confirm, augment), got boast: "
+    assert why(boast).startswith(expected)
     assert why(boast).endswith(f"; it was at {line(boast)}")
 
 
