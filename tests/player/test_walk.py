@@ -211,6 +211,31 @@ def test_a_confirmation_that_was_not_walked_says_what_the_way_home_is() -> None:
     assert "(the way home from v1:5 is by door 1; the robot took no door)" in shown
 
 
+@pytest.mark.parametrize(
+    ("world", "seen", "confirmed", "remark"),
+    [
+        ("m2/1", Percept(1, 0), ev.Confirm(2, 3, "motion"), ""),
+        (
+            "m4/105",
+            Percept(2, 1),
+            ev.Confirm(3, 4, "motion"),
+            "(behind door 1 from v1:4 the robot would see (2, marker 0); it saw (2, marker 1))",
+        ),
+    ],
+)
+def test_a_confirmation_after_going_back_rests_on_the_walk_that_was_taken_back(
+    world: str, seen: Percept, confirmed: ev.Confirm, remark: str
+) -> None:
+    def goes_back(trace: ev.Trace) -> list[ev.Event]:
+        there_and_back = ev.Move(1, seen), ev.Move(0, Percept(3, None))
+        return [*trace[:6], *there_and_back, confirmed]
+
+    shown = text(played(world, "basic", edit=goes_back))
+    assert f"confirms that edge {confirmed.edge}" in shown
+    assert "took no door" not in shown
+    assert remark in shown
+
+
 def test_a_confirmation_against_what_was_seen_says_what_it_should_have_been() -> None:
     def confirms_dart_1(trace: ev.Trace) -> list[ev.Event]:
         return [*trace[:3], ev.Confirm(0, 1, "motion")]

@@ -243,7 +243,7 @@ class Narrator:
             return Saying("ok", title, (text,))
         if way.expected == way.seen:
             return Saying("bad", title, _not_home(way))
-        labels = SEES if way.step == len(way.took) else SAW
+        labels = SEES if way.step == len(moment.word) else SAW
         return Saying("bad", title, _differs(way), way.seen, way.expected, labels)
 
     def _grown(self, moment: Moment, augment: ev.Augment, *, guessed: bool) -> Saying:

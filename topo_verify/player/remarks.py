@@ -8,9 +8,11 @@ v2:7          a dart of S and its vertex: the third vertex that was discovered, 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import NamedTuple
 
 from topo_verify.checkers.darts import KnownDart, WorldDart
+from topo_verify.checkers.excursions import Excursion, Word
 from topo_verify.player.detours import Turn, way_home
 from topo_verify.player.scenes import Mismatch, Moment, Playback
 from topo_verify.robot import events as ev
@@ -57,7 +59,7 @@ class Homeward(NamedTuple):
 
     Attributes:
         start: the hypothesis, the dart by which the robot would have come in.
-        took: the doors that the robot took.
+        took: the doors that the robot took, also if it has gone back since.
         step: the doors before the first place that differs; all doors if no place differs.
         expected, seen: the percept on S there, and the one sensed.
         arrived: the doors lead to v0 on S.
@@ -95,8 +97,9 @@ def homeward(playback: Playback, moment: Moment) -> Homeward | None:
     posed = next(m for m in playback.moments[number::-1] if isinstance(m.event, ev.Pose))
     if posed.position != chart.end(event.edge):
         return None
-    took = tuple(step.door for step in moment.word)
-    percepts = chart.seen_at(chart.end(event.edge)), *(step.percept for step in moment.word)
+    word = moment.word or _taken_back(playback, posed.number, number)
+    took = tuple(step.door for step in word)
+    percepts = chart.seen_at(chart.end(event.edge)), *(step.percept for step in word)
     at, step = event.hypothesis, 0
     for step, door in enumerate((*took, 0)):
         out = chart.turn(at, door)
@@ -109,6 +112,23 @@ def homeward(playback: Playback, moment: Moment) -> Homeward | None:
     home = way_home(playback, event.hypothesis, number)
     expected = chart.seen_at(chart.phi[at])
     return Homeward(event.hypothesis, took, step, expected, percepts[step], arrived, home)
+
+
+def _taken_back(playback: Playback, posed: int, number: int) -> Word:
+    """The longest walk between the last decision before event `number` and that event."""
+    behind, seen_at = Excursion(), playback.map.seen_at
+    longest: Word = ()
+    for before, moment in pairwise(playback.moments[posed:number]):
+        if isinstance(moment.event, ev.Move):
+            assert before.position is not None
+            assert moment.position is not None
+            behind.move(
+                moment.event.door, seen_at(before.position).degree, seen_at(moment.position)
+            )
+            longest = max(longest, tuple(behind.word), key=len)
+        else:
+            longest = ()
+    return longest
 
 
 def _about_confirm(playback: Playback, moment: Moment) -> Iterator[str]:
