@@ -50,8 +50,8 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     Attributes:
         verdict: PROVED. UNKNOWN: several worlds show the log. REFUTED: no world shows it, or a
             map or decision in it does not follow.
-        vertices, edges: of the proved map; UNKNOWN: of the smaller of the two witnesses, where each
-            open door leads to a vertex of degree 1; REFUTED: 0.
+        vertices, edges: of the proved map; where it is UNKNOWN of the smaller witness, in which
+            each open door leads to a vertex of degree 1; 0 where it is REFUTED.
         genus: of the proved map; null unless it is proved.
         moves: of the log, in edge traversals.
         least_cost: of a proof of this map, in edge traversals; null unless it is proved.
@@ -64,7 +64,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
         witnesses: two different worlds that show this log: files if written, else ids.
         kernel: the certificate for Coq; null without --kernel.
         trace: the file of the log.
-        open_darts: the number of unexplored darts of the map.
+        open_darts: the number of known darts that the log does not cross.
     """
 
     trace: str

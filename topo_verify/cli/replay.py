@@ -203,9 +203,10 @@ def _judged(
         strict=strict,
     )
     if report.claims["percepts-true"] == "failed":
+        other = "another world" if world_text else "another world (name it with --world)"
         output.note(
-            f"{name} diverges from {at.argument}: it was recorded in another world (name it with"
-            " --world) or by another version, or it was edited"
+            f"{name} diverges from {at.argument}: it was recorded in {other} or by another version,"
+            " or it was edited"
         )
     return msgspec.structs.replace(report, world=at.name).of(report.run), stopped
 
