@@ -140,6 +140,17 @@ def test_a_log_that_no_world_shows_is_refuted_and_exits_1(call: Call, results: R
     assert "the marker cannot point at door 7 of 2" in text
 
 
+def test_where_only_the_delivered_map_is_wrong_no_reading_is_doubted(call: Call) -> None:
+    Path("wrong.jsonl").write_text(
+        RING + '{"type": "finish", "cost": 2, "map":'
+        ' {"vertices": [[0], [1]], "edges": [[0, 1]], "marker": 0}}\n'
+    )
+    done = call("certify wrong.jsonl")
+    assert done.exit_code == 1
+    assert "map-entailed" in done.stdout
+    assert "wrong reading" not in done.stdout
+
+
 def test_the_open_doors_are_named_with_a_way_there_and_the_worlds_that_differ(
     call: Call, results: Results
 ) -> None:

@@ -14,7 +14,6 @@ import topo_verify as tv
 from topo_verify.robot.events import Event, Move, Start
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import SimulatedRobot
-from topo_verify.studies.log_report import readings_apart
 from topo_verify.studies.map_check import check_map
 from topo_verify.world.enumeration.classes import WorldClass
 
@@ -132,7 +131,8 @@ def test_a_contradiction_names_the_two_readings_that_are_of_one_place() -> None:
     for door in (1, 1, 1, 1, 1, 1):
         seen = robot.move(door)
         log.append(Move(door, Percept(seen.degree, seen.marker)))
-    assert readings_apart(log) is None
+    assert tv.certify(log).apart is None
     log[5] = Move(1, Percept(3, None))  # the place of event 1, seen again
-    assert tv.certify(log).verdict == "REFUTED"
-    assert readings_apart(log) == (1, 5)
+    refuted = tv.certify(log)
+    assert (refuted.verdict, refuted.apart) == ("REFUTED", (1, 5))
+    assert "The readings of event 1 and event 5 would be of one place." in str(refuted)

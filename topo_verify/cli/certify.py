@@ -24,8 +24,8 @@ from topo_verify.robot.events import Move
 from topo_verify.robot.limits import MOST_SECONDS
 from topo_verify.studies import certificates as study
 from topo_verify.studies.advice import Advice
-from topo_verify.studies.log_file import event_in, line_of, read_log
-from topo_verify.studies.log_report import Certificate, OpenDoor, readings_apart
+from topo_verify.studies.log_file import line_of, read_log
+from topo_verify.studies.log_report import Certificate, OpenDoor, said_of_readings
 from topo_verify.studies.log_report import certify as judge
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
@@ -225,7 +225,6 @@ def _result(
         least_cost=None if certificate.map is None else certificate.map.least_cost(),
         open_doors=tuple(certificate.open_doors(MOST_OPEN_DOORS)),
         advice=certificate.advice,
-        apart=None if certificate.shown else readings_apart(certificate.log),
         decisions=DecisionCount(certificate.entailed, certificate.decisions),
         witnesses=_witnesses(trace, certificate, folder),
         findings=findings,
@@ -267,14 +266,13 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             if event is not None and (line := line_of(entry.trace, event)):
                 yield Text(f"Event {event} is {line} of {entry.trace}.")
             if entry.apart is not None:
-                readings = " and ".join(event_in(entry.trace, when) for when in entry.apart)
-                yield Text(f"The readings of {readings} would be of one place.")
+                yield Text(said_of_readings(entry.trace, entry.apart))
             elif any(TURNED in finding.message for finding in entry.findings):
                 yield Text(
                     "Two visits to one place differ in which door is which: perhaps the marker"
                     " pointed at another door, or a door was counted from another edge."
                 )
-            if entry.open_darts or not entry.decisions.total:
+            if entry.place is None:  # else the map that was delivered does not follow
                 yield Text(
                     "There it shows; the wrong reading may be an earlier one. If you have a map:"
                     " topo-verify tour MAP --against LOG names the first reading that does not fit."

@@ -73,6 +73,11 @@ class Certificate:
         return None if self.fold is None or self.map is not None else advice(self.fold)
 
     @property
+    def apart(self) -> tuple[int, int] | None:
+        """The events of two readings of one place that differ; None unless that refutes the log."""
+        return None if self.shown else readings_apart(self.log)
+
+    @property
     def place(self) -> int | None:
         """The place at which the log ends, a vertex of `known`; None if no world shows it."""
         return self.places[-1] if self.shown else None
@@ -246,6 +251,12 @@ def readings_apart(log: Sequence[Event]) -> tuple[int, int] | None:
     return None
 
 
+def said_of_readings(source: str, apart: tuple[int, int]) -> str:
+    """In words: the two readings differ, and would be of one place."""
+    readings = " and ".join(event_in(source, when) for when in apart)
+    return f"The readings of {readings} would be of one place."
+
+
 # ---------------------------------------------------------------- what is shown
 
 MOST_DRAWN = 200
@@ -273,6 +284,8 @@ def _next_steps(certificate: Certificate) -> Iterator[str]:
     for finding in certificate.findings[:MOST_LISTED]:
         event = "" if finding.event is None else f", {event_in(certificate.source, finding.event)}"
         yield shown(f"{finding.claim}{event}: {finding.message}", limit=LINE)
+    if (apart := certificate.apart) is not None:
+        yield said_of_readings(certificate.source, apart)
     for door in certificate.open_doors(MOST_LISTED):
         yield f"door {door.door} of place {door.place}: {_by_doors(door.walk)}"
     if (advice := certificate.advice) is None:
