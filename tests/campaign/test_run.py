@@ -55,7 +55,7 @@ NO_DOOR = "the mapper asked for door 9 at a vertex with 3 doors; the first is 0;
 
 
 def line(mapper: Callable[..., object], behind: int = 1) -> str:
-    """The line so many lines behind the first one of a function."""
+    """File and line of the mapper, `behind` lines after its `def`."""
     number = mapper.__code__.co_firstlineno + behind
     return f"{Path(__file__).relative_to(Path.cwd())}, line {number}"
 
