@@ -108,6 +108,14 @@ def test_a_mapper_that_moves_all_the_time_is_stopped_by_the_other_limit(
         where(work)
 
 
+def test_the_clock_is_looked_at_twenty_times_within_each_limit() -> None:
+    ticks: list[float] = []
+    for move_timeout in (600, 2, 0.1):
+        limits = Limits(move_timeout=move_timeout, world_timeout=40)
+        guarded(lambda: ticks.append(signal.getitimer(signal.ITIMER_REAL)[1]), limits)
+    assert ticks == pytest.approx([2, 0.1, 0.05])
+
+
 @pytest.mark.parametrize("where", [here, elsewhere])
 def test_a_mapper_in_time_notices_nothing(where: Callable[[Callable[[], None]], None]) -> None:
     def work() -> str:

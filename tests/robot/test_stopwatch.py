@@ -176,7 +176,7 @@ def test_waits_that_were_excused_in_vain_are_used_though_a_look_is_missing(
 
 
 def test_a_time_in_which_nobody_ran_exceeds_no_limit(machine: Machine) -> None:
-    watch = _Watch(Limits(move_timeout=5, world_timeout=12), lambda: 0, 1.25)
+    watch = _Watch(Limits(move_timeout=5, world_timeout=12), lambda: 0, Stopwatch(tick=1.25))
     for frozen in (8, 9, 1000):
         machine.now += frozen
         assert watch.overdue() is None

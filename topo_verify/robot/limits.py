@@ -129,6 +129,9 @@ def given_limits(limits: object) -> Limits:
 TICK = 0.05
 """Least seconds between two looks at the clock."""
 
+LOOKS = 20
+"""Looks within each limit: a pause may be longer than the limit by two of these ticks."""
+
 
 def within(limits: Limits, cost: Callable[[], int], work: Callable[[], T]) -> T:
     """What `work()` returns; what it raises passes through.
@@ -138,8 +141,9 @@ def within(limits: Limits, cost: Callable[[], int], work: Callable[[], T]) -> T:
     Raises:
         TimeLimitExceeded: a time limit was passed, even if `work` swallowed the exception.
     """
-    tick = max(TICK, min(limits.move_timeout, limits.world_timeout) / 4)
-    watch = _Watch(limits, cost, tick)
+    limit = min(limits.move_timeout, limits.world_timeout)
+    tick = max(TICK, limit / LOOKS)
+    watch = _Watch(limits, cost, Stopwatch(tick=max(TICK, limit / 4)))
     outer: Stopwatch | None = getattr(_running, "watch", None)
     _running.watch = watch.clock
     try:
@@ -169,9 +173,9 @@ def helped_by(process: int, heard: Heard | None = None) -> Generator[None]:
 class _Watch:
     """Remembers when the mapper last moved, and whether it was stopped, for one run."""
 
-    def __init__(self, limits: Limits, cost: Callable[[], int], tick: float) -> None:
+    def __init__(self, limits: Limits, cost: Callable[[], int], clock: Stopwatch) -> None:
         self.limits, self.cost = limits, cost
-        self.clock = Stopwatch(tick=tick)
+        self.clock = clock
         self.moved = 0.0
         self.seen = 0
         self.struck: TimeLimitExceeded | None = None
