@@ -343,6 +343,11 @@ def test_limits_know_their_options_on_the_command_line(
     assert bounds.options == words
 
 
+def test_a_negative_budget_is_refused() -> None:
+    with pytest.raises(InputError, match="budget: expected at least 0 moves, got -1"):
+        Limits(budget=-1)
+
+
 def test_the_default_limits_are_those_of_the_command_line() -> None:
     assert Limits() == Limits(budget=None, move_timeout=5.0, world_timeout=60.0)
     assert limits.TICK < 0.1
