@@ -45,11 +45,12 @@ def test_a_world_is_saved_in_the_format_of_the_name(name: str, tmp_path: Path) -
     )
 
 
-def test_a_format_that_is_only_read_is_named_with_those_that_are_written(tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ["w.net.xml", "w.dot", "m4.629"])
+def test_a_name_of_no_format_that_is_written_is_refused(name: str, tmp_path: Path) -> None:
     with pytest.raises(
-        InputError, match=r"w\.net\.xml: sumo is read and not written: let the name"
+        InputError, match=rf"{name}: no format with this ending is written: expected .* \.json, "
     ):
-        families.path(2).save(tmp_path / "w.net.xml")
+        families.path(2).save(tmp_path / name)
     assert not [*tmp_path.iterdir()]
 
 

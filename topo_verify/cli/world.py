@@ -25,7 +25,7 @@ from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.pruned import ranked_tables
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
-from topo_verify.world.io import WRITTEN, encoded, format_of_name, written_format
+from topo_verify.world.io import WRITTEN, encoded, format_of_name, save, written_format
 from topo_verify.world.rooted_map import Dart, World
 from topo_verify.world.twins import MODELS, MarkerModel
 
@@ -214,18 +214,16 @@ def convert(output: Output, *, world: str, to: str | None, file: str, marker: in
     def converted() -> Iterator[Result[ConvertEntry]]:
         kind = to or ("json" if file == "-" else written_format(file))
         at = named_world(world, marker)
-        content = encoded(at.world, kind)
-        if file != "-":
-            files.write(file, content + "\n" if isinstance(content, str) else content)
+        content = None if file != "-" else encoded(at.world, kind)
+        if content is None:
+            save(at.world, file, kind)
             if kind != format_of_name(file):
                 output.note(f"{file}: to read it again, let its name end in {WRITTEN[kind]}")
-            yield Result(ConvertEntry(at.name, kind, file, None))
-        elif isinstance(content, str):
-            yield Result(ConvertEntry(at.name, kind, None, content))
-        else:
+        elif not isinstance(content, str):
             raise InputError(
                 f"--to {kind}: a binary format is written to a file; name one with -o FILE"
             )
+        yield Result(ConvertEntry(at.name, kind, None if content else file, content))
 
     return output.run("world-convert", converted, _show_converted)
 

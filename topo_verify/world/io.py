@@ -6,7 +6,7 @@
 | `.graphml` | GraphML |
 | `.net.xml` | a road network of SUMO |
 | `.nx.json` | NetworkX's node-link JSON |
-| anything else | world JSON |
+| anything else | world JSON; written to `.json`, and to a name without an ending |
 """
 
 # Formats are imported late: parsers load slowly.
@@ -16,6 +16,7 @@ from __future__ import annotations
 import os
 from html import escape
 from os import PathLike
+from pathlib import Path
 from typing import Literal, TypeVar
 
 from topo_verify.errors import InputError, shown
@@ -47,11 +48,15 @@ def format_of_name(path: str | PathLike[str]) -> str:
 
 
 def written_format(path: str | PathLike[str]) -> str:
-    """The format by the name of a file to be written; InputError if it is only read."""
-    if (kind := format_of_name(path)) not in WRITTEN:
-        endings = ", ".join(WRITTEN.values())
+    """The format by the name of a file to be written; InputError if none is written by that name.
+
+    A name without an ending stands for world JSON.
+    """
+    kind, ending = format_of_name(path), Path(path).suffix.lower()
+    if kind not in WRITTEN or (kind == "json" and ending not in {"", ".json"}):
         raise InputError(
-            f"{shown(path)}: {kind} is read and not written: let the name end in one of {endings}"
+            f"{shown(path)}: no format with this ending is written: expected a name that ends in"
+            f" one of {', '.join(WRITTEN.values())}"
         )
     return kind
 
@@ -95,16 +100,16 @@ def encode(world: World) -> str:
     return world_json.encode(world)
 
 
-def save(world: World, path: str | PathLike[str]) -> None:
-    """Write the world to the file, whole or not at all, in the format of its name.
+def save(world: World, path: str | PathLike[str], kind: str | None = None) -> None:
+    """Write the world to the file, whole or not at all, in this format, or that of its name.
 
     Raises:
-        InputError: the file cannot be written, the world has no such format, or the format is only
-            read.
+        InputError: the file cannot be written, the world has no such format, or no format
+            is written by this name.
     """
     from topo_verify.world.formats import files
 
-    content = encoded(world, written_format(path))
+    content = encoded(world, kind or written_format(path))
     files.write(path, content + "\n" if isinstance(content, str) else content)
 
 
