@@ -281,7 +281,7 @@ def test_over_budget_is_told_apart_from_wrong(call: Call) -> None:
     line = f"arena basic,folding {FAULT} --suite small --workers 0 --in-process --out here"
     assert call(f"{line} --budget 30").exit_code == 1
     text = Path("here/table.md").read_text()
-    assert "No place: a claim fails, or --budget is exceeded" in text
+    assert "No place: a claim fails, --budget is exceeded, or it cannot be loaded" in text
     assert "| basic | over budget | budget |" in text
     assert f"| {FAULT} | over budget" not in text
     assert (
@@ -304,10 +304,29 @@ def test_mappers_have_names_in_the_tables(call: Call, refused: Refused) -> None:
     refused(f"{line} --name basic=folding", "two mappers have one name")
 
 
-def test_a_program_that_cannot_start_is_refused_before_the_first_run(refused: Refused) -> None:
-    line = "arena basic --cmd ./missing --suite triangle --out here"
-    refused(line, "--cmd: cannot start './missing': no such program")
-    assert not Path("here").exists()
+def test_an_entrant_that_cannot_be_loaded_is_last_and_the_others_are_ranked(
+    call: Call, results: Results, refused: Refused
+) -> None:
+    Path("open.py").write_text("def explore(robot):\n    x = (\n")
+    Path("notes.txt").write_text("#!/no/such/interpreter\n")
+    Path("notes.txt").chmod(0o755)
+    wrong = "open.py:explore gone.py:explore mappers.py:gone,basick --cmd ./gone --cmd ./notes.txt"
+    line = f"arena basic --target folding {wrong} --suite triangle,small --workers 0 --out here"
+    entries = [e for e in results(line, code=1)["results"] if e["suite"] == "small"]
+    assert [entry["place"] for entry in entries] == [1, 2, *[None] * 6]
+    why = {entry["mapper"]: entry["counterexample"] for entry in entries[2:]}
+    assert {example["ended"] for example in why.values()} == {"not-loaded"}
+    assert (
+        "SyntaxError: '(' was never closed (open.py, line 2)" in why["open.py:explore"]["message"]
+    )
+    assert "cannot start './gone': No such file" in why["--cmd ./gone"]["message"]
+    done = call(f"{line} --name './gone=Team G'")
+    assert "topo-verify: no place: target 'mappers.py:gone': mappers.py has no" in done.stderr
+    assert "Team G:\n  cannot be loaded: --cmd: cannot start './gone'" in done.stdout
+    assert "6 of 8 mappers cannot be loaded" in Path("here/report.html").read_text()
+    assert ",open.py:explore,small,," in (table := Path("here/table.csv").read_text())
+    assert table.count("cannot be loaded\n") == 12
+    refused("arena gone.py:explore --suite triangle", "there is no file 'gone.py'")
 
 
 def test_a_program_takes_part_over_the_pipe_and_pays_what_its_twin_pays(results: Results) -> None:

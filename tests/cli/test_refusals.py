@@ -116,7 +116,6 @@ REFUSED = [
     ("arena", "name the TARGETs that take part"),
     ("arena basic --suite lattice", "did you mean 'lattices'?"),
     ("arena basic,folding basic", "'basic' takes part twice: name each mapper once"),
-    ("arena basic --target folding", "leave one out"),
     ("arena folding+planar --suite tiny", "assumes planar worlds, and --suite tiny has"),
     ("arena basick", "no algorithm 'basick'; did you mean 'basic'?"),
     ("arena basic --out mappers.py", "--out mappers.py: cannot create this folder"),

@@ -130,6 +130,8 @@ def test_a_row_without_room_becomes_a_list(monkeypatch: pytest.MonkeyPatch) -> N
     assert printed(table) == "edges  verdict        worlds\n    7  ! REFUTED  1234567890\n"
     monkeypatch.setenv("COLUMNS", "24")
     assert printed(table) == "edges 7\n  verdict  ! REFUTED\n  worlds   1234567890\n"
+    table = bl.TextTable(("family", ">mean", f">{'team' * 9}"), [("edges<=3", "3", "1.07 ±0.12")])
+    assert "1.07" in printed(table), "a long title leaves room for the figure"
 
 
 @pytest.mark.parametrize(

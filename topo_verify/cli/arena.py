@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
@@ -13,6 +12,7 @@ import click
 import msgspec
 
 from topo_verify.campaign.campaign import close
+from topo_verify.campaign.targets import each_text
 from topo_verify.campaign.targets import targets as targets_of
 from topo_verify.campaign.work import processors
 from topo_verify.checkers.findings import Verdict
@@ -25,7 +25,7 @@ from topo_verify.errors import InputError, plural
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
-from topo_verify.programs.program import PREFIX, split
+from topo_verify.programs.program import PREFIX, Program
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, PictureBlock, Text
 from topo_verify.robot.limits import Limits
@@ -125,8 +125,9 @@ def arena(
     if folder is not None:
         watch()  # before a mapper is loaded
         output.ask(report=str(folder / files.REPORT))
-    mappers = _loaded(asked, in_process=in_process)
-    league = League(mappers, suites, seed, limits, _names(titles, mappers))
+    mappers, broken = _loaded(output, asked, in_process=in_process)
+    names = _names(titles, [*(mapper.text for mapper in mappers), *broken])
+    league = League(mappers, suites, seed, limits, names, broken)
     _require_players(league)
     played: list[acc.Exhibit] = []
 
@@ -170,46 +171,52 @@ def arena(
 def _asked(
     texts: Sequence[str], named: Sequence[str], commands: Sequence[str], libraries: Sequence[str]
 ) -> list[str]:
-    if texts and named:
-        raise InputError(
-            f"expected TARGETs in one way, got {texts[0]!r} and --target {named[0]}; leave one out"
-        )
-    for program, *_ in map(split, commands):  # now, not after the runs of others
-        if shutil.which(program) is None:
-            raise InputError(
-                f"--cmd: cannot start {program!r}: no such program, or it is not executable; name a"
-                " program that can be run"
-            )
-    asked = [*(texts or named), *(PREFIX + command for command in commands)]
+    asked = [*texts, *named, *(PREFIX + command for command in commands)]
     asked += [LIBRARY + library for library in libraries]
     if not asked:
         raise InputError("name the TARGETs that take part, or programs with --cmd 'program args'")
     return asked
 
 
-def _loaded(asked: Sequence[str], *, in_process: bool) -> tuple[Target, ...]:
-    loaded = [target for text in asked for target in targets_of(text, in_process=in_process)]
-    names = [target.text for target in loaded]
-    twice = next((name for name in names if names.count(name) > 1), None)
+def _loaded(
+    output: Output, asked: Sequence[str], *, in_process: bool
+) -> tuple[tuple[Target, ...], dict[str, str]]:
+    """The mappers; and for each TARGET that cannot be loaded or started, why."""
+    texts: list[str] = []
+    loaded: list[Target] = []
+    broken: dict[str, str] = {}
+    for text in (name for entrants in asked for name in each_text(entrants)):
+        try:
+            (target,) = targets_of(text, in_process=in_process)
+            if isinstance(target.mapper, Program):
+                target.mapper.start()
+            loaded.append(target)
+        except InputError as error:
+            broken[text] = str(error)
+        texts.append(text if text in broken else loaded[-1].text)
+    twice = next((text for text in texts if texts.count(text) > 1), None)
     if twice is not None:
         close(loaded)
         raise InputError(f"target {twice!r} takes part twice: name each mapper once")
-    return tuple(loaded)
+    if not loaded:
+        raise InputError(next(iter(broken.values())))
+    for why in broken.values():
+        output.note(f"no place: {why}")
+    return tuple(loaded), broken
 
 
-def _names(titles: Sequence[str], mappers: Sequence[Target]) -> dict[str, str]:
+def _names(titles: Sequence[str], mappers: Sequence[str]) -> dict[str, str]:
     names: dict[str, str] = {}
     for title in titles:
         target, _, name = title.rpartition("=")
-        found = [m.text for m in mappers if target in {m.text, m.text.partition(" ")[2]}]
+        found = [text for text in mappers if target in {text, text.partition(" ")[2]}]
         if not (found and name.strip()):
-            known = ", ".join(mapper.text for mapper in mappers)
             raise InputError(
-                f"--name {title}: expected TARGET=NAME with one of {known}, as in './mapper=Team A'"
+                f"--name {title}: expected TARGET=NAME with one of {', '.join(mappers)}, as in"
+                " './mapper=Team A'"
             )
         names[found[0]] = name.strip()
-    shown = [names.get(mapper.text, mapper.text) for mapper in mappers]
-    if len(set(shown)) < len(shown):
+    if len({names.get(text, text) for text in mappers}) < len(mappers):
         raise InputError("--name: two mappers have one name: give each its own")
     return names
 
@@ -339,7 +346,10 @@ def _account(
     words = [f"first in {suite}: {' = '.join(names)}" for suite, names in first.items()]
     if broken:
         verdict = "REFUTED"
-        for number, what in ((len(broken) - over, "break a claim"), (over, "are over budget")):
+        unloaded = sum(not example.world for example in broken.values())
+        wrong = len(broken) - over - unloaded
+        kinds = (wrong, "break a claim"), (over, "are over budget"), (unloaded, "cannot be loaded")
+        for number, what in kinds:
             words += [acc.counted(number, len(mappers), f"mappers {what}")] if number else []
     else:
         words.append(acc.counted(runs, planned, "runs"))
@@ -360,9 +370,7 @@ def _cases(entry: LeagueEntry) -> Iterator[acc.JudgedCase]:
         "every world of the suite",
         "REFUTED" if broken else "UNKNOWN" if late else "SAMPLED",
         judged=f"{entry.worlds:,} of {entry.total:,}",
-        message=f"{broken.claim} in {broken.world}: {broken.message}"
-        if broken
-        else "; ".join(entry.why),
+        message=f"{broken.where}: {broken.message}" if broken else "; ".join(entry.why),
         again=broken.replay if broken else "",
     )
     yield from acc.claim_cases(entry.judgements)

@@ -68,6 +68,9 @@ VARYING = (
 )
 
 
+NO_PLACE = "No place: a claim fails, --budget is exceeded, or it cannot be loaded"
+
+
 def standings(
     suite: Suite, table: Sequence[lg.LeagueEntry], seed: int, memory: Memory | None
 ) -> Block:
@@ -205,18 +208,18 @@ def broken_blocks(entries: Sequence[lg.LeagueEntry]) -> Iterator[Block]:
         rows = [
             (
                 *(mapper, _failure(example), example.ended),
-                *(example.world, example.suite),
+                *(example.world or "-", example.suite or "-"),
                 " of ".join(str(total[mapper]) for total in totals),
             )
             for mapper, example in broken.items()
         ]
         yield Text("")
         columns = ("mapper", "claim that fails", "ended by", "world", "suite", ">played")
-        yield TextTable(columns, rows, title="No place: a claim fails, or --budget is exceeded")
+        yield TextTable(columns, rows, title=NO_PLACE)
     for mapper, example in broken.items():
         yield Text("")
-        yield Text(f"{mapper} in {example.world}:")
-        yield Bullets((f"{example.claim}: {example.message}",))
+        yield Text(f"{mapper}:")
+        yield Bullets((f"{example.where}: {example.message}",))
         if example.replay:
             yield Command(example.replay, "again: ")
 
@@ -407,7 +410,7 @@ def _rows(entry: lg.LeagueEntry) -> Iterator[Sequence[object]]:
         *((ratio.mean, ratio.low, ratio.high) if ratio else (None, None, None)),
         *((behind.mean, behind.low, behind.high) if behind else (None, None, None)),
         *(entry.rejected_free, entry.rejected_moving, claims_in_words(entry.claims)),
-        f"{broken.claim} in {broken.world}" if broken else None,
+        broken.where if broken else None,
     )
     for family in entry.families if alone is None else ():
         mean = family.ratio

@@ -179,7 +179,8 @@ def _print_list(table: bl.TextTable, row: Sequence[str | bl.Cell], console: Cons
     console.print(Line(title).append_text(_line(row[0])))
     cells = [(t, c) for t, c in zip(table.columns[1:], row[1:], strict=True) if bl.cell_text(c)]
     grid = RichTable(box=None, show_header=False, pad_edge=False, padding=(0, GAP, 0, 0))
-    grid.add_column(width=max((_length(_title(title)) for title, _ in cells), default=0))
+    widest = max((_length(_title(title)) for title, _ in cells), default=0)
+    grid.add_column(width=min(widest, console.width // 2), overflow="fold")
     grid.add_column(overflow="fold")
     for title, cell in cells:
         grid.add_row(_title(title), _line(cell))

@@ -101,7 +101,8 @@ class LeagueCounterexample(msgspec.Struct, frozen=True):
     """The first world in which a claim fails.
 
     Attributes:
-        ended: `map`, a limit, a misbehaviour, `no-map` or `worker-lost`.
+        world: as the command line names it; empty if the mapper cannot be loaded.
+        ended: `map`, a limit, a misbehaviour, `no-map`, `worker-lost` or `not-loaded`.
         over_budget: --budget ended the run, and nothing else is wrong up to there.
     """
 
@@ -113,6 +114,11 @@ class LeagueCounterexample(msgspec.Struct, frozen=True):
     message: str
     replay: str
     over_budget: bool
+
+    @property
+    def where(self) -> str:
+        """The claim that fails, and the world, if any."""
+        return f"{self.claim} in {self.world}" if self.world else self.claim
 
 
 class LeagueEntry(msgspec.Struct, frozen=True, kw_only=True):
@@ -165,6 +171,7 @@ class League:
 
     Attributes:
         names: of mappers in tables, by TARGET.
+        broken: why a TARGET cannot be loaded or started.
         peaks: the most kibibytes of a mapper; None: unknown.
         remarks: sentences that the report shows below the standings.
     """
@@ -174,6 +181,7 @@ class League:
     seed: int
     limits: Limits = field(default_factory=Limits)
     names: Mapping[str, str] = field(default_factory=dict[str, str])
+    broken: Mapping[str, str] = field(default_factory=dict[str, str])
     rows: dict[tuple[str, str], Row] = field(default_factory=dict[tuple[str, str], Row], repr=False)
     peaks: dict[tuple[str, str], int | None] = field(
         default_factory=dict[tuple[str, str], int | None], repr=False
@@ -243,7 +251,13 @@ class League:
                 place = number
             placed.append(self._placed(entry, place, ranked[0], suite))
         others = [entry for entry in entries if entry.ratio is None]
-        return placed + sorted(others, key=lambda entry: entry.counterexample is not None)
+        others.sort(key=lambda entry: entry.counterexample is not None)
+        return placed + others + [self._unloaded(mapper, suite) for mapper in self.broken]
+
+    def _unloaded(self, mapper: str, suite: Suite) -> LeagueEntry:
+        why = "", "", 0, "not-loaded", "cannot be loaded", self.broken[mapper], ""
+        broken = LeagueCounterexample(*why, over_budget=False)
+        return msgspec.structs.replace(self._entry(mapper, suite, {}), counterexample=broken)
 
     def _entry(self, mapper: str, suite: Suite, rows: Mapping[str, Row]) -> LeagueEntry:
         failure = next((row for row in rows.values() if row.failed), None)
