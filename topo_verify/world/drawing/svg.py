@@ -234,8 +234,7 @@ def _beside(layout: Layout, labels: Sequence[str], size: float) -> dict[int, Poi
         return {}
     page = layout.width, layout.height
     circles = [c for vertex, c in enumerate(layout.centres) if vertex not in layout.hidden]
-    parts = [*(data for parts in layout.paths for data in parts), *(d for _, d in layout.stubs)]
-    lines = np.concatenate([_sampled(curves.flatten(data), 0.5 * size, np.inf) for data in parts])
+    lines = _strands(layout, 0.5 * size)
     taken = [(x, y, 0.0, 0.0) for x, y in circles]
     places: dict[int, Point] = {}
     for vertex, (x, y) in enumerate(layout.centres):
@@ -281,11 +280,8 @@ def _label_size(world: World, layout: Layout) -> float:
 FIRST, STEP, MOST = 0.75, 0.3, 24
 """In sizes of a label: the first place along an edge and the step; the number of places."""
 
-CLEAR = 0.55
-"""In sizes: the distance of a one-digit number from other darts."""
-
-BESIDE = 0.5
-"""In sizes: the distance of a number's middle from its edge."""
+CLEAR, BESIDE = 0.48, 0.5
+"""In sizes: the least distance of a one-digit number's middle from edges; from its own edge."""
 
 DIGIT = 0.2
 """In sizes: half the width of a digit."""
@@ -311,47 +307,53 @@ def places(world: World, layout: Layout, words: Mapping[Dart, str]) -> dict[Dart
         for named, (x, y) in _beside(layout, names, size).items():
             taken.append((x, y, (0.3 * len(names[named]) + 0.2) * size, size))
     chosen: dict[Dart, Point] = {}
+    strands, far = _strands(layout, 0.25 * size), (FIRST + STEP * MOST + 2) * size
+    bridges = np.reshape([curves.flatten(b.path).mean(0) for b in layout.bridges], (-1, 2))
     for vertex, rotation in enumerate(world.vertices):
-        if vertex in layout.hidden:
-            continue
-        far = (FIRST + STEP * MOST + 2) * size
-        near = {d: _sampled(lines[d], 0.25 * size, far) for d in rotation if d in lines}
-        for dart in near:
-            others = [near[other] for other in near if other != dart]
+        x, y = np.abs(strands - layout.centres[vertex]).T
+        near = strands[(x < far) & (y < far)]
+        for dart in rotation if vertex not in layout.hidden else ():
             across = len(words[dart]) * DIGIT * size
+            wider = across - DIGIT * size  # than one digit
             chosen[dart] = _best(
-                [*_along(lines[dart], size, marked=dart == world.root)],
-                np.concatenate(others) if others else np.empty((0, 2)),
+                [*_along(lines[dart], bridges, size, wider, marked=dart == world.root)],
+                near,
                 np.array(taken) + np.array([0, 0, across, 0]),
-                CLEAR * size,
+                np.array([CLEAR * size + wider, CLEAR * size]),
             )
             taken.append((*chosen[dart], across + 0.15 * size, 0.8 * size))
     return chosen
 
 
-def _sampled(line: Floats, step: float, most: float) -> Floats:
-    return curves.place(line, np.arange(0.0, min(curves.length(line), most), step))
+def _strands(layout: Layout, step: float) -> Floats:
+    """Points on all edges."""
+    parts = [*(data for parts in layout.paths for data in parts), *(d for _, d in layout.stubs)]
+    lines = [curves.flatten(data) for data in parts]
+    points = [curves.place(line, np.arange(0.0, curves.length(line), step)) for line in lines]
+    return np.concatenate([np.empty((0, 2)), *points])
 
 
-def _along(line: Floats, size: float, *, marked: bool) -> Iterator[Point]:
+def _along(
+    line: Floats, bridges: Floats, size: float, wider: float, *, marked: bool
+) -> Iterator[Point]:
     """The places to try, the nearest first; on the marked dart beside the arrow."""
     most = 0.35 * curves.length(line)  # the other end has a number, too
     for k in range(MOST):
         away = (FIRST + STEP * k) * size
-        if k and away > most:
-            return
         place = curves.place(line, min(away, most))
+        if k and (away > most or (np.abs(bridges - place) < 0.5 * size).all(1).any()):
+            return
         ahead = curves.place(line, min(away, most) + 0.2 * size) - place
-        aside = (0.8 if marked else BESIDE) * size
-        place = place + aside * np.array([ahead[1], -ahead[0]]) / np.hypot(*ahead)
+        left = np.array([ahead[1], -ahead[0]]) / np.hypot(*ahead)
+        place = place + ((0.8 if marked else BESIDE) * size + wider * abs(left[0])) * left
         yield float(place[0]), float(place[1])
 
 
-def _best(tries: list[Point], lines: Floats, taken: Floats, clear: float) -> Point:
+def _best(tries: list[Point], lines: Floats, taken: Floats, clear: Floats) -> Point:
     """The first place clear of all; else one on no other number, and off the lines."""
     rooms: list[tuple[float, float]] = []
     for place in tries:
         apart = (np.abs(taken[:, :2] - place) / taken[:, 2:]).max(axis=1).min()
-        off = np.hypot(*(lines - place).T).min() / clear if len(lines) else 1.0
+        off = np.hypot(*((lines - place) / clear).T).min()
         rooms.append((min(float(apart), 1.0), min(float(off), 1.0)))
     return tries[max(range(len(tries)), key=lambda k: (rooms[k], -k))]
