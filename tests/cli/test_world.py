@@ -27,7 +27,7 @@ def test_show_has_the_promised_fields(results: Results) -> None:
     assert entry == {
         "name": "m3/14", "id": "m3/14", "vertices": 3, "edges": 3, "faces": 2, "genus": 0,
         "degrees": [2, 3, 1], "simple": False, "loopless": True, "planar": True, "dual": "m3/19",
-        "automorphisms": 1, "marker": 0,
+        "automorphisms": 1, "unrooted": "m3/3", "marker": 0,
         "least_cost": 4, "rotation": [[0, 1], [2, 3, 4], [5]],
         "edge_darts": [[0, 2], [1, 3], [4, 5]], "vertex_names": [], "twin": None,
     }  # fmt: skip

@@ -7,7 +7,7 @@ import pytest
 import topo_verify as tv
 from topo_verify import families
 from topo_verify.world.enumeration.classes import WorldClass
-from topo_verify.world.unrooted import automorphisms, unrooted_count
+from topo_verify.world.unrooted import automorphisms, ranks, unrooted_count, unrooted_id
 
 
 def test_the_formula_gives_the_published_numbers() -> None:
@@ -49,6 +49,15 @@ def test_the_automorphisms_of_the_platonic_solids_are_their_rotations() -> None:
     for edges in (1, 2, 3, 4):  # the roots of a map are its darts up to automorphism
         sizes = [2 * edges // automorphisms(world) for world in tv.worlds(edges)]
         assert sum(1 / size for size in sizes) == pytest.approx(unrooted_count(edges, WorldClass()))
+
+
+def test_worlds_have_one_unrooted_id_iff_they_differ_in_the_marker_alone() -> None:
+    ids = [f"m4/{rank}" for rank in ranks(4, WorldClass())]
+    worlds = [*tv.worlds(4)]
+    assert sorted({unrooted_id(world) for world in worlds}) == sorted(ids)
+    for world in worlds[::50]:
+        assert {unrooted_id(world.with_marker(dart)) for dart in range(8)} == {unrooted_id(world)}
+    assert unrooted_id(tv.World((), (), None)) == "m0/0"
 
 
 @pytest.mark.parametrize(

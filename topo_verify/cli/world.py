@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
+from operator import attrgetter
 from random import Random
 from typing import Any
 
@@ -58,6 +59,7 @@ class ShowEntry(msgspec.Struct, frozen=True):
         simple, loopless, planar: whether the world is in this class.
         dual: its id; null beyond 200 edges.
         automorphisms: of the map without its marker that keep its orientation; null beyond 200.
+        unrooted: the least id with a marker at any dart, the unrooted map's; null beyond 200.
         source, licence, vertex_names: of the world's file; may be empty.
         twin: with --twin.
     """
@@ -74,6 +76,7 @@ class ShowEntry(msgspec.Struct, frozen=True):
     planar: bool
     dual: str | None
     automorphisms: int | None
+    unrooted: str | None
     marker: int | None
     least_cost: int
     source: str
@@ -137,6 +140,7 @@ def _shown(at: NamedWorld, twin: TwinEntry | None) -> ShowEntry:
         planar=world.is_planar,
         dual=_id(world.dual()),
         automorphisms=unrooted.automorphisms(world) if _id(world) else None,
+        unrooted=unrooted.unrooted_id(world) if _id(world) else None,
         least_cost=world.least_cost(),
         rotation=world.vertices,
         edge_darts=world.edges,
@@ -292,28 +296,15 @@ def count(output: Output, *, edges: range, kind: str, by: str | None) -> int:
 
 
 def _show_counted(entries: Sequence[CountEntry]) -> Iterator[Block]:
-    if any(entry.vertices is not None for entry in entries):
-        yield Rows(entries).table(
-            (">edges", lambda e: e.edges),
-            ("class", lambda e: e.kind),
-            (">vertices", lambda e: e.vertices),
-            (">worlds", lambda e: e.total),
-        )
-        return
-    yield Rows(entries).table(
-        (">edges", lambda e: e.edges),
-        ("class", lambda e: e.kind),
-        (">worlds", lambda e: e.total),
-        (">unrooted", lambda e: e.unrooted),
-    )
-    if any(entry.unrooted is None for entry in entries):
+    by_vertices = any(entry.vertices is not None for entry in entries)
+    columns = [(">edges", "edges"), ("class", "kind"), (">vertices", "vertices")]
+    columns[2 + by_vertices :] = [(">worlds", "total"), (">unrooted", "unrooted")]
+    yield Rows(entries).table(*((head, attrgetter(name)) for head, name in columns[:4]))
+    if not by_vertices and any(entry.unrooted is None for entry in entries):
         yield Text(
             f"-: not counted. Unrooted counts: `any` to {unrooted.SIZES[-1]} edges, `planar` to"
             f" {options.MAX_EDGES:,}; other classes up to {unrooted.MOST_LISTED:,} worlds."
         )
-
-
-MOST_LISTED = 250_000
 
 
 class ListEntry(msgspec.Struct, frozen=True):
@@ -330,7 +321,11 @@ class ListEntry(msgspec.Struct, frozen=True):
 @options.number("--edges", most=MAX_ID_EDGES, required=True, meaning="Number of edges.")
 @options.world_class
 @options.number(
-    "-n", "number", least=1, most=MOST_LISTED, meaning="The first N worlds only.  [default: all]"
+    "-n",
+    "number",
+    least=1,
+    most=unrooted.MOST_LISTED,
+    meaning="The first N worlds only.  [default: all]",
 )
 @click.option(
     "--unrooted",
@@ -361,10 +356,10 @@ def _first(worlds: WorldClass, edges: int, number: int | None, *, unmarked: bool
             total = pruned.count(edges, worlds)
         except InputError as error:
             raise InputError(f"world list: {error}, {mend}") from error
-        if total > MOST_LISTED:
+        if total > unrooted.MOST_LISTED:
             raise InputError(
-                f"world list: expected at most {MOST_LISTED:,} worlds, got {total:,} of class"
-                f" {worlds} with {edges} edges: ask for fewer edges or a narrower class, {mend}"
+                f"world list: expected at most {unrooted.MOST_LISTED:,} worlds, got {total:,} of"
+                f" class {worlds} with {edges} edges: ask for fewer or a narrower class, {mend}"
             )
     every = (rank for rank, _ in ranked_tables(edges, worlds))
     return islice(unrooted.ranks(edges, worlds) if unmarked else every, number)
@@ -432,11 +427,13 @@ def sample(
     With --edges each world of the class is equally likely.
     """
     worlds = WorldClass.parse(kind)
-    if strategy is None:
-        random, size = Random(seed), _size(edges, folder)
-        drawn: Iterator[World] = (worlds.sample(size, random) for _ in range(number))
-    else:
+    if strategy is not None:
         drawn = _by_strategy(strategy, worlds, edges, number, seed)
+    elif edges is None:
+        raise InputError("world sample: expected --edges N or --strategy STRATEGY")
+    else:
+        random = Random(seed)
+        drawn = (worlds.sample(edges, random) for _ in range(number))
 
     def sampled() -> Iterator[Result[SampleEntry]]:
         output.note(f"seed {seed}")
@@ -462,14 +459,6 @@ def sample(
             output.progress("drawing worlds", index + 1, number)
 
     return output.run("world-sample", sampled, _show_sampled, seed=seed)
-
-
-def _size(edges: int | None, folder: str | None) -> int:
-    if edges is None:
-        raise InputError("world sample: expected --edges N or --strategy STRATEGY")
-    if folder is None:
-        _require_id(edges)
-    return edges
 
 
 def _require_id(edges: int) -> None:

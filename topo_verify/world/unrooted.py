@@ -21,6 +21,7 @@ from functools import cache
 from math import comb, factorial, gcd
 
 from topo_verify.errors import InputError
+from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.pruned import count, ranked_tables
 from topo_verify.world.rooted_map import Code, World
@@ -57,14 +58,21 @@ def ranks(edges: int, kind: WorldClass) -> Iterator[int]:
     for rank, code in ranked_tables(edges, kind):
         if code not in codes:
             yield rank
-            world = World.from_code(code)
-            codes.update(world.with_marker(dart).code for dart in range(2 * edges))
+            codes.update(world.code for world in _markers(World.from_code(code)))
 
 
 def automorphisms(world: World) -> int:
     """The number of automorphisms of the map without its marker. O(m²)."""
-    darts = range(len(world.alpha))
-    return sum(world.with_marker(dart).code == world.code for dart in darts) or 1
+    return [each.code for each in _markers(world)].count(world.code)
+
+
+def unrooted_id(world: World) -> str:
+    """The least id with a marker at any dart: equal for two worlds iff their unrooted maps are."""
+    return min(_markers(world), key=lambda each: rank_order.rank(each.code)).id
+
+
+def _markers(world: World) -> list[World]:
+    return [world.with_marker(dart) for dart in range(len(world.alpha))] or [world]
 
 
 def _planar(edges: int) -> int:
