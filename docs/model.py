@@ -13,12 +13,12 @@ from pathlib import Path
 Point = tuple[float, float]
 
 PLACES: dict[str, Point] = {
-    "v0": (106, 268),
-    "a": (218, 118),
-    "b": (318, 294),
-    "vk": (452, 104),
-    "w": (520, 262),
-    "vu": (800, 168),
+    "v0": (88, 250),
+    "a": (172, 106),
+    "b": (238, 300),
+    "vk": (330, 92),
+    "w": (362, 250),
+    "vu": (520, 168),
 }
 """The vertices; y grows downwards, so angles grow clockwise."""
 
@@ -135,13 +135,13 @@ def door_numbers(vertex: str, reference: float, taken: int | None, kind: str) ->
 # ---------------------------------------------------------------- the picture
 
 SHAPES = """
-text{font:15px system-ui,-apple-system,"Segoe UI",Helvetica,Arial,sans-serif}
+text{font:17px system-ui,-apple-system,"Segoe UI",Helvetica,Arial,sans-serif}
 path{fill:none;stroke-width:2.5;stroke-linecap:round}.vertex,.end{stroke-width:2}
 path.e{stroke-width:3}path.h{stroke-width:3;stroke-dasharray:2 7}path.home{stroke-width:8;
 opacity:.35}path.mark{stroke-width:5}.arc{stroke-width:1.5}
 path.tip,.disc{stroke:none;opacity:1}.halo{fill:none;stroke-dasharray:1 4;stroke-width:1.5;
-stroke-linecap:round}.name{font-size:16px}
-.door,.taken{font-size:13px}.taken{font-weight:700}.soft{font-size:14px}
+stroke-linecap:round}.name{font-size:18px}
+.door,.taken{font-size:15px}.taken{font-weight:700}.soft{font-size:17px}
 """
 
 COLOURS = """
@@ -179,12 +179,12 @@ def picture() -> str:
 
 def _frame() -> list[str]:
     title = "The robot behind an unexplored edge, one hypothesis, and its way home"
-    size = 'viewBox="0 0 920 468" role="img"'
+    size = 'viewBox="0 0 600 396" role="img"'
     return [
         f'<svg xmlns="http://www.w3.org/2000/svg" {size} aria-label="{title}">',
         f"<title>{title}</title><style>{style()}</style>",
-        '<rect class="card" width="920" height="468" rx="14"/>',
-        '<rect class="land" x="24" y="24" width="598" height="358" rx="60"/>',
+        '<rect class="card" width="600" height="396" rx="14"/>',
+        '<rect class="land" x="24" y="24" width="408" height="348" rx="60"/>',
         text((52, 62), "<i>S</i>, the map so far", "soft", "start"),
     ]
 
@@ -202,9 +202,9 @@ def _map() -> list[str]:
 
 def _unknown() -> list[str]:
     way = angle(*E)
-    half = away("vk", way, 190)
+    half = away("vk", way, 105)
     start = away("w", OPEN["w"][0], STUB + 5)
-    bend = away("w", OPEN["w"][0], STUB + 78)
+    bend = away("w", OPEN["w"][0], STUB + 58)
     curve = "M{:.0f} {:.0f} Q{:.0f} {:.0f} {:.0f} {:.0f}".format(*start, *bend, *half)
     return [
         f'<path class="h" d="{curve}"/>',
@@ -252,22 +252,14 @@ def _clockwise() -> list[str]:
 
 def _legend() -> list[str]:
     h = away("w", OPEN["w"][0], STUB)
-    came = "The robot came along <i>e</i> to <i>v</i><sub>u</sub> and sees four doors,"
-    came += " numbered clockwise from where it came in."
-    *way, marker = [str(door) for _, _, door in way_home()]
-    home = "If <i>e</i> ends in <i>h</i>, it stands at <i>w</i>: doors "
-    home += f"{' and '.join(way)} lead home, and the marker points at door {marker}."
-    home += " It walks and looks."
     return [
-        text((800, 62), "not known yet", "soft"),
+        text((518, 62), "not known yet", "soft"),
         text((h[0] - 13, h[1] - 1), "<i>h</i>", "h name", "end"),
-        text((588, 118), "<i>e</i>", "e name"),
-        text((632, 218), "the same edge?", "h", "start"),
-        text((800, 268), "degree 4, no marker", "soft"),
-        text((520, 356), "degree 4, no marker", "soft"),
-        text((98, 214), "marker", "mark", "end"),
-        text((40, 414), came, "", "start"),
-        text((40, 440), home, "", "start"),
+        text((452, 118), "<i>e</i>", "e name"),
+        text((442, 290), "the same edge?", "h", "start"),
+        text((520, 262), "degree 4", "soft"),
+        text((362, 346), "degree 4", "soft"),
+        text((88, 196), "marker", "mark", "end"),
     ]
 
 

@@ -350,6 +350,8 @@ def test_help_names_the_signs_and_closes(show: Open, lattice: str) -> None:
     page = show(lattice)
     page.keyboard.press("?")
     assert page.is_visible("#help")
+    parts = ["Keys", "Walk it yourself", "What the signs mean"]
+    assert page.locator("#help h2").all_inner_texts() == parts
     page.keyboard.press("Escape")
     assert not page.is_visible("#help")
 

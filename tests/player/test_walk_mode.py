@@ -177,6 +177,9 @@ def test_the_reader_sees_percepts_only(show: Open, text: str) -> None:
     )
     assert "Door 0 leads back" in page.inner_text("#walk .says")
     assert page.locator("main").evaluate("one => one.inert")
+    select = page.locator("#walk select")
+    width = select.evaluate("one => one.offsetWidth")
+    assert select.evaluate("one => (one.style.maxWidth = 'none', one.offsetWidth)") == width
 
 
 def test_the_first_world_is_one_that_the_reader_has_not_seen(show: Open, text: str) -> None:
