@@ -204,7 +204,7 @@ def test_a_folder_has_the_page_a_player_and_the_counterexample(call: Call) -> No
     assert made >= {"report.html", "players/basic.html", picture.replace(".svg", ".html")}
     page = Path("here/report.html").read_text()
     for words in (
-        "REFUTED: first in triangle: basic; 1 of 2 mappers break a claim<",
+        '<p class="verdict">first in triangle: basic; 1 of 2 mappers break a claim<',
         *("Worlds to look at", "cost / LB by family", 'id="run-2"'),
         '<a href="#world-1">drawn in another run</a>',
     ):
@@ -295,6 +295,11 @@ def test_mappers_have_names_in_the_tables(call: Call, refused: Refused) -> None:
     shown = call(f"{line} --name 'basic=Team A' --name folding=B").stdout
     assert "Team A" in shown
     assert "basic " not in shown.replace("--target basic ", "")
+    assert " CPU ms  MiB" in shown
+    shown = call(f"{LINE} --name 'basic=Team A' --name folding=B").stdout
+    (command,) = (text for text in shown.splitlines() if "side by side: topo-verify" in text)
+    played = call(command.partition(" topo-verify ")[2]).stdout
+    assert played.startswith("basic-small-1.html: B, Team A in ")
     call(f"{line} --name 'basic=Team A' --out here")
     timing = json.loads(Path("here/timing.json").read_text())
     assert {row["name"] for row in timing} == {"Team A", "folding"}

@@ -14,7 +14,7 @@ from topo_verify.cli import main
 
 REPEATABLE = {
     "explore": {"--algorithm", "--target"},
-    "play": {"--algorithm", "--target"},
+    "play": {"--algorithm", "--target", "--name"},
     "search": {"--class", "--depends"},
     "world count": {"--class"},
     "world list": {"--class"},

@@ -52,6 +52,8 @@ def test_it_has_a_sign_for_each_family_and_one_in_the_legend(league: League) -> 
     names = {"2", "2: lattice(3,3,holes=0.2), 4 edges"}
     assert {"small: a test", "cost / LB", "b,c"} | names <= {*texts}
     assert any((text or "").startswith("</text>") for text in texts)
+    (name,) = (text for text in root.findall(".//{*}text") if text.text == "b,c")
+    assert float(name.get("x", "")) < 100, "on a phone it is seen without moving the plot"
     assert '[fill="#fdfcf9"],' in picture(league)  # the card of a dark page
 
 

@@ -60,13 +60,7 @@ from topo_verify.studies.arena.suites import DEFAULT, SUITES, chosen_suites, own
     metavar="FILE[:SYMBOL]",
     help="Also rank this native mapper; may be repeated.",
 )
-@click.option(
-    "--name",
-    "titles",
-    multiple=True,
-    metavar="TARGET=NAME",
-    help="The name of a TARGET, program or library in the tables; may be repeated.",
-)
+@options.titles
 @options.in_process
 @click.option(
     "--suite",
@@ -126,7 +120,7 @@ def arena(
         watch()  # before a mapper is loaded
         output.ask(report=str(folder / files.REPORT))
     mappers, broken = _loaded(output, asked, in_process=in_process)
-    names = _names(titles, [*(mapper.text for mapper in mappers), *broken])
+    names = options.names_of(titles, [*(mapper.text for mapper in mappers), *broken])
     league = League(mappers, suites, seed, limits, names, broken)
     _require_players(league)
     played: list[acc.Exhibit] = []
@@ -203,22 +197,6 @@ def _loaded(
     for why in broken.values():
         output.note(f"no place: {why}")
     return tuple(loaded), broken
-
-
-def _names(titles: Sequence[str], mappers: Sequence[str]) -> dict[str, str]:
-    names: dict[str, str] = {}
-    for title in titles:
-        target, _, name = title.rpartition("=")
-        found = [text for text in mappers if target in {text, text.partition(" ")[2]}]
-        if not (found and name.strip()):
-            raise InputError(
-                f"--name {title}: expected TARGET=NAME with one of {', '.join(mappers)}, as in"
-                " './mapper=Team A'"
-            )
-        names[found[0]] = name.strip()
-    if len({names.get(text, text) for text in mappers}) < len(mappers):
-        raise InputError("--name: two mappers have one name: give each its own")
-    return names
 
 
 def _require_players(league: League) -> None:

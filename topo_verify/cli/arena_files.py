@@ -63,8 +63,9 @@ LEGEND = (
 )
 
 VARYING = (
-    "ms/move and MiB depend on the machine: processor time a move of mapper and robot, and the most"
-    " memory in the mapper's most expensive world."
+    "CPU ms and MiB depend on the machine: milliseconds of processor time a move, of mapper and"
+    " robot (wall-clock time would depend on what else runs), and the most memory in the"
+    " mapper's most expensive world."
 )
 
 
@@ -81,7 +82,7 @@ def standings(
     ranked = ranked_in(suite, table)
     if not ranked:
         return Text(f"{suite.name}: no mapper has a place")
-    varying = (">ms/move", ">MiB") if memory is not None else ()
+    varying = (">CPU ms", ">MiB") if memory is not None else ()
     columns = (">#", "mapper", ">cost/LB", ">behind", ">free", *varying, "claims")
     drawn = "" if suite.exact else f", seed {seed}"
     title = f"{suite.name}: {suite.about}, {plural(ranked[0].total, 'world')}{drawn}"

@@ -428,6 +428,32 @@ def mappers(
     return decorate
 
 
+titles = click.option(
+    "--name",
+    "titles",
+    multiple=True,
+    metavar="TARGET=NAME",
+    help="The name of a TARGET, program or library in what is shown; may be repeated.",
+)
+
+
+def names_of(titles: Sequence[str], mappers: Sequence[str]) -> dict[str, str]:
+    """The names that --name gives to mappers, by TARGET."""
+    names: dict[str, str] = {}
+    for title in titles:
+        target, _, name = title.rpartition("=")
+        found = [text for text in mappers if target in {text, text.partition(" ")[2]}]
+        if not (found and name.strip()):
+            raise InputError(
+                f"--name {title}: expected TARGET=NAME with one of {', '.join(mappers)}, as in"
+                " './mapper=Team A'"
+            )
+        names[found[0]] = name.strip()
+    if len({names.get(text, text) for text in mappers}) < len(set(mappers)):
+        raise InputError("--name: two mappers have one name: give each its own")
+    return names
+
+
 def workers(default: int | None = None) -> Callable[[Callable[..., int]], Callable[..., int]]:
     """Add --workers; None means one worker per processor."""
     usual = "one per processor" if default is None else default

@@ -41,6 +41,7 @@ class PlayEntry(msgspec.Struct, frozen=True):
     several=True,
     with_policies=True,
 )
+@options.titles
 @options.marker
 @click.option("-o", "file", metavar="FILE", default="player.html", show_default=True)
 @options.strict
@@ -50,6 +51,7 @@ def play(
     *,
     world: str,
     mappers: options.Mappers,
+    titles: tuple[str, ...],
     marker: int | None,
     file: str,
     strict: bool,
@@ -63,13 +65,15 @@ def play(
 
     def played() -> Iterator[Result[PlayEntry]]:
         targets = mappers.load()
+        names = options.names_of(titles, [mapper.text for mapper in targets])
         at = runs.named_world(world, marker)
         runs.require_one_world(file, 1)
         recorded: list[PlayedRun] = []
         for number, mapper in enumerate(targets):
             output.progress(f"{mapper.text} in {at.name}", number, len(targets))
             run, report, _ = runs.judged(mapper, at, limits, strict=strict)
-            recorded.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
+            name = names.get(mapper.text, run.algorithm)
+            recorded.append(PlayedRun(name, run.trace, report.judgements, run.stopped))
         runs.write_page(file, at.world, at.name, recorded)
         findings = sum(len(j.findings) for run in recorded for j in run.judgements)
         yield Result(PlayEntry(at.name, file, tuple(run.name for run in recorded), findings))

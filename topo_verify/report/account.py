@@ -106,7 +106,8 @@ class Account:
         about: what was checked, in a few words.
         exhibits, left_out: the counterexamples shown, and the number of others.
         others: worlds to show in which nothing is wrong.
-        results_first: a page shows the results before what was judged.
+        results_first: a page shows the results before what was judged, and its headline says
+            no REFUTED: in a ranking some wrong mappers are normal.
     """
 
     about: str

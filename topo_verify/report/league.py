@@ -10,12 +10,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from math import ceil, cos, log, pi, sin
 from typing import NamedTuple
 
+from topo_verify.errors import shown
 from topo_verify.report.blocks import PALETTE
 from topo_verify.report.html import with_dark_colours, xml_text
 from topo_verify.studies.arena.league import LeagueEntry, MeanInterval
 from topo_verify.studies.arena.suites import Suite
 
-LEFT, RIGHT, TOP, BOTTOM = 62, 210, 44, 34
+LEFT, RIGHT, TOP, BOTTOM = 62, 16, 44, 34
 WIDE, HIGH = 448, 320
 """Pixels of the frame, at least; and its margins."""
 
@@ -34,7 +35,7 @@ COLOURS = (
 CORNERS = (0, 4, 3, 5)
 """The corners of the signs in the same order; 0: a circle. More corners look like one."""
 
-NAME = 26
+NAME = 60
 """Most characters of a name."""
 
 TICKS = (1, 2, 5)
@@ -99,13 +100,14 @@ def ratio_plot(suite: Suite, ranked: Sequence[LeagueEntry], ratios: Mapping[str,
         ratios: of each of these mappers.
     """
     band = max(BAND, WIDE / len(suite.families))
-    bottom = TOP + max(HIGH, LINE * len(ranked))
+    bottom = TOP + HIGH
     frame = Frame(band, bottom, min(STEP, 0.8 * band / len(ranked)), len(ranked))
     values = [ratio for families in ratios.values() for family in families for ratio in family]
     values += [f.ratio.high for e in ranked for f in e.families if f.ratio.high is not None]
     y = Axis(min(1.0, *values) / 1.04, max(1.1, *values) * 1.08, bottom, TOP)
     end = round(LEFT + band * len(suite.families), 1)
-    width, height = round(end) + RIGHT, bottom + BOTTOM + LINE * len(suite.families)
+    legend = bottom + BOTTOM + 6 + LINE * len(suite.families)
+    width, height = round(end) + RIGHT, legend + LINE * len(ranked)
     card = PALETTE["card"].light
     parts = [f'<rect width="{width}" height="{height}" fill="{card}"/>']
     parts += [*_frame(suite, y, end), *_names(ranked[0], frame)]
@@ -114,7 +116,11 @@ def ratio_plot(suite: Suite, ranked: Sequence[LeagueEntry], ratios: Mapping[str,
             at = frame.column(place, number)
             parts += _dots(ratios[entry.name][place], at, _colour(number), y)
             parts += _mean(family.ratio, at, number, y)
-        parts += _legend(entry, number, end)
+        at = legend + LINE * number
+        parts += [
+            _sign(LEFT + 4, at, number),
+            _text(LEFT + 16, at + 4, shown(entry.name, limit=NAME)),
+        ]
     return with_dark_colours(
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}"'
         f' width="{width}" height="{height}" font-family="sans-serif" font-size="12">\n'
@@ -176,13 +182,3 @@ def _sign(x: float, y: float, number: int) -> str:
     turns = (2 * pi * k / corners for k in range(corners))
     points = " ".join(f"{x + 5.5 * sin(turn):.1f},{y - 5.5 * cos(turn):.1f}" for turn in turns)
     return f'<polygon points="{points}" {style}/>'
-
-
-def _legend(entry: LeagueEntry, number: int, end: float) -> Iterator[str]:
-    height = TOP + LINE // 2 + LINE * number
-    yield _sign(end + 18, height, number)
-    yield _text(end + 30, height + 4, _short(entry.name))
-
-
-def _short(name: str) -> str:
-    return name if len(name) <= NAME else f"{name[: NAME - 1]}…"

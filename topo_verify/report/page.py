@@ -83,7 +83,13 @@ def _style() -> str:
 
 def _header(account: Account, run: Ending) -> str:
     extent = account.extent
-    tone = TONES[extent.verdict]
+    words, letter = xml_text(clean(extent.words)), extent.verdict[0]
+    headline = f'<p class="verdict">{words}</p>'
+    if not (account.results_first and extent.verdict == "REFUTED"):
+        headline = (
+            f'<p class="verdict {TONES[extent.verdict]}"><span class="letter"><span>{letter}</span>'
+            f"</span> {extent.verdict}: {words}</p>"
+        )
     unfinished = "" if run.finished else f"<p>The run was {xml_text(UNFINISHED.message)}.</p>\n"
     found = {"counterexamples": "Counterexamples"} if account.exhibits else {}
     results, judged = {"results": "Results"}, {"judged": "What was judged"}
@@ -96,8 +102,7 @@ def _header(account: Account, run: Ending) -> str:
     menu = " ".join(f'<a href="#{name}">{title}</a>' for name, title in links.items())
     return (
         f"<h1>topo-verify {xml_text(run.command)}: {xml_text(clean(account.about))}</h1>\n"
-        f'<p class="verdict {tone}"><span class="letter"><span>{extent.verdict[0]}</span></span>'
-        f" {extent.verdict}: {xml_text(clean(extent.words))}</p>\n{unfinished}"
+        f"{headline}\n{unfinished}"
         f"<p>Exit code {run.code}: {EXITS[run.code]}.</p>\n"
         f"{_again(run.again)}\n<nav>{menu}</nav>"
     )

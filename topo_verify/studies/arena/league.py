@@ -314,6 +314,8 @@ class League:
         for number, (excess, ours, theirs) in enumerate(lost[:KEPT_LOSSES], 1):
             if excess > 0:
                 words = ["topo-verify", "play", ours.world, "--target", best, "--target", mapper]
+                named = [text for text in (best, mapper) if text in self.names]
+                words += [w for text in named for w in ("--name", f"{text}={self.names[text]}")]
                 words += ["-o", f"{page}-{number}.html"]
                 show = shlex.join([*words, *self.limits.options])
                 costs = ours.least, ours.cost, theirs.cost
