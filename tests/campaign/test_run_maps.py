@@ -64,7 +64,7 @@ class Endless(list[Any]):
 @pytest.mark.parametrize(
     ("result", "reason"),
     [
-        (None, "NoneType has no 'vertices'"),
+        (None, "None (is a `return` missing?) has no 'vertices'"),
         ((door for door in (0, 1)), "returned a generator: it has a `yield`"),
         ("a map", "str has no 'vertices'"),
         ({"vertices": VERTICES, "edges": EDGES}, "dict has no 'marker'"),

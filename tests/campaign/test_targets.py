@@ -152,12 +152,12 @@ def test_what_is_not_there_is_refused_by_name(text: str, why: str) -> None:
     ("source", "why"),
     [
         ("def explore(robot:\n", "SyntaxError"),
-        ("raise ValueError('one\\ntwo')\n", "ValueError: one two"),
-        ("import sys; sys.exit(4)\n", "SystemExit: 4"),
-        ("import no_such_module\n", "ModuleNotFoundError"),
+        ("raise ValueError('one\\ntwo')\n", r"ValueError: one\\ntwo \(mapper.py, line 1\)$"),
+        ("\nimport sys; sys.exit(4)\n", r"SystemExit: 4 \(mapper.py, line 2\)$"),
+        ("import no_such_module\n", r"ModuleNotFoundError: .* \(mapper.py, line 1\)$"),
         (
             "class E(Exception):\n    def __str__(self): raise ValueError\nraise E\n",
-            "mapper.py' fails: E$",
+            r"mapper.py' fails: E \(mapper.py, line 3\)$",
         ),
         ("\x00", "SyntaxError|ValueError"),
     ],
@@ -171,7 +171,10 @@ def test_a_file_that_fails_is_refused_in_one_line(folder: Path, source: str, why
 
 def test_a_module_that_fails_is_refused_in_one_line(folder: Path) -> None:
     (folder / "broken_mapper_module.py").write_text("import sys; sys.exit('no')\n")
-    with pytest.raises(InputError, match=r"'broken_mapper_module': SystemExit: no$"):
+    with pytest.raises(
+        InputError,
+        match=r"'broken_mapper_module': SystemExit: no \(broken_mapper_module.py, line 1\)$",
+    ):
         targets("broken_mapper_module:explore")
 
 

@@ -250,6 +250,16 @@ def test_a_mapper_that_delivers_no_map_is_not_said_to_declare_nothing(
     assert words in " ".join(done.stdout.split()) + " "
 
 
+def test_what_is_declared_only_after_a_wrong_step_is_not_said_to_be_missing() -> None:
+    posed = Judgement("true-hypothesis-posed", "failed", 1, 1)
+    confirmed = Judgement("no-false-confirm", "not-declared", 0, 0)
+    (sentence,) = unjudged("x", "m3/1", [posed, confirmed])
+    assert sentence.text == (
+        "Not judged, because x declares nothing about it before its first wrong step:"
+        " no-false-confirm."
+    )
+
+
 def test_worlds_without_a_map_are_the_reason_why_map_entailed_is_judged_in_part() -> None:
     one = Judgement("map-entailed", "partial", 3, 4)
     (sentence,) = unjudged("x", "these worlds", [one])

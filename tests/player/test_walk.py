@@ -191,8 +191,13 @@ def test_a_false_map_is_shown_where_it_differs_first() -> None:
             "marker": 0,
         }
 
+    def delivers_another(_robot: Robot) -> World:
+        return World.from_id("m2/6")
+
     shown = text(played("m2/4", mirrored))
-    assert "from the marker on: dart 0 leads to 1 in the world and to 2 in the map." in shown
+    assert "The map is the world's mirror image: list the darts of each vertex clockwise." in shown
+    shown = text(played("m2/4", delivers_another))
+    assert "from the marker on: dart 0 leads to 1 in the world and to 3 in the map." in shown
 
 
 def test_what_was_never_crossed_is_listed_where_the_map_is_not_proved() -> None:

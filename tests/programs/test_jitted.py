@@ -18,7 +18,7 @@ MISDEEDS = {
     "crash": "SIGSEGV",
     "leave": "exit code 0",
     "double_itself": "SIGABRT",
-    "give_up": "NoneType has no 'vertices'",
+    "give_up": "None (is a `return` missing?) has no 'vertices'",
     "no_map": "a map of -1 vertices",
 }
 """Each misdeed of hostile_numba.py, and what is said of it behind the pipe."""

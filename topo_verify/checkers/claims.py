@@ -92,7 +92,7 @@ def true_hypothesis_posed(run: ReplayedTrace) -> Iterator[Finding]:
 def _wrongly_posed(run: ReplayedTrace, decision: Round, pose: ev.Pose) -> Iterator[Finding]:
     edge, hypotheses, when, end = pose.edge, pose.hypotheses, decision.when, decision.end
     if end is None or not all(run.map.is_open(h, when) for h in hypotheses):
-        message = f"edge {edge} or one of its hypotheses is not an unexplored dart of S"
+        message = f"edge {edge} or a hypothesis is no unexplored dart of S: is an augment missing?"
         yield Wrong(when, "unexplored darts", [edge, *hypotheses], message)
     elif run.crossings.get(run.crossing(end), when) >= when:
         yield Wrong(when, edge, None, f"dart {edge} is posed before the robot crossed it")

@@ -19,7 +19,7 @@ import msgspec
 from topo_verify.campaign.attempt import attempt
 from topo_verify.campaign.judge import Report, in_words, replay_line, strict_option, undecided
 from topo_verify.campaign.run import Exploration
-from topo_verify.checkers import Finding, Judgement, Status
+from topo_verify.checkers import CLAIMS, Finding, Judgement, Status
 from topo_verify.checkers.claims import LARGE
 from topo_verify.errors import InputError, plural
 from topo_verify.player import walk
@@ -27,6 +27,7 @@ from topo_verify.player.recording import PlayedRun
 from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, View
+from topo_verify.robot.events import Finish
 from topo_verify.robot.limits import Limits
 from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
@@ -166,6 +167,13 @@ def claims_in_words(claims: Mapping[str, Status]) -> str:
 def unjudged(mapper: str, world: str, judgements: Iterable[Judgement]) -> Iterator[Text]:
     """Sentences that name the claims not fully judged, with the reason."""
     claims: dict[str, list[Judgement]] = {reason: [] for reason in _REASONS.values()}
+    judgements = tuple(judgements)
+    # only decisions before the first false one are judged
+    is_wrong = any(
+        judgement.status == "failed" and CLAIMS[judgement.claim][1] not in ((), (Finish,))
+        for judgement in judgements
+    )
+    so_far = " before its first wrong step" if is_wrong else ""
     for judgement in judgements:
         reasons = _REASONS | _WITHOUT_A_MAP if judgement.claim == "map-entailed" else _REASONS
         if judgement.status in reasons:
@@ -178,12 +186,12 @@ def unjudged(mapper: str, world: str, judgements: Iterable[Judgement]) -> Iterat
                     f"{judgement.claim} {judgement.judged} of {judgement.of}"
                     for judgement in of_reason
                 ]
-            text = reason.format(mapper=mapper, world=world, size=LARGE)
+            text = reason.format(mapper=mapper, world=world, size=LARGE, so_far=so_far)
             yield Text(f"{text}: {', '.join(names)}.")
 
 
 _REASONS: dict[Status, str] = {
-    "not-declared": "Not judged, because {mapper} declares nothing about it",
+    "not-declared": "Not judged, because {mapper} declares nothing about it{so_far}",
     "partial": (
         "Judged in part, because {mapper} left decisions undeclared or ended early in {world}"
     ),

@@ -380,9 +380,12 @@ def difference_of_maps(playback: Playback) -> str | None:
     if not isinstance(finish, ev.Finish):
         return None
     try:
-        ours, theirs = playback.world.code, World.from_map(finish.map).code
+        delivered = World.from_map(finish.map)
     except InputError:
         return None
+    ours, theirs = playback.world.code, delivered.code
+    if ours != theirs == playback.world.mirror().code:
+        return "The map is the world's mirror image: list the darts of each vertex clockwise."
     head = "Both numbered breadth-first and clockwise from the marker on:"
     for vertex, (one, other) in enumerate(zip(ours[0], theirs[0], strict=False)):
         if one != other:

@@ -87,7 +87,15 @@ def _passes(error: BaseException) -> bool:
 
 def exception_text(error: BaseException) -> str:
     """Type, text, file and line of an exception; no text if that raises another."""
-    place = _place(error)
+    return _text(error, _place(error))
+
+
+def loading_text(error: BaseException) -> str:
+    """The same of an exception while a mapper is loaded: only the user's lines matter."""
+    return _text(error, users_line(_frames(error)))
+
+
+def _text(error: BaseException, place: str) -> str:
     at = f" ({place})" if place else ""
     name = type(error).__name__
     try:

@@ -22,6 +22,7 @@ from typing import Any, cast
 
 from topo_verify.errors import InputError, close_name, shown
 from topo_verify.programs import library
+from topo_verify.programs.delivery import loading_text
 from topo_verify.robot.events import Robot
 
 Mapper = Callable[[Robot], object]
@@ -111,7 +112,9 @@ def _load_module(name: str, text: str) -> object:
     except BaseException as error:
         if isinstance(error, KeyboardInterrupt):
             raise
-        raise InputError(f"target {text!r}: cannot import {name!r}: {_one_line(error)}") from error
+        raise InputError(
+            f"target {text!r}: cannot import {name!r}: {loading_text(error)}"
+        ) from error
 
 
 class _UncachedLoader(SourceFileLoader):
@@ -143,15 +146,8 @@ def _load_file(path: Path, text: str) -> object:
     except BaseException as error:
         if isinstance(error, KeyboardInterrupt):
             raise
-        raise InputError(f"target {text!r}: {str(path)!r} fails: {_one_line(error)}") from error
+        raise InputError(f"target {text!r}: {str(path)!r} fails: {loading_text(error)}") from error
     return module
-
-
-def _one_line(error: BaseException) -> str:
-    try:
-        return f"{type(error).__name__}: {error}".replace("\n", " ")
-    except Exception:  # noqa: BLE001  a foreign __str__ may raise anything
-        return type(error).__name__
 
 
 # ---------------------------------------------------------------- functions by numba

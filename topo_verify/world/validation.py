@@ -172,8 +172,9 @@ _MISSING = object()
 def _part(map_like: object, name: str) -> Any:
     part = optional_part(map_like, name, _MISSING)
     if part is _MISSING:
+        kind = "None (is a `return` missing?)" if map_like is None else type(map_like).__name__
         raise InputError(
-            f"{type(map_like).__name__} has no {name!r}; expected a map with vertices, edges and"
+            f"{kind} has no {name!r}; expected a map with vertices, edges and"
             " marker, as attributes or as keys: give it all three"
         )
     return part
