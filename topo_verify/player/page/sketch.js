@@ -209,10 +209,13 @@ class Sketch {
     return `M${pair(p)}C${pair(q)} ${pair(r)} ${pair(s)}`;
   }
 
-  /** Path data of a loop: out, around the shorter way, and back; larger around more darts. */
+  /** Path data of a loop: around the fewest roads to other places; there it is large, to hold them. */
   loop(dart, other, places, degree) {
-    const ahead = (places + degree) % degree, way = 2 * ahead <= degree ? 1 : -1;
-    const half = (Math.PI * Math.min(ahead, degree - ahead)) / degree, far = ROUND + 20 + 26 * half;
+    const ahead = (places + degree) % degree, [v, place] = this.owner.get(dart), leads = [0, 0];
+    for (const [there] of this.turns(v)) leads[+((there - place + degree) % degree > ahead)] += 1;
+    const way = (leads[0] - leads[1] || 2 * ahead - degree) <= 0 ? 1 : -1;
+    const half = (Math.PI * (way > 0 ? ahead : degree - ahead)) / degree;
+    const far = Math.min(...leads) ? 1.4 * LONG : ROUND + 20 + 26 * half;
     const [x, y] = this.out(dart, far, way * half), tangent = this.angle(dart) + way * (half + Math.PI / 2);
     const reach = 0.75 * far * Math.min(half, 1.2);
     const [dx, dy] = [reach * Math.cos(tangent), reach * Math.sin(tangent)];
@@ -220,15 +223,14 @@ class Sketch {
     return `M${pair(p)}C${pair(q)} ${pair([x - dx, y - dy])} ${pair([x, y])}C${pair([x + dx, y + dy])} ${pair(r)} ${pair(s)}`;
   }
 
-  /** Draw it into an SVG element; returns what was drawn of each dart and vertex. */
+  /** Draw it into an SVG element; returns the stubs by their darts. */
   show(svg, { marker = null, kinds = new Map() } = {}) {
     svg.replaceChildren();
-    const drawn = { roads: new Map(), stubs: new Map(), vertices: [] };
+    const stubs = new Map();
     for (const [dart, other] of this.alpha) {
       if (dart > other) continue;
       const road = draw('path', { class: `road ${kinds.get(dart) ?? kinds.get(other) ?? ''}`, d: this.road(dart) }, svg);
       road.dataset.darts = `${dart} ${other}`;
-      drawn.roads.set(dart, road).set(other, road);
     }
     for (const dart of this.owner.keys()) {
       if (this.alpha.has(dart)) continue;
@@ -236,19 +238,15 @@ class Sketch {
       draw('path', { d: `M${pair(this.out(dart, ROUND))}L${pair(this.out(dart, 2 * ROUND))}` }, group);
       const [cx, cy] = this.out(dart, 2.35 * ROUND);
       draw('circle', { cx, cy, r: 6 }, group);
-      drawn.stubs.set(dart, { group, at: [cx, cy] });
+      stubs.set(dart, { group, at: [cx, cy] });
     }
     if (marker !== null) drawMarker(svg, ...[1, 1.3, 1.98].map((far) => this.out(marker, far * ROUND)));
-    this.spots.forEach(({ x, y }, v) => {
-      const group = draw('g', { class: 'vertex' }, svg);
-      drawn.vertices.push(draw('circle', { cx: x, cy: y, r: ROUND, 'data-vertex': v }, group));
-    });
-    const [xs, ys] = ['x', 'y'].map((c) => this.spots.map((spot) => spot[c]));
-    const room = 4.2 * ROUND, [left, top] = [Math.min(...xs) - room, Math.min(...ys) - room];
-    const [wide, high] = [Math.max(...xs) + room - left, Math.max(...ys) + room - top];
+    for (const { x, y } of this.spots) draw('circle', { cx: x, cy: y, r: ROUND }, draw('g', { class: 'vertex' }, svg));
+    const room = 2 * ROUND, box = svg.getBBox(), [left, top] = [box.x - room, box.y - room];
+    const [wide, high] = [box.width + 2 * room, box.height + 2 * room];
     const [width, height] = [Math.max(wide, 4 * LONG), Math.max(high, 2.4 * LONG)];
     svg.setAttribute('viewBox', [left - (width - wide) / 2, top - (height - high) / 2, width, height].map(short).join(' '));
-    return drawn;
+    return stubs;
   }
 }
 

@@ -181,7 +181,7 @@ class WalkMode {
     title.textContent = 'Your map';
     note.textContent = walk.open().length ? many(walk.open().length, 'unexplored exit') : 'no unexplored exit';
     this.sketch = this.sketchOfMap();
-    const drawn = this.sketch.show(svg, { marker: walk.size ? 0 : null, kinds: this.atOnce.checked ? this.kinds(walk.judged().found) : undefined });
+    const stubs = this.sketch.show(svg, { marker: walk.size ? 0 : null, kinds: this.atOnce.checked ? this.kinds(walk.judged().found) : undefined });
     const stand = walk.here ?? null;
     if (stand !== null || !walk.size) {
       const { x, y } = this.sketch.spots[walk.size ? walk.vertices.indexOf(walk.vertexOf(stand)) : 0];
@@ -190,13 +190,13 @@ class WalkMode {
       drawRobot(svg, 11).setAttribute('transform', `translate(${pair([x, y])}) rotate(${short(turn)})`);
     }
     if (!walk.pending) return;
-    const { group, at } = drawn.stubs.get(walk.pending.edge);
+    const { group, at } = stubs.get(walk.pending.edge);
     group.setAttribute('class', 'asked');
     group.querySelector('path').setAttribute('class', 'e');
     draw('circle', { class: 'unknown', cx: at[0], cy: at[1], r: 12 }, svg);
     draw('text', { class: 'what', x: at[0], y: at[1] }, svg, '?');
     walk.hypotheses().forEach((dart, k) => {
-      const letter = LETTERS[k] ?? '', [cx, cy] = drawn.stubs.get(dart).at;
+      const letter = LETTERS[k] ?? '', [cx, cy] = stubs.get(dart).at;
       const badge = this.press(svg, 'badge', `The road ends at exit ${letter} of your map`, letter || '-', () => this.act(() => walk.declare(dart)));
       badge.dataset.dart = dart;
       draw('circle', { cx, cy, r: 12 }, badge);
