@@ -20,7 +20,16 @@ from topo_verify.algorithms import Policies
 from topo_verify.campaign.judge import judge, undecided
 from topo_verify.campaign.targets import one_target
 from topo_verify.robot import simulator
-from topo_verify.robot.events import Event, Finish, Move, Pose, Start, read_trace, write_trace
+from topo_verify.robot.events import (
+    Augment,
+    Event,
+    Finish,
+    Move,
+    Pose,
+    Start,
+    read_trace,
+    write_trace,
+)
 from topo_verify.robot.limits import BudgetExceeded, WorldTimeout
 
 HERE = Path(__file__).relative_to(Path.cwd())
@@ -299,6 +308,23 @@ def test_what_was_declared_and_moved_before_the_end_is_still_judged() -> None:
     assert report.cost == 1
     assert report.claims["percepts-true"] == "ok"
     assert report.claims["true-hypothesis-posed"] == "failed"
+
+
+def test_on_request_a_run_ends_at_its_first_false_augmentation() -> None:
+    true, false = Augment(0, "loop", 2, 3), Augment(1, "new", 3, 4)
+
+    def guess(robot: Robot) -> object:
+        robot.declare(true)
+        robot.declare(false)
+        while True:
+            robot.move(0)
+
+    run = explore(WORLD, guess, stop_if_false=True)
+    assert (run.trace[1:], run.cost, run.limit) == ((true, false), 0, None)
+    assert run.stopped == "its 'augment' at event 2 is false, so the run ended there"
+    assert explore(WORLD, guess).limit == "budget"
+    for algorithm in ("basic", "folding"):
+        assert explore(WORLD, algorithm, stop_if_false=True) == explore(WORLD, algorithm)
 
 
 def test_a_wrong_cost_is_a_finding() -> None:

@@ -22,6 +22,7 @@ from topo_verify.checkers import CLAIMS, Judgement, check
 from topo_verify.errors import InternalError
 from topo_verify.faults import FAULTS
 from topo_verify.programs.loader import Mapper, Target
+from topo_verify.robot.events import Augment, Pose
 from topo_verify.robot.simulator import SimulatedRobot
 
 OURS = {"PYTHONPATH": str(Path(__file__).parents[2])}
@@ -189,6 +190,16 @@ def test_assert_maps_shows_the_mappers_own_exception_as_the_cause() -> None:
     with pytest.raises(tv.ClaimFailed) as failed:
         tv.assert_maps(fail, WORLD)
     assert failed.value.__cause__ is mine
+
+
+def test_assert_maps_ends_a_run_at_its_first_false_augmentation() -> None:
+    def never_ends(robot: tv.Robot) -> object:
+        robot.declare(Augment(0, "new", 3, 9))
+        while True:
+            robot.declare(Pose(3, ()))
+
+    with pytest.raises(tv.ClaimFailed, match="no map was delivered: its 'augment' at event 1 is"):
+        tv.assert_maps(never_ends, WORLD)
 
 
 def test_assert_maps_does_not_pass_what_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -230,6 +230,9 @@ def assert_maps(
 ) -> None:
     """Assert that every claim holds of a mapper in a world, e.g. in a property test.
 
+    The run ends at its first false `augment`, since no later decision is judged: a faulty mapper
+    may go on for a minute.
+
     Args:
         strict: judge claim 10 also in worlds with more than 2,000 edges.
     Raises:
@@ -238,7 +241,7 @@ def assert_maps(
         ClaimUndecided: no claim fails, but one is undecided. An AssertionError, too.
         InputError: there is no such mapper or policy.
     """
-    run = explore(world, mapper, pick=pick, order=order, limits=limits)
+    run = explore(world, mapper, pick=pick, order=order, limits=limits, stop_if_false=True)
     report = judge(run, options=limits.options if limits else (), strict=strict)
     if not report.ok:
         # The report, not its text: Hypothesis repeats a failing example, and the text takes time.

@@ -15,7 +15,7 @@ only if it runs Python code and does not catch BaseException in a loop
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from html import escape
 from itertools import pairwise
@@ -27,6 +27,7 @@ import msgspec
 from topo_verify.algorithms import CATALOGUE, NAMED, REFERENCE, Algorithm
 from topo_verify.campaign.targets import one_target
 from topo_verify.checkers import check
+from topo_verify.checkers.map_in_world import MapInWorld
 from topo_verify.compiled import require
 from topo_verify.errors import ExaminationInterrupted, InputError, InternalError, plural, shown
 from topo_verify.programs.delivery import Undelivered, deliver, stop_text
@@ -35,7 +36,9 @@ from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.misbehaviour import Misbehaved
 from topo_verify.programs.program import PREFIX, Program
 from topo_verify.robot.events import (
+    Augment,
     Confirm,
+    Decision,
     Finish,
     MapData,
     Move,
@@ -188,7 +191,7 @@ HUNG = (
 """Why a program may have stood still; the harness cannot tell them apart."""
 
 
-def explore(
+def explore(  # noqa: PLR0913  an argument an option
     world: World | str,
     mapper: Mapper | str | Target = "basic",
     *,
@@ -197,6 +200,7 @@ def explore(
     limits: Limits | None = None,
     engine: Engine = "reference",
     trace: bool = True,
+    stop_if_false: bool = False,
 ) -> Exploration:
     """Run a mapper in a world.
 
@@ -207,6 +211,7 @@ def explore(
         limits: moves and seconds; default: the bound of claim 7, 5 s between moves, 60 s in all.
         engine: runs a catalogue algorithm, "reference" or "compiled".
         trace: keep the trace; False, for the compiled engine: only cost and map.
+        stop_if_false: end the run at its first false `augment`: no later decision is judged.
     Returns:
         The run. If the mapper delivers no map, `map` is None and `stopped` says why.
     Raises:
@@ -220,7 +225,7 @@ def explore(
         trace = trace and target.mapper.trace
         return _compiled(world, target, target.mapper, limits, trace=trace)
     budget = world.cost_bound if limits.budget is None else limits.budget
-    robot = SimulatedRobot(world, budget)
+    robot = SimulatedRobot(world, budget, _objection(world) if stop_if_false else None)
     policies = policies_of(target)
     start = _start(world, target, policies)
     if isinstance(target.mapper, Program):
@@ -250,6 +255,17 @@ def explore(
         limits,
         misbehaved,
     )
+
+
+def _objection(world: World) -> Callable[[int, Decision], str]:
+    """Objects to the first augmentation that is false in this world."""
+    true_map = MapInWorld(world)
+
+    def objection(when: int, event: Decision) -> str:
+        is_false = isinstance(event, Augment) and not true_map.grow(when, event)
+        return f"its 'augment' at event {when} is false, so the run ended there" * is_false
+
+    return objection
 
 
 def _resolved(world: object, mapper: object) -> World:

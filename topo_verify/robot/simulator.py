@@ -9,7 +9,7 @@ Source: docs/semantics.md, section 2.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 from operator import index
 from typing import NoReturn, SupportsIndex, cast
@@ -122,15 +122,28 @@ class RobotHandle:
 class SimulatedRobot:
     """A robot at the marker of a world. Lives for one run; `events` grows with every call.
 
+    Args:
+        budget: the most moves.
+        objection: says why a decision ends the run, or nothing; called with its event number.
     Raises (from `move` and `declare`, into the mapper):
+        MapperStopped: a decision to which there is an objection.
         BudgetExceeded: one more move than the budget.
         Misuse: no such door, or no decision. Once stopped the robot never moves again.
     """
 
-    __slots__ = ("_at", "_cost", "_percept", "_percepts", "_stopped", "_world", "budget", "events")
+    __slots__ = (
+        *("_at", "_cost", "_objection", "_percept", "_percepts", "_stopped", "_world"),
+        *("budget", "events"),
+    )
 
-    def __init__(self, world: World, budget: int) -> None:
+    def __init__(
+        self,
+        world: World,
+        budget: int,
+        objection: Callable[[int, ev.Decision], str] | None = None,
+    ) -> None:
         self._world = world
+        self._objection = objection
         self.budget = budget
         self._cost = 0
         self._at = world.root or 0
@@ -192,6 +205,8 @@ class SimulatedRobot:
         except Misuse as why:
             self._stop(why)
         self.events.append(decision)
+        if self._objection is not None and (false := self._objection(len(self.events), decision)):
+            self._stop(MapperStopped(false))
 
     def settle(self) -> None:
         """Uncount a move that a time limit struck between its count and its record.
