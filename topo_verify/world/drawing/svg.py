@@ -310,27 +310,31 @@ def places(world: World, layout: Layout, words: Mapping[Dart, str]) -> dict[Dart
     strands, far = _strands(layout, 0.25 * size), (FIRST + STEP * MOST + 2) * size
     bridges = np.reshape([curves.flatten(b.path).mean(0) for b in layout.bridges], (-1, 2))
     for vertex, rotation in enumerate(world.vertices):
-        x, y = np.abs(strands - layout.centres[vertex]).T
-        near = strands[(x < far) & (y < far)]
+        x, y = layout.centres[vertex]
+        begin, end = np.searchsorted(strands[:, 0], (x - far, x + far))
+        near = strands[begin:end][np.abs(strands[begin:end, 1] - y) < far]
+        held = [mark for mark in taken if max(abs(mark[0] - x), abs(mark[1] - y)) < 2 * far]
         for dart in rotation if vertex not in layout.hidden else ():
             across = len(words[dart]) * DIGIT * size
             wider = across - DIGIT * size  # than one digit
             chosen[dart] = _best(
-                [*_along(lines[dart], bridges, size, wider, marked=dart == world.root)],
+                _along(lines[dart], bridges, size, wider, marked=dart == world.root),
                 near,
-                np.array(taken) + np.array([0, 0, across, 0]),
+                np.array(held) + np.array([0, 0, across, 0]),
                 np.array([CLEAR * size + wider, CLEAR * size]),
             )
-            taken.append((*chosen[dart], across + 0.15 * size, 0.8 * size))
+            held.append((*chosen[dart], across + 0.15 * size, 0.8 * size))
+            taken.append(held[-1])
     return chosen
 
 
 def _strands(layout: Layout, step: float) -> Floats:
-    """Points on all edges."""
+    """Points on all edges, from left to right."""
     parts = [*(data for parts in layout.paths for data in parts), *(d for _, d in layout.stubs)]
     lines = [curves.flatten(data) for data in parts]
     points = [curves.place(line, np.arange(0.0, curves.length(line), step)) for line in lines]
-    return np.concatenate([np.empty((0, 2)), *points])
+    strands = np.concatenate([np.empty((0, 2)), *points])
+    return strands[np.argsort(strands[:, 0])]
 
 
 def _along(
@@ -349,11 +353,15 @@ def _along(
         yield float(place[0]), float(place[1])
 
 
-def _best(tries: list[Point], lines: Floats, taken: Floats, clear: Floats) -> Point:
+def _best(tries: Iterator[Point], lines: Floats, taken: Floats, clear: Floats) -> Point:
     """The first place clear of all; else one on no other number, and off the lines."""
-    rooms: list[tuple[float, float]] = []
+    best, room = (0.0, 0.0), (-1.0, -1.0)
     for place in tries:
         apart = (np.abs(taken[:, :2] - place) / taken[:, 2:]).max(axis=1).min()
         off = np.hypot(*((lines - place) / clear).T).min()
-        rooms.append((min(float(apart), 1.0), min(float(off), 1.0)))
-    return tries[max(range(len(tries)), key=lambda k: (rooms[k], -k))]
+        here = min(float(apart), 1.0), min(float(off), 1.0)
+        if here > room:
+            best, room = place, here
+        if room == (1.0, 1.0):
+            break
+    return best
