@@ -16,7 +16,6 @@ accidents, not against forgery.
 
 from __future__ import annotations
 
-import shlex
 import sqlite3
 from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import contextmanager
@@ -28,7 +27,7 @@ from typing import Any, Self
 
 import msgspec
 
-from topo_verify.campaign.campaign import Campaign, Ranks, Shard, ShardResult
+from topo_verify.campaign.campaign import Campaign, Shard, ShardResult
 from topo_verify.campaign.identity import (
     Identity,
     MapperChanged,
@@ -39,11 +38,9 @@ from topo_verify.campaign.identity import (
 )
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import Tally, notable
-from topo_verify.campaign.targets import target_arguments
 from topo_verify.errors import InputError, plural, shown
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
-from topo_verify.programs.program import OPTIONS
 from topo_verify.robot.limits import Limits
 
 FORMAT = "topo-verify/store"
@@ -291,7 +288,7 @@ class Store:
         if not all(type(word) is str for entry in entries for word in entry):
             raise changed(self.path, "its table meta")
         if columns == ["key", "value"]:
-            raise _older(self.path, dict(entries), self._base)
+            raise _older(self.path, dict(entries))
         self.meta = {(name, key): value for name, key, value in entries}
         if self.meta.get(("", "format")) != FORMAT:
             raise no_store(self.path)
@@ -429,61 +426,14 @@ def _require_file_name(path: str) -> str:
     return path
 
 
-class _OldTally(msgspec.Struct):
-    """The numbers of worlds in a tally of 0.2."""
-
-    worlds: int
-    failing: int
-    undecided: int
-
-
-def _older(path: str, known: Mapping[str, str], base: sqlite3.Connection) -> InputError:
-    """The error for a ledger of 0.2 or before: what it says, and how to make it anew.
-
-    No ledger of 0.2 is converted: its digests are others, it has no rows, other checkers judged,
-    and its only hash mixes the source of topo-verify with the mapper's.
-    """
+def _older(path: str, known: Mapping[str, str]) -> InputError:
+    """The error for a ledger of 0.2 or before: other checkers judged, so it is not converted."""
     if known.get("format") != "topo-verify/ledger":
         return no_store(path)
-    said, mend = "", "remove it, or name another file, and start anew"
-    if known.get("version") == "2":
-        try:
-            said, mend = _held(path, known, base)
-        except (KeyError, TypeError, msgspec.MsgspecError) as error:
-            raise changed(path, "the ledger") from error
     return InputError(
-        f"store {path}: topo-verify {known.get('tool', '0.1')} wrote this ledger.{said} Verdicts of"
-        f" different versions are never added up: {mend}"
+        f"store {path}: topo-verify {known.get('tool', '0.1')} wrote this ledger. Verdicts of"
+        " different versions are never added up: remove it, or name another file, and start anew"
     )
-
-
-def _held(path: str, known: Mapping[str, str], base: sqlite3.Connection) -> tuple[str, str]:
-    """What a ledger of 0.2 says, and the command line that searches anew."""
-    shards = base.execute("SELECT edges, tally FROM shards").fetchall()
-    tallies = [msgspec.json.decode(tally, type=_OldTally) for _, tally in shards]
-    edges = max((size for size, _ in shards), default=1)
-    checked = sum(tally.worlds - tally.undecided for tally in tallies)
-    failing = sum(tally.failing for tally in tallies)
-    total = sum(Ranks(edges, known["class"]).totals().values())
-    verdict = "REFUTED" if failing else "EXHAUSTED" if checked == total else "UNKNOWN"
-    said = (
-        f" It says of {shown(known['target'])}: {verdict}, {checked:,} of {total:,} worlds of 1 to"
-        f" {plural(edges, 'edge')} checked, {failing:,} failing."
-    )
-    return said, f"search anew, {_search_again(known, edges, f'{path}.new')}"
-
-
-def _search_again(known: Mapping[str, str], edges: int, path: str) -> str:
-    """The command line of a ledger's search, with another file."""
-    target = known["target"]
-    compared = "," in target and not target.startswith(OPTIONS)
-    words = ["--compare", target] if compared else [*target_arguments(target)]
-    words += ["--edges", str(edges)]
-    for option, usual in (("class", "any"), ("policies", "reference")):
-        words += [f"--{option}", known[option]] if known[option] != usual else []
-    words += ["--keep-going"] if known["keep-going"] == "yes" else []
-    limits = msgspec.json.decode(known["limits"], type=Limits)
-    return f"topo-verify search {shlex.join([*words, *limits.options, '--ledger', path])}"
 
 
 def no_store(path: str) -> InputError:
