@@ -75,7 +75,11 @@ def test_a_csv_table_is_a_log(results: Results, table: str) -> None:
     ("table", "why"),
     [
         ("door,degree\n,2\n", "t.csv, row 1: expected the columns door, degree, marker"),
-        (",2,0\n0,2,\n", "t.csv, row 1: expected the columns door, degree, marker, got no 'door'"),
+        (",2,0\n0,2,\n", "got a row without titles: begin with them"),
+        (
+            "a,degree,marker\n",
+            "t.csv, row 1: expected the columns door, degree, marker, got no 'door'",
+        ),
         ("door,degree,marker\n", "t.csv: expected a row with the percept at the start"),
         ("door,degree,marker\n0,2,0\n", "row 2: expected no door: the robot starts, got '0'"),
         ("door,degree,marker\n,2,0\n,2,\n", "row 3: expected a door, as in every row but"),

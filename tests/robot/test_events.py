@@ -169,7 +169,9 @@ def test_a_line_that_is_no_event_is_refused_by_its_number(line: bytes) -> None:
 
 @pytest.mark.parametrize("trace", [[], [ev.Move(0, Percept(1, None))]])
 def test_a_trace_begins_with_start(trace: list[ev.Event]) -> None:
-    with pytest.raises(InputError, match="begins with a line of type 'start'"):
+    with pytest.raises(
+        InputError, match="expected an event of type 'start' in the first line, as "
+    ):
         ev.read_trace(ev.write_trace(trace))
 
 

@@ -124,6 +124,18 @@ def test_a_finding_names_the_row_of_the_file(tmp_path: Path) -> None:
     assert "door 5 of 3 (0 is the first) led to a place of 2" in told
 
 
+def test_a_contradiction_of_other_readings_names_the_one_that_showed_it() -> None:
+    log: list[Event] = [
+        Start(percept=Percept(2, 0)),
+        Move(0, Percept(2, None)),
+        Move(1, Percept(3, None)),
+        Move(0, Percept(2, 1)),  # the marker, where the robot was at event 1
+    ]
+    told = str(tv.certify(log))
+    readings = "The readings of event 0 and event 1 would be of one place"
+    assert f"{readings} by event 3: one of the three, or a door, is wrong." in told
+
+
 def test_a_contradiction_names_the_two_readings_that_are_of_one_place() -> None:
     world = tv.World.from_id("m4/87")  # a ring of four
     robot = SimulatedRobot(world, 100)

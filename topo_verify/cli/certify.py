@@ -266,7 +266,7 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             if event is not None and (line := line_of(entry.trace, event)):
                 yield Text(f"Event {event} is {line} of {entry.trace}.")
             if entry.apart is not None:
-                yield Text(said_of_readings(entry.trace, entry.apart))
+                yield Text(said_of_readings(entry.trace, entry.apart, event))
             elif any(TURNED in finding.message for finding in entry.findings):
                 yield Text(
                     "Two visits to one place differ in which door is which: perhaps the marker"
@@ -326,6 +326,10 @@ def _show_open(entry: CertifyEntry, advice: Advice) -> Iterator[Block]:
     else:
         yield Text("Next: go back to the marker, and certify the longer log from there.")
     yield Text(f"Back to the marker, from where the log ends: {home}.")
+    yield Text(
+        "A wrong reading may leave doors open, too. If you have a map: topo-verify tour MAP"
+        " --against LOG."
+    )
 
 
 def _place(door: OpenDoor) -> str:

@@ -177,7 +177,8 @@ def _sentence(entry: TourEntry) -> str:
             assert against.event is not None
             line = line_of(against.log, against.event)
             at = f"{against.event} ({line})" if line else f"{against.event}"
-            return f"{head} event {at} refutes the map: {against.message}."
+            mend = "If this reading is right, a door before it was another one."
+            return f"{head} event {at} refutes the map: {against.message}. {mend}"
         case "PROVED":
             return f"{head} no other world shows this log of {plural(against.moves, 'move')}."
         case _:

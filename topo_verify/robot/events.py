@@ -274,7 +274,10 @@ def require_order(trace: Sequence[Event]) -> None:
 
 def _require_start(head: Event | None, name: str) -> None:
     if not isinstance(head, Start):
-        raise InputError(f"{name}: a trace begins with a line of type 'start'")
+        example = '{"type": "start", "percept": {"degree": 3, "marker": 0}}'
+        raise InputError(
+            f"{name}: expected an event of type 'start' in the first line, as {example}"
+        )
     if head.version > TRACE_VERSION:
         raise InputError(
             f"{name}: trace version {head.version} is newer than {TRACE_VERSION}, the newest that"

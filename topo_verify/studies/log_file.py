@@ -143,10 +143,10 @@ def table_events(lines: Iterable[bytes], name: str) -> Iterator[tuple[int, Event
 def _require_columns(titles: Sequence[str], place: str) -> None:
     for column in COLUMNS:
         if titles.count(column) != 1:
-            got = "two" if column in titles else "no"
-            raise InputError(
-                f"{place}: expected the columns {', '.join(COLUMNS)}, got {got} {column!r}"
-            )
+            got = f"two {column!r}" if column in titles else f"no {column!r}"
+            if "".join(titles).isdigit():
+                got = "a row without titles: begin with them"
+            raise InputError(f"{place}: expected the columns {', '.join(COLUMNS)}, got {got}")
 
 
 def _event(cells: dict[str, str], place: str, *, begun: bool) -> Event:

@@ -251,10 +251,13 @@ def readings_apart(log: Sequence[Event]) -> tuple[int, int] | None:
     return None
 
 
-def said_of_readings(source: str, apart: tuple[int, int]) -> str:
-    """In words: the two readings differ, and would be of one place."""
+def said_of_readings(source: str, apart: tuple[int, int], found: int | None) -> str:
+    """In words: the two readings differ, and would be of one place by what was `found`."""
     readings = " and ".join(event_in(source, when) for when in apart)
-    return f"The readings of {readings} would be of one place."
+    by = ""
+    if found is not None and found not in apart:
+        by = f" by {event_in(source, found)}: one of the three, or a door, is wrong"
+    return f"The readings of {readings} would be of one place{by}."
 
 
 # ---------------------------------------------------------------- what is shown
@@ -285,7 +288,7 @@ def _next_steps(certificate: Certificate) -> Iterator[str]:
         event = "" if finding.event is None else f", {event_in(certificate.source, finding.event)}"
         yield shown(f"{finding.claim}{event}: {finding.message}", limit=LINE)
     if (apart := certificate.apart) is not None:
-        yield said_of_readings(certificate.source, apart)
+        yield said_of_readings(certificate.source, apart, certificate.findings[0].event)
     for door in certificate.open_doors(MOST_LISTED):
         yield f"door {door.door} of place {door.place}: {_by_doors(door.walk)}"
     if (advice := certificate.advice) is None:
