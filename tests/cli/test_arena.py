@@ -116,15 +116,6 @@ def test_runs_under_other_limits_do_not_meet(call: Call, refused: Refused, optio
     refused(f"{line} {option}", f"its limits are the usual ones, now {option}; name another file")
 
 
-def test_a_store_of_version_02_is_named_and_left_alone(call: Call) -> None:
-    Path("here").mkdir()
-    Path("here/runs.jsonl").write_text("header\nrun\nrun\n")
-    done = call("arena basic --suite triangle --workers 0 --out here")
-    assert done.exit_code == 0
-    assert "topo-verify 0.2 or before wrote here/runs.jsonl: its 2 runs are made" in done.stderr
-    assert Path("here/runs.jsonl").read_text() == "header\nrun\nrun\n"
-
-
 SPY = """
 from pathlib import Path
 from topo_verify import CATALOGUE

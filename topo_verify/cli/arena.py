@@ -219,7 +219,7 @@ def _play(output: Output, league: League, folder: Path | None, workers: int) -> 
         for suite in league.suites:
             if not league.plays(mapper, suite):
                 output.note(f"{mapper.text} assumes planar worlds: left out of {suite.name}")
-    with options.open_store(output, folder) as store:
+    with options.open_store(folder) as store:
         campaigns = matches(league, store, output.note)
         if store is not None and (others := not_shown(campaigns, store)):
             league.remarks.append(others)

@@ -10,7 +10,6 @@ from contextlib import (
     contextmanager,
     nullcontext,
     redirect_stdout,
-    suppress,
 )
 from copy import copy
 from dataclasses import dataclass
@@ -473,26 +472,13 @@ strict = click.option(
 
 # ---------------------------------------------------------------- stores of runs
 
-STORE, OLD_STORE = "runs.db", "runs.jsonl"
-"""The file in the folder that keeps the runs; the one in which version 0.2 kept them."""
+STORE = "runs.db"
+"""The file in the folder of `--out` that keeps the runs."""
 
 
-@contextmanager
-def open_store(output: Output, folder: Path | None) -> Generator[Store | None]:
+def open_store(folder: Path | None) -> AbstractContextManager[Store | None]:
     """The store in a folder; None without a folder."""
-    if folder is None:
-        yield None
-        return
-    old, runs = folder / OLD_STORE, "runs"
-    if old.exists() and not (folder / STORE).exists():
-        with suppress(OSError), old.open("rb") as lines:
-            runs = plural(max(0, sum(1 for _ in lines) - 1), "run")  # the first line is the header
-        output.note(
-            f"topo-verify 0.2 or before wrote {old}: its {runs} are made again, in {STORE}; remove"
-            " the old file"
-        )
-    with Store(folder / STORE) as store:
-        yield store
+    return nullcontext() if folder is None else Store(folder / STORE)
 
 
 def opened(path: str | None) -> AbstractContextManager[Store | None]:

@@ -138,7 +138,7 @@ def _runs(
     if engine == "compiled":
         # Before the workers start, so that they find compiled kernels in the cache.
         explore(World.from_id("m1/0"), engine=engine)
-    with options.open_store(output, folder) as store:
+    with options.open_store(folder) as store:
         assert store is not None, "there is a folder"
         campaigns = pts.line_campaigns(figures, extent, engine, store)
         here = 0 if workers == 1 else workers
