@@ -47,14 +47,18 @@ def line_named(name: str) -> Line | None:
 
 def line_of(source: str, name: str) -> int | None:
     """The line at which a function, class, method or constant begins in a source; None if none."""
+    node = definition(source, name)
+    return node and node.lineno
+
+
+def definition(source: str, name: str) -> ast.stmt | None:
+    """What a source defines by this dotted name: a function, class, method or constant."""
     scope: list[ast.stmt] = ast.parse(source).body
-    line = None
+    found = None
     for part in name.split("."):
         found = next((node for node in scope if part in _names(node)), None)
-        if found is None:
-            return None
-        line, scope = found.lineno, getattr(found, "body", [])
-    return line
+        scope = getattr(found, "body", [])
+    return found
 
 
 def _names(node: ast.stmt) -> list[str]:
@@ -92,7 +96,8 @@ def _pages(app: Sphinx) -> Iterator[tuple[str, dict[str, Any], str]]:
     for file in sorted({line.file for line in lines}):
         source = (ROOT / file).read_text(encoding="utf-8")
         language = "coq" if file.endswith(".v") else "python"
-        body = app.builder.highlighter.highlight_block(
+        builder: Any = app.builder
+        body: str = builder.highlighter.highlight_block(
             source, language, force=True, linenos="inline", lineanchors="L"
         )
         yield _page(file), {"title": file, "body": f"<h1>{file}</h1>{body}"}, "page.html"

@@ -11,11 +11,14 @@ from functools import cache
 import pytest
 
 from tests.algorithms.test_listings import FILES, LINES, cited
+from tests.docs.test_site import part
 from tests.pages import ROOT
 from topo_verify.checkers import CLAIMS
 from topo_verify.proofs.catalogue import catalogue
 
 Row = tuple[str, ...]
+
+CODELINES = part("site/codelines.py")
 
 PAGE = (ROOT / "docs" / "explanation" / "paper.md").read_text(encoding="utf-8")
 
@@ -38,34 +41,17 @@ def source(path: str) -> str:
     return file.read_text(encoding="utf-8") if file.is_file() else ""
 
 
-def definition(path: str, name: str) -> ast.stmt | None:
-    """What a file defines by this dotted name: a function, class, method or constant."""
-    scope: list[ast.stmt] = ast.parse(source(path)).body
-    found = None
-    for part in name.split("."):
-        found = next((node for node in scope if part in names(node)), None)
-        scope = found.body if isinstance(found, ast.ClassDef) else []
-    return found
-
-
-def names(node: ast.stmt) -> list[str]:
-    """The names that a statement defines."""
-    match node:
-        case ast.FunctionDef(name=name) | ast.ClassDef(name=name):
-            return [name]
-        case ast.Assign(targets=targets):
-            return [target.id for target in targets if isinstance(target, ast.Name)]
-        case ast.AnnAssign(target=ast.Name(id=name)):
-            return [name]
-        case _:
-            return []
-
-
 def text_of(path: str, name: str) -> str:
     """The lines of what a file defines by this name."""
-    node = definition(path, name)
+    node = CODELINES.definition(source(path), name)
     assert node is not None, f"{path} has no {name}"
     return "\n".join(source(path).splitlines()[node.lineno - 1 : node.end_lineno])
+
+
+def found(name: str, folder: str) -> bool:
+    """Whether a file of the folder defines what this name on the page means."""
+    line = CODELINES.line_named(name)
+    return line is not None and line.file.startswith(folder)
 
 
 def lost(row: Row) -> list[str]:
@@ -73,24 +59,12 @@ def lost(row: Row) -> list[str]:
     _, _, code, claims, z3, coq, tests, _ = (re.findall(r"`([^`]+)`", cell) for cell in row)
     theorems = {theorem.name for theorem in catalogue()}
     return [
-        *(name for name in code if not _defined("topo_verify/", name)),
+        *(name for name in code if not found(name, "topo_verify/")),
         *(name for name in claims if name not in CLAIMS),
         *(name for name in z3 if name not in theorems),
-        *(name for name in coq if not _in_coq(name)),
-        *(name for name in tests if not _defined("tests/", name)),
+        *(name for name in coq if not found(name, "topo_verify/proofs/coq/")),
+        *(name for name in tests if not found(name, "tests/")),
     ]
-
-
-def _defined(folder: str, name: str) -> bool:
-    path, _, what = name.partition(":")
-    return definition(folder + path, what) is not None
-
-
-def _in_coq(name: str) -> bool:
-    file, _, theorem = name.partition(".")
-    kinds = "Theorem|Example|Lemma|Corollary|Definition|Fixpoint|Inductive|Record"
-    text = source(f"topo_verify/proofs/coq/{file}.v")
-    return re.search(rf"^\s*(?:{kinds}) {re.escape(theorem)}\b", text, re.MULTILINE) is not None
 
 
 def test_every_name_of_a_sentence_exists() -> None:
