@@ -12,7 +12,7 @@ from typing import Annotated
 from topo_verify.compiled.enumeration import next_world
 from topo_verify.compiled.exploration import explore
 from topo_verify.compiled.judging.layout import *
-from topo_verify.compiled.judging.verdict import is_world, judge
+from topo_verify.compiled.judging.verdict import judge
 from topo_verify.compiled.kernel import entry, kernel
 from topo_verify.compiled.names import Fields, Words, WordView, cursor
 from topo_verify.compiled.native import explore_native
@@ -237,33 +237,3 @@ def enter_open(case: CaseWords, control: ControlWords, table: TableWords, rows: 
     enter(case, control, table, wrong)
     control.row += 1
     return GO_ON if control.row < rows else close(control, table, rows)
-
-
-@entry
-def map_worlds(
-    run: RunWords, walk: WalkWords, case: CaseWords, rule: int, motion: int, check: int
-) -> int:
-    """The total cost of an algorithm in the worlds to come, untraced; -1: a map is wrong.
-
-    Args:
-        check: compare the delivered map with the world.
-    """
-    task = run.task
-    total = 0
-    task.rule = rule
-    task.motion = motion
-    task.tracing = 0
-    task.fault = 0
-    m = walk.darts // 2
-    while next_world(run.world, walk) >= 0:
-        task.budget = m * (walk.vertices + (2 * m - 1) * 2 * walk.vertices)
-        cost = explore(run)
-        if cost < 0:
-            return -1
-        total += cost
-        if check != 0:
-            case.darts = 2 * m
-            case.vertices = walk.vertices
-            if not is_world(run, case):
-                return -1
-    return total
