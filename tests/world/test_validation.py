@@ -39,6 +39,7 @@ NO_WORLDS: list[tuple[Rows, Rows, int | None, str]] = [
     ([[0, 1]], [[0, 1]], None, "marker None with 2 darts"),
     ([[]], [], 0, "the marker points at dart 0, which no vertex has"),
     ([[0, 1], [2, 3]], [[0, 1], [2, 3]], 0, "not connected"),
+    ([[30, 40], [10, 20]], [[10, 20], [30, 40]], 10, r"marker \(dart 10\) to dart 30;"),
 ]
 
 

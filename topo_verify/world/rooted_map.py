@@ -15,12 +15,12 @@ Source: docs/semantics.md, section 1; S. K. Lando and A. K. Zvonkin, "Graphs on 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import InitVar, dataclass, field, replace
 from functools import cached_property
 from os import PathLike
 from typing import Any, ClassVar, Literal, Protocol, Self, TypeVar
 
-from topo_verify.errors import InputError, map_size
+from topo_verify.errors import map_size
 from topo_verify.world import validation
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.least_cost import least_cost, proof_tour
@@ -53,6 +53,7 @@ class World:
         sigma: the next dart clockwise at the same vertex; a permutation.
         root: the dart that the marker points at; None iff m = 0 (one vertex).
         starts: the first dart of each vertex, in their order; default: the least darts, ascending.
+        given: what errors call the darts; default: their numbers.
         name, vertex_names, positions, source, licence: not compared; positions have y upwards.
     Raises:
         InputError: the arguments do not make one connected map with a marker; names the dart.
@@ -66,21 +67,17 @@ class World:
     sigma: tuple[Dart, ...]
     root: Dart | None
     starts: tuple[Dart, ...] = field(default=(), kw_only=True)
+    given: InitVar[Sequence[int]] = field(default=(), kw_only=True)
     name: str = field(default="", kw_only=True)
     vertex_names: tuple[str, ...] = field(default=(), kw_only=True)
     positions: tuple[tuple[float, float], ...] = field(default=(), kw_only=True)
     source: str = field(default="", kw_only=True)
     licence: str = field(default="", kw_only=True)
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, given: Sequence[int]) -> None:
         vars(self).update(alpha=tuple(self.alpha), sigma=tuple(self.sigma))
         validation.require_permutations(self.alpha, self.sigma, self.root)
-        if len(self.discovery[0]) != len(self.alpha):
-            lost = min(set(range(len(self.alpha))) - set(self.discovery[0]))
-            raise InputError(
-                f"the world is not connected: no way leads from the marker (dart {self.root}) to"
-                f" dart {lost}; give one world a file, or join the parts"
-            )
+        validation.require_connected(self.discovery[0], given or range(len(self.alpha)))
         if self.vertex_names or self.positions:
             validation.require_one_each(len(self.vertices), self.vertex_names, self.positions)
 
@@ -118,6 +115,7 @@ class World:
             tuple(sigma),
             None if marker is None else number[marker],
             starts=tuple(number[rotation[0]] for rotation in rotations if rotation),
+            given=tuple(number),  # ascending
             **about,
         )
 

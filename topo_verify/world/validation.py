@@ -69,6 +69,16 @@ def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int |
     )
 
 
+def require_connected(reached: Sequence[int], given: Sequence[int]) -> None:
+    """Refuse darts that the marker, which is reached first, does not lead to."""
+    if len(reached) != len(given):
+        lost = min(set(range(len(given))) - set(reached))
+        raise InputError(
+            f"the world is not connected: no way leads from the marker (dart {given[reached[0]]})"
+            f" to dart {given[lost]}; give one world a file, or join the parts"
+        )
+
+
 def require_one_each(
     vertices: int, names: Sequence[str], positions: Sequence[Sequence[float]]
 ) -> None:
