@@ -321,7 +321,7 @@ def test_the_fixtures_give_a_robot_and_a_report(session: Session) -> None:
             robot = topo_robot("m2/9")
             assert (robot.percept.degree, robot.move(3).marker) == (4, 0)
             assert robot.cost == 1
-            assert topo_robot(tv.World.from_id("m1/0"), budget=1).percept.degree == 1
+            assert topo_robot(tv.World.from_id("m1/0"), 1).percept.degree == 1
 
         def test_examine(topo_examine) -> None:
             assert topo_examine("basic", "nyc").world == "nyc"

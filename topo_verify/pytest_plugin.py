@@ -388,7 +388,7 @@ def topo_robot() -> Callable[..., SimulatedRobot]:
     moves, is the bound of claim 7. The robot has `percept`, `move`, `declare`, `cost` and `events`.
     """
 
-    def robot(world: World | str, *, budget: int | None = None) -> SimulatedRobot:
+    def robot(world: World | str, budget: int | None = None) -> SimulatedRobot:
         from topo_verify.robot.simulator import SimulatedRobot
 
         there = _world(world)

@@ -321,7 +321,9 @@ def test_on_request_a_run_ends_at_its_first_false_augmentation() -> None:
 
     run = explore(WORLD, guess, stop_if_false=True)
     assert (run.trace[1:], run.cost, run.limit) == ((true, false), 0, None)
-    assert run.stopped == "its 'augment' at event 2 is false, so the run ended there"
+    assert (
+        run.stopped == "its 'augment' at event 2 is false: the run ended there (a replay goes on)"
+    )
     assert explore(WORLD, guess).limit == "budget"
     for algorithm in ("basic", "folding"):
         assert explore(WORLD, algorithm, stop_if_false=True) == explore(WORLD, algorithm)

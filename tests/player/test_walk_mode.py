@@ -45,6 +45,8 @@ def follow(page: Page, events: tuple[Event, ...]) -> None:
 
 def test_who_walks_as_a_sound_mapper_does_has_proved_the_map(show: Open, text: str) -> None:
     page = show(text, at="#walk")
+    page.wait_for_timeout(200)  # the player writes its step after 120 ms, but not while one walks
+    assert page.url.endswith("#walk")
     follow(page, explore(WORLD, "enhancement-ii").trace)
     assert said(page) == "Nothing on your map is unexplored"
     page.keyboard.press("Enter")

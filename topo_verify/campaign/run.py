@@ -263,7 +263,10 @@ def _objection(world: World) -> Callable[[int, Decision], str]:
 
     def objection(when: int, event: Decision) -> str:
         is_false = isinstance(event, Augment) and not true_map.grow(when, event)
-        return f"its 'augment' at event {when} is false, so the run ended there" * is_false
+        return (
+            f"its 'augment' at event {when} is false: the run ended there (a replay goes on)"
+            * is_false
+        )
 
     return objection
 

@@ -8,6 +8,15 @@ const SVG = 'http://www.w3.org/2000/svg';
 const byId = (id) => document.getElementById(id);
 
 /** A new SVG element with these attributes, inside `parent`; text stays text. */
+/** Write this part of the address, without a step in the history. */
+function address(hash) {
+  try {
+    history.replaceState(null, '', hash);
+  } catch {
+    /* a page inside a frame cannot change its address */
+  }
+}
+
 function draw(name, attributes, parent, text) {
   const element = document.createElementNS(SVG, name);
   for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);

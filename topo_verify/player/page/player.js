@@ -196,13 +196,7 @@ class Player {
   /** Keep the step in the address, once it rests: browsers allow few changes a second. */
   address() {
     clearTimeout(this.resting);
-    this.resting = setTimeout(() => {
-      try {
-        history.replaceState(null, '', `#step=${this.tick}`);
-      } catch {
-        /* a page inside a frame cannot change its address */
-      }
-    }, 120);
+    this.resting = setTimeout(() => byId('walk') ?? address(`#step=${this.tick}`), 120);
   }
 
   step(by) {
@@ -411,14 +405,13 @@ class Player {
       const span = html('span', '', key);
       if (className) html('i', className, span);
       span.append(`${name} `);
-      if (!value) return;
       const b = html('b', '', span);
       this.cells.push(() => (b.textContent = value()));
     };
     const one = runs.length === 1;
     const used = PURPOSES.filter((_, k) => runs.some((run) => run.costs[k].at(-1)));
     const alone = used.length === 1 && used[0] === 'other' ? used.pop() : '';
-    for (const name of used) cell(name, PURPOSE_NAMES[name], one && (() => runs[0].costs[PURPOSES.indexOf(name)][this.at(0)]));
+    for (const name of used) cell(name, PURPOSE_NAMES[name], () => runs.map((run, index) => run.costs[PURPOSES.indexOf(name)][this.at(index)]).join(' : '));
     if (one) cell(alone, 'moves', () => `${runs[0].costOf(this.at(0))} of ${runs[0].cost}`);
     else runs.forEach((run, index) => cell('', run.name, () => `${run.costOf(this.at(index))} of ${run.cost} moves`));
     if (this.recording.least_cost) cell('least', 'least', () => this.recording.least_cost);

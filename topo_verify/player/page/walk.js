@@ -35,12 +35,15 @@ class WalkMode {
     for (const one of this.outside) one.inert = true;
     this.section ??= this.frame();
     document.body.append(this.section);
+    this.before = location.hash;
+    address('#walk'); // so that a reload does not show the world
     if (!this.section.classList.contains('begun')) this.choose(world);
     this.section.classList.add('begun');
   }
 
   close() {
     this.section.remove();
+    address(this.before);
     for (const one of this.outside) one.inert = false;
     byId('walk-it').focus();
   }
