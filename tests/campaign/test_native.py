@@ -90,7 +90,8 @@ def test_a_note_names_the_world_of_an_endless_loop_once(tmp_path: Path) -> None:
     study = Search(campaign, mappers, pooled(1, note=notes.append))
     study.work()
     (note,) = notes
-    assert note.startswith("m2/7: the mapper gave no sign of life for ")
+    assert note.startswith("m2/7: no result of the mapper for ")
+    assert note.endswith(" before the verdict (--move-timeout 1 waits less)")
 
 
 def test_a_limit_of_a_move_is_taken_and_one_of_a_whole_run_is_refused(tmp_path: Path) -> None:

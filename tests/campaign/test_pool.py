@@ -31,7 +31,13 @@ from topo_verify.programs.launcher import prepare
 from topo_verify.programs.loaded import Loaded
 from topo_verify.robot.stopwatch import tasks_of
 from topo_verify.studies.search import again
-from topo_verify.studies.search.search import LostWorker, SearchEntry, search, search_campaign
+from topo_verify.studies.search.search import (
+    LostWorker,
+    Search,
+    SearchEntry,
+    search,
+    search_campaign,
+)
 from topo_verify.world.enumeration.classes import WorldClass
 
 SHORT = Limits(move_timeout=0.2, world_timeout=0.5)
@@ -254,6 +260,17 @@ def test_a_mapper_that_loops_ends_at_its_time_limit() -> None:
     assert json(once) == json(twice)
     assert found.counterexample is not None
     assert "did not move for 0.8 s" in found.counterexample.message
+
+
+def test_a_note_names_the_world_of_a_mapper_that_loops_and_advises_nothing_given() -> None:
+    mappers, notes = targets("mappers.py:loops"), list[str]()
+    campaign = search_campaign(mappers, edges=3, limits=Limits(move_timeout=1))
+    study = Search(campaign, mappers, backend.pooled(1, note=notes.append))
+    study.work()
+    (first,) = study.failing
+    (note,) = notes
+    assert note.startswith(f"{first.world}: no result of the mapper for ")
+    assert note.endswith("more than once, before the verdict")
 
 
 IDLES = """

@@ -136,6 +136,14 @@ def test_ctrl_c_exits_3_and_prints_what_is_done(folder: Path) -> None:
     assert error.startswith(f"topo-verify: interrupted after {entry['checked']} of 8,954 worlds")
 
 
+def test_a_world_of_an_endless_loop_is_run_three_times(folder: Path, call: Call) -> None:
+    text = "def f(robot):\n    print(file=open('runs', 'a'))\n    while True:\n        pass\n"
+    (folder / "loop.py").write_text(text)
+    result = call("search loop.py:f --edges 1 --workers 1 --move-timeout 1")
+    assert "The walk of loop.py:f in m1/0:" in result.stdout
+    assert (folder / "runs").read_text() == 3 * "\n"  # two tries, and one for the walk
+
+
 def test_every_choice_shows_the_range_of_the_costs(results: Results, call: Call) -> None:
     line = "search basic --edges 2 --workers 0 --policies every --worst"
     (entry,) = results(line)["results"]

@@ -33,7 +33,7 @@ from topo_verify.campaign.row import SECOND_TRY, Row
 from topo_verify.campaign.run import on_engine
 from topo_verify.campaign.tally import Counts, Tally, notable
 from topo_verify.campaign.work import Division, Loss, Remote, Work
-from topo_verify.campaign.worker import Beat, Handler
+from topo_verify.campaign.worker import Beat, Handler, WorkerProcess
 from topo_verify.errors import InputError
 from topo_verify.programs.foreign import Unlisted
 from topo_verify.programs.library import LIBRARY
@@ -101,7 +101,7 @@ def pooled(
     """The backend of worker processes; 0: this process.
 
     The compiled engine always calls native mappers in a worker. `note` receives a sentence on
-    each world where one hangs.
+    each world where a mapper may hang.
     """
 
     def run(
@@ -113,8 +113,10 @@ def pooled(
             return
         work = _work(_job(campaign, depends))
         _prepare(campaign)
-        hung = partial(_note_hung, note) if native and note is not None else None
-        with Pool(work, max(1, workers), in_flight=in_flight, hung=hung) as pool:
+        watched = None
+        if note is not None and (native or (campaign.engine, campaign.ways) == ("reference", None)):
+            watched = partial(_note_slow, campaign, note, set())
+        with Pool(work, max(1, workers), in_flight=in_flight, watched=watched) as pool:
             for shard, result in pool.run(shards):
                 yield shard, _with_our_memory(work, shard, result)
 
@@ -410,17 +412,34 @@ def _row_at(
     return lost_row(world, place, name, mapper, campaign.limits, cause, external=external)
 
 
-def _rank(shard: c.Shard, loss: Loss) -> int:
-    """The rank at which native code was lost."""
-    return shard.start + max(0, min(loss.items, shard.stop - shard.start - 1))
+def _lost_at(campaign: c.Campaign, shard: c.Shard, items: int) -> tuple[c.Shard, int]:
+    """Where a worker was after `items` items: native code counts ranks, not runs."""
+    if not calls_native(campaign):
+        return shard, items
+    rank = shard.start + max(0, min(items, shard.stop - shard.start - 1))
+    return c.Shard(shard.edges, rank, rank + 1), 0
 
 
-def _note_hung(note: Callable[[str], None], shard: c.Shard, loss: Loss) -> None:
-    if shard.stop - shard.start > 1:  # else it was cut out, and is named already
+def _note_slow(
+    campaign: c.Campaign,
+    note: Callable[[str], None],
+    noted: set[tuple[int, int]],
+    shard: c.Shard,
+    worker: WorkerProcess,
+    silence: float,
+) -> None:
+    """Name each world, once, in which a mapper takes half as long as it may without a move."""
+    limit, place = campaign.limits.move_timeout, (shard.edges, shard.start + worker.items)
+    waits = worker.due if calls_native(campaign) else worker.beats
+    if place in noted or not waits or silence < limit / 2:
+        return
+    noted.add(place)
+    row = _row_at(campaign, *_lost_at(campaign, shard, worker.items), "", external=True)
+    if row is not None:
+        less = " (--move-timeout 1 waits less)" if limit > 1 else ""
         note(
-            f"m{shard.edges}/{_rank(shard, loss)}: the mapper gave no sign of life for"
-            f" {loss.silence:.0f} s; the world is run again alone, more than once"
-            " (--move-timeout 1 waits less)"
+            f"{row.world}: no result of the mapper for {silence:.1f} s; if it hangs, it is run"
+            f" there again, more than once, before the verdict{less}"
         )
 
 
@@ -433,14 +452,11 @@ def _survived(
     """The result of a shard, with the losses in runs that passed later."""
     for shard, loss in losses:
         cause = loss.cause if loss.maybe_external else f"{loss}{SECOND_TRY}"
-        external, at, items = loss.maybe_external, shard, loss.items
-        if calls_native(campaign):
-            external, items = True, 0
-            rank = _rank(shard, loss)
-            at = c.Shard(shard.edges, rank, rank + 1)
-            if any(shard.start <= part.start < shard.stop for part in given_up):
-                continue
-        row = _row_at(campaign, at, items, cause, external=external)
+        native = calls_native(campaign)
+        if native and any(shard.start <= part.start < shard.stop for part in given_up):
+            continue
+        at, external = _lost_at(campaign, shard, loss.items), native or loss.maybe_external
+        row = _row_at(campaign, *at, cause, external=external)
         failing = [known.place for known in result.rows if known.failed]
         if (
             row is None

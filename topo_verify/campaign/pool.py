@@ -39,7 +39,8 @@ class Pool(Generic[TaskT, ResultT]):
 
     Args:
         in_flight: receives, from time to time, the number of items done in unfinished tasks.
-        hung: receives each task whose worker is given up because it hangs, with the loss.
+        watched: receives, several times a second, each task with its worker and the seconds since
+            the worker's last heartbeat.
         folder: where workers are started; default: the current folder.
     Raises (by `run`):
         InputError: a worker refuses its input, or another process speaks for it.
@@ -52,11 +53,11 @@ class Pool(Generic[TaskT, ResultT]):
         size: int,
         *,
         in_flight: Callable[[int], None] | None = None,
-        hung: Callable[[TaskT, Loss], None] | None = None,
+        watched: Callable[[TaskT, WorkerProcess, float], None] | None = None,
         folder: str | None = None,
     ) -> None:
         self._work, self._size, self._in_flight, self._folder = work, size, in_flight, folder
-        self._hung = hung
+        self._watched = watched
         self._workers: list[WorkerProcess] = []
         self._at: dict[WorkerProcess, Piece[TaskT, ResultT]] = {}
         self._pieces = Pieces(work)
@@ -110,6 +111,8 @@ class Pool(Generic[TaskT, ResultT]):
                 self._hear(key.data)
         for worker in tuple(self._at):
             silence = worker.silence()
+            if self._watched is not None:
+                self._watched(self._at[worker].task, worker, silence)
             limit = self._work.silence if worker.ready else self._work.loading
             if silence > (worker.due or limit):
                 self._lose(worker, silence)
@@ -139,8 +142,6 @@ class Pool(Generic[TaskT, ResultT]):
         if piece is None:  # it was idle, so no task is to blame
             return
         loss = Loss(status, silence, loading=not worker.ready, items=worker.items)
-        if silence is not None and self._hung is not None:
-            self._hung(piece.task, loss)
         piece.deaths += 1
         if worker.ready:
             piece.whole.losses.append((piece.task, loss))

@@ -154,7 +154,7 @@ class WorkerProcess:
     """A worker, as its parent sees it; `serve` and `job` are as in `Work`.
 
     Attributes:
-        items: finished items of its task at its last heartbeat.
+        items, beats: finished items of its task at its last heartbeat, and heartbeats so far.
         due: seconds until its next heartbeat is due; 0: as usual.
     """
 
@@ -167,7 +167,7 @@ class WorkerProcess:
         self.ready = False
         self.items: int = 0
         self.due: float = 0.0
-        self._beats: int = 0
+        self.beats: int = 0
         self._since_beat = self._stopwatch()
         self._rest = b""
         self._grace = 0.0
@@ -204,8 +204,8 @@ class WorkerProcess:
     def silence(self) -> float:
         """Seconds since its last heartbeat, not counting waits for a processor."""
         items, beats, self.due = self.heartbeat.read()
-        if beats != self._beats:
-            self.items, self._beats, self._since_beat = items, beats, self._stopwatch()
+        if beats != self.beats:
+            self.items, self.beats, self._since_beat = items, beats, self._stopwatch()
         return self._since_beat.seconds()
 
     def _stopwatch(self) -> Stopwatch:

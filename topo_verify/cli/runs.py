@@ -17,8 +17,15 @@ from pathlib import Path
 import msgspec
 
 from topo_verify.campaign.attempt import attempt
-from topo_verify.campaign.judge import Report, in_words, replay_line, strict_option, undecided
-from topo_verify.campaign.run import Exploration
+from topo_verify.campaign.judge import (
+    Report,
+    in_words,
+    judge,
+    replay_line,
+    strict_option,
+    undecided,
+)
+from topo_verify.campaign.run import Exploration, explore
 from topo_verify.checkers import CLAIMS, Finding, Judgement, Status
 from topo_verify.checkers.claims import LARGE
 from topo_verify.errors import InputError, plural
@@ -335,9 +342,9 @@ class FoundRuns:
             return
 
         def once(target: Target, _there: World) -> Iterator[Report]:
-            run, report, _ = judged(target, NamedWorld(there, world), limits)
+            run = explore(there, target, limits=limits)
             self._late = run.limit in ("move-timeout", "world-timeout")
-            yield report
+            yield judge(run, where=world, options=limits.options)
 
         if len(self._exhibits) < self._most and not self._late:
             for target in targets:

@@ -1,8 +1,9 @@
 """Runs worlds again, alone and in another order: does the mapper remember earlier worlds?
 
-The counterexample (`REPEATS` times; once if it was out of time), up to `SAMPLE` more failing worlds
-and `SAMPLE` others, drawn by a seed, are run again, each in a fresh process. If none fails, one
-process runs `ROW` worlds in a shuffled order.
+The counterexample (`REPEATS` times; once if it was out of time, and not if the search tried it
+in a fresh process then), up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed,
+are run again, each in a fresh process. If none fails, one process runs `ROW` worlds in a shuffled
+order.
 
     a failing world passes alone    `not-deterministic`
     another world fails alone       `not-deterministic`, too; likewise in the row
@@ -145,6 +146,8 @@ def _drawn(rows: Sequence[Row], campaign: c.Campaign) -> list[Row]:
     """The counterexample, then the sample, without worlds known to vary."""
     rows = [row for row in rows if not row.by_chance]
     first = [row for row in rows if row.failed][:1]
+    if not campaign.in_process:
+        first = [row for row in first if not row.timed_out]
     drawn = sorted(
         (row for row in rows if not row.timed_out),
         key=lambda row: sample_key(campaign.seed, row.world),
