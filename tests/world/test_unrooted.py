@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import pytest
 
 import topo_verify as tv
 from topo_verify import families
+from topo_verify.errors import InputError
 from topo_verify.world.enumeration.classes import WorldClass
-from topo_verify.world.unrooted import automorphisms, ranks, unrooted_count, unrooted_id
+from topo_verify.world.unrooted import (
+    automorphisms,
+    ranks,
+    same_unrooted,
+    unrooted_count,
+    unrooted_id,
+)
 
 
 def test_the_formula_gives_the_published_numbers() -> None:
@@ -58,6 +67,22 @@ def test_worlds_have_one_unrooted_id_iff_they_differ_in_the_marker_alone() -> No
     for world in worlds[::50]:
         assert {unrooted_id(world.with_marker(dart)) for dart in range(8)} == {unrooted_id(world)}
     assert unrooted_id(tv.World((), (), None)) == "m0/0"
+
+
+def test_worlds_are_the_same_unrooted_map_iff_their_unrooted_ids_are_equal() -> None:
+    worlds = [*tv.worlds(3), *tv.worlds(1), tv.World((), (), None)]
+    ids = [(world, unrooted_id(world)) for world in worlds]
+    for (world, text), (other, other_text) in product(ids, repeat=2):
+        assert same_unrooted(world, other) == (text == other_text)
+
+
+def test_large_worlds_without_their_marker_are_compared_but_have_no_id() -> None:
+    world = families.random_planar(5000, seed=1)
+    assert automorphisms(world) == 1
+    assert same_unrooted(world, world.with_marker(4321).renumbered(range(9999, -1, -1)))
+    assert not same_unrooted(world, world.mirror())
+    with pytest.raises(InputError, match="a world with 5000 edges has no id"):
+        unrooted_id(world)
 
 
 @pytest.mark.parametrize(

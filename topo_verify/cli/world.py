@@ -112,7 +112,11 @@ def show(
     model: MarkerModel | None,
     file: str | None,
 ) -> int:
-    """Show a world: its size, genus, degrees, id and rotation."""
+    """Show a world: its size, genus, degrees, id and rotation.
+
+    Two worlds are the same unrooted map iff `unrooted` is the same id; to compare worlds of over
+    200 edges: topo_verify.world.unrooted.same_unrooted, in Python.
+    """
     if file is not None and (model is None or len(worlds) > 1 or not file.endswith(".svg")):
         raise InputError(
             f"-o {file}: expected --twin MODEL, one WORLD, and a name that ends in .svg"
