@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -114,7 +114,7 @@ def test_several_algorithms_that_fail_are_counted_as_the_checkers_count_them(
         start = msgspec.structs.replace(start, policies=None)  # those of a seeded fault are unknown
         return replace(run, trace=(start, *events))
 
-    monkeypatch.setattr(engine, "examine_steps", partial(engine.examine_steps, faults=WRONG))
+    monkeypatch.setattr(engine, "CompiledRange", partial(engine.CompiledRange, faults=WRONG))
     monkeypatch.setattr(shards, "SAMPLE", 10)
     monkeypatch.setattr(shards, "explore", planted)
     wrong = campaign(",".join(WRONG), edges, keep_going=keep_going)
@@ -152,12 +152,12 @@ def judged_again(asked: Campaign, monkeypatch: pytest.MonkeyPatch) -> set[int]:
 
 def lying(monkeypatch: pytest.MonkeyPatch, change: Callable[[Snapshot], Snapshot]) -> None:
     """The engine reports other counts from now on."""
-    examine = engine.examine_steps
+    examine = engine.CompiledRange.examine
 
-    def lies(*arguments: Any, **options: Any) -> Iterator[Snapshot]:
-        return map(change, examine(*arguments, **options))
+    def lies(examined: engine.CompiledRange, steps: Iterable[int]) -> Iterator[Snapshot]:
+        return map(change, examine(examined, steps))
 
-    monkeypatch.setattr(engine, "examine_steps", lies)
+    monkeypatch.setattr(engine.CompiledRange, "examine", lies)
 
 
 def changed(end: Snapshot, **fields: Any) -> Snapshot:

@@ -350,21 +350,19 @@ class _Disagreement(InternalError):
 def _snapshots(
     campaign: c.Campaign, ranks: c.Shard, calls: NativeCalls | None = None
 ) -> list[Snapshot]:
-    from topo_verify.campaign.compiled_shard import examine_steps
+    from topo_verify.campaign.compiled_shard import CompiledRange
 
     assert isinstance(campaign.worlds, c.Ranks)
-    return [
-        *examine_steps(
-            campaign.mappers,
-            ranks.edges,
-            campaign.worlds.kind,
-            ranks.start,
-            ranks.stop,
-            steps=_steps(campaign, ranks),
-            stop_at_first=campaign.stop.failing is not None,
-            calls=calls,
-        )
-    ]
+    examined = CompiledRange(
+        campaign.mappers,
+        ranks.edges,
+        campaign.worlds.kind,
+        ranks.start,
+        ranks.stop,
+        stop_at_first=campaign.stop.failing is not None,
+        calls=calls,
+    )
+    return list(examined.examine(_steps(campaign, ranks)))
 
 
 def _steps(campaign: c.Campaign, ranks: c.Shard) -> Iterator[int]:

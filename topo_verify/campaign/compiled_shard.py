@@ -104,8 +104,7 @@ def examine_range(  # noqa: PLR0913  all that is asked of the engine
         InputError: numba is missing, no such algorithm or fault, too many edges, or a faulty
             mapper needs too much room.
     """
-    require("the compiled engine")
-    shard = _Shard(
+    shard = CompiledRange(
         algorithms, edges, kind, start, stop, claims, stop_at_first=stop_at_first, faults=faults
     )
     shard.space[shard.layout.at("task.room")] = min(room, ws.TRACE)
@@ -113,38 +112,13 @@ def examine_range(  # noqa: PLR0913  all that is asked of the engine
     return end
 
 
-def examine_steps(  # noqa: PLR0913  all that is asked of the engine
-    algorithms: Sequence[str],
-    edges: int,
-    kind: str,
-    start: int,
-    stop: int,
-    *,
-    steps: Iterable[int],
-    stop_at_first: bool = False,
-    faults: Mapping[str, str] | None = None,
-    calls: NativeCalls | None = None,
-) -> Iterator[Snapshot]:
-    """`examine_range`, with a snapshot after each step; `steps` are numbers of worlds.
+class CompiledRange:
+    """Algorithms in a range of worlds; the arguments are those of `examine_range`.
 
     A native mapper, `calls`, has the only one of the names.
     """
-    require("the compiled engine")
-    shard = _Shard(
-        algorithms,
-        edges,
-        kind,
-        start,
-        stop,
-        stop_at_first=stop_at_first,
-        faults=faults,
-        calls=calls,
-    )
-    return shard.examine(steps)
 
-
-class _Shard:
-    def __init__(  # noqa: PLR0913  as `examine_steps`
+    def __init__(  # noqa: PLR0913  all that is asked of the engine
         self,
         algorithms: Sequence[str],
         edges: int,
@@ -153,10 +127,11 @@ class _Shard:
         stop: int | None,
         claims: int = ALL_CLAIMS,
         *,
-        stop_at_first: bool,
-        faults: Mapping[str, str] | None,
+        stop_at_first: bool = False,
+        faults: Mapping[str, str] | None = None,
         calls: NativeCalls | None = None,
     ) -> None:
+        require("the compiled engine")
         import numpy as np
 
         if claims not in (8, 9, 10):
@@ -195,6 +170,7 @@ class _Shard:
         return (0, name) if fault is None else PLANTED[fault]
 
     def examine(self, steps: Iterable[int]) -> Iterator[Snapshot]:
+        """A snapshot after each step, which is a number of worlds, and one at the end."""
         for step in chain(steps, (0,)):
             self.walk.pause = step
             if self._walk() != tally.PAUSED:

@@ -229,8 +229,6 @@ def ranked_tables(
     kind: WorldClass | None = None,
     start: int = 0,
     stop: int | None = None,
-    *,
-    layout: WordLayout = SMALL,
 ) -> Iterator[tuple[int, rank_order.Table]]:
     """The rank and the table of each world of a class, as `pruned.ranked_tables` gives them.
 
@@ -239,9 +237,9 @@ def ranked_tables(
     """
     import numpy as np
 
-    walk, space = prepare(edges, kind, start, stop), np.zeros(layout.at("SIZE"), np.int64)
+    walk, space = prepare(edges, kind, start, stop), np.zeros(SMALL.at("SIZE"), np.int64)
     rows = np.zeros((1024, 2 + edges + 1 + 2 * edges), np.int64)
-    following = compiled(list_worlds, layout)
+    following = compiled(list_worlds, SMALL)
     while listed := following(space, walk, rows, len(rows)):
         for rank, vertices, *table in rows[:listed].tolist():
             degrees, alpha = table[:vertices], table[vertices : vertices + 2 * edges]

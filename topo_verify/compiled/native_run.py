@@ -2,7 +2,7 @@
 
     calls = NativeCalls(address, beats)
     calls.run(world)                            # -> CompiledRun, ...: of one world
-    examine_steps(..., calls=calls)             # of a range of worlds
+    CompiledRange(..., calls=calls)             # of a range of worlds
 
 Each row ends at a page without access and begins behind a fence; the robot is read-only. The system
 ends a mapper that runs over a row's end; the kernels (native.py) end one that writes before it or

@@ -33,7 +33,6 @@ class KernelFound(NamedTuple):
     Attributes:
         wrong: what is wrong in some state, as a number of `kernel.py`; 0: nothing.
         cheap, dear: runs with the least and the highest cost.
-        maps: the number of S.
     """
 
     wrong: int
@@ -43,7 +42,6 @@ class KernelFound(NamedTuple):
     dearest: int
     cheap: RunOrder
     dear: RunOrder
-    maps: int
 
 
 def is_known(algorithm: Algorithm) -> bool:
@@ -76,13 +74,13 @@ def found_in(
     for vertex, rotation in enumerate(world.vertices):
         table[3, vertex], table[4, vertex] = rotation[0], len(rotation)
     tables.search(size, RULES.index(algorithm.rule), overlap=algorithm.motion is overlap)
-    wrong, states, choices, least, most, maps = (int(tables.found[place]) for place in range(6))
+    wrong, states, choices, least, most = map(int, tables.found[:5])
     from topo_verify.studies.search.states.kernel import FULL
 
     if wrong == FULL:
         raise InternalError(f"{world.text} has too many states for the kernel")
     cheap, dear = ((), ()) if wrong else (tables.order(0), tables.order(1))
-    return KernelFound(wrong, states, choices, least, most, cheap, dear, maps)
+    return KernelFound(wrong, states, choices, least, most, cheap, dear)
 
 
 @cache
