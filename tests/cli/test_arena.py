@@ -336,7 +336,14 @@ def test_a_program_takes_part_over_the_pipe_and_pays_what_its_twin_pays(results:
 def test_what_is_not_decided_has_no_place_and_exits_3(call: Call) -> None:
     done = call("arena basic mappers.py:loops --suite triangle --world-timeout 0.02 --workers 0")
     assert done.exit_code == 3
-    assert "mappers.py:loops has no place in triangle: 1 world of 1 not decided" in done.stdout
+    text = " ".join(done.stdout.split())
+    assert (
+        "mappers.py:loops has no place in triangle: 1 world of 1 not decided (--world-timeout)"
+    ) in text
+    line = "arena mappers.py:loops gone.py:explore --suite triangle --world-timeout 0.02"
+    call(f"{line} --workers 0 --out there")
+    words = "1 of 2 mappers cannot be loaded; 1 of 2 mappers out of time"
+    assert words in Path("there/report.html").read_text()
     assert "family:cycle(3): the mapper was stopped after 0.02 s in this world\n" in done.stdout
 
 

@@ -326,8 +326,9 @@ def _account(
         verdict = "REFUTED"
         unloaded = sum(not example.world for example in broken.values())
         wrong = len(broken) - over - unloaded
-        kinds = (wrong, "break a claim"), (over, "are over budget"), (unloaded, "cannot be loaded")
-        for number, what in kinds:
+        late = {e.name for e in table if e.undecided} - broken.keys()
+        kinds = [(wrong, "break a claim"), (over, "are over budget")]
+        for number, what in (*kinds, (unloaded, "cannot be loaded"), (len(late), "out of time")):
             words += [acc.counted(number, len(mappers), f"mappers {what}")] if number else []
     else:
         words.append(acc.counted(runs, planned, "runs"))

@@ -116,7 +116,11 @@ def suite_blocks(suite: Suite, table: Sequence[lg.LeagueEntry]) -> Iterator[Bloc
             worlds = plural(entry.undecided, "world")
             why = [
                 *([f"{missing} of {entry.total} worlds not played{late}"] if missing else ()),
-                *([f"{worlds} of {entry.total} not decided"] if entry.undecided else ()),
+                *(
+                    [f"{worlds} of {entry.total} not decided (--world-timeout)"]
+                    if entry.undecided
+                    else ()
+                ),
             ]
             yield Text("")
             yield Text(f"{entry.name} has no place in {suite.name}: {', '.join(why)}")
