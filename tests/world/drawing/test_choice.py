@@ -10,9 +10,10 @@ import pytest
 from tests.python import python
 from tests.world.drawing.pictures import drawn
 from topo_verify.world import families
-from topo_verify.world.drawing import choice, lay_out, read_back, to_svg
+from topo_verify.world.drawing import choice, curves, lay_out, read_back, to_svg
 from topo_verify.world.drawing.layout import Layout, Sketch, fitted
 from topo_verify.world.drawing.straight import given
+from topo_verify.world.drawing.svg import leaving
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
@@ -74,17 +75,40 @@ def test_thirty_parallel_edges_and_their_loops_are_drawn_true() -> None:
     assert drawn(parallel).kind == "planar"
 
 
-def test_k7_lies_flat_on_the_torus() -> None:
+def _k7() -> World:
     """The neighbours of i are i + 1, 3, 2, 6, 4, 5 in turn: seven vertices, fourteen triangles."""
     around = (1, 3, 2, 6, 4, 5)
     dart = {(i, (i + k) % 7): 6 * i + place for i in range(7) for place, k in enumerate(around)}
     rotations = [[dart[i, (i + k) % 7] for k in around] for i in range(7)]
     edges = [(dart[i, j], dart[j, i]) for i, j in dart if i < j]
-    world = World.from_rotations(rotations, edges, 0)
+    return World.from_rotations(rotations, edges, 0)
+
+
+def test_k7_lies_flat_on_the_torus() -> None:
+    world = _k7()
     assert (world.genus, len(world.faces)) == (1, 14)
     layout = drawn(world)
     assert layout.kind == "cell"
     assert any(len(parts) > 1 for parts in layout.paths)
+
+
+@pytest.mark.parametrize(
+    "world",
+    [
+        families.hexagonal_torus(2, 3),
+        families.triangular_torus(3, 3),
+        families.torus(3, 4),
+        _k7(),
+        _k7().dual(),
+    ],
+)
+def test_the_seam_of_a_torus_leaves_room_for_the_marker_and_for_the_numbers(world: World) -> None:
+    layout = drawn(world)
+    lengths = {dart: curves.length(line) for dart, line in leaving(world, layout).items()}
+    assert layout.kind == "cell"
+    assert world.root is not None
+    assert lengths[world.root] > 2.5 * layout.radius
+    assert min(lengths.values()) > 0.75 * layout.radius
 
 
 def test_an_edge_that_comes_back_elsewhere_in_a_cell_is_seen() -> None:

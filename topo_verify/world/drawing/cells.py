@@ -14,7 +14,8 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise, product
 from math import cos, pi, sin
 
@@ -47,11 +48,14 @@ def torus_cell(world: World) -> Layout | None:
     """The layout of a regular map of the torus, or None."""
     if world.genus != 1 or len(set(world.degrees)) > 1 or len(set(map(len, world.faces))) > 1:
         return None
-    torus = _shifted(_flat(world))
+    torus = _flat(world)
+    lengths = np.hypot(*(torus.steps @ torus.sides).T)
+    # the marker needs more of its edge before a seam than a number does
+    spans = lengths * np.where(np.arange(len(lengths)) == world.root, 0.35, 0.7)
+    torus = _shifted(torus, spans)
     square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
     low, high = (square @ torus.sides).min(0), (square @ torus.sides).max(0)
-    lengths = np.hypot(*(torus.steps @ torus.sides).T)
-    radius = min(0.17 * float(lengths.min()), 0.8 * _to_border(torus))
+    radius = min(0.17 * float(lengths.min()), 0.8 * _to_border(torus, spans))
     scale = RADIUS / radius
     margin = MARGIN * RADIUS
 
@@ -182,25 +186,32 @@ def _reduced(sides: Floats) -> Floats:
     return np.array([b, a])
 
 
-def _shifted(torus: _Torus) -> _Torus:
+def _shifted(torus: _Torus, spans: Floats) -> _Torus:
+    """The cell whose seams keep farthest from vertices and from the beginnings of darts."""
     candidates: list[list[float]] = []
     for k in (0, 1):
         row: list[float] = sorted(set((torus.places[:, k] % 1).round(6).tolist()))
-        gaps = [b - a for a, b in pairwise([*row, row[0] + 1])]
-        widest = [j for j, gap in enumerate(gaps) if gap > max(gaps) - 1e-3][:2]
-        shares = (0.5, 0.36, 0.64)
-        candidates.append([row[j] + gaps[j] * share for j in widest for share in shares])
-    moved = [
-        _Torus((torus.places - (x, y)) % 1, torus.steps, torus.sides, torus.vertex_of)
-        for x, y in product(*candidates)
-    ]
-    return max(moved, key=lambda it: round(min(_to_border(it), 2 * _to_corner(it)), 6))
+        gaps = [*pairwise([*row, row[0] + 1])]
+        candidates.append([])
+        for share in (0.5, 0.36, 0.64, 0.2, 0.8):
+            seams = [low + (high - low) * share for low, high in gaps]
+            candidates[k] += sorted(seams, key=partial(_room, torus, spans, k), reverse=True)[:2]
+    moved = [replace(torus, places=(torus.places - at) % 1) for at in product(*candidates)]
+    return max(moved, key=lambda it: round(min(_to_border(it, spans), 2 * _to_corner(it)), 6))
 
 
-def _to_border(torus: _Torus) -> float:
-    area = abs(float(np.linalg.det(torus.sides)))
-    heights = area / np.hypot(*torus.sides[::-1].T)
-    return float((np.minimum(torus.places, 1 - torus.places) * heights).min())
+def _to_border(torus: _Torus, spans: Floats) -> float:
+    return min(_room(torus, spans, k, 0.0) for k in (0, 1))
+
+
+def _room(torus: _Torus, spans: Floats, k: int, seam: float) -> float:
+    """The least distance of a vertex from this seam across side k, or share of a cut span."""
+    places = (torus.places[:, k] - seam) % 1
+    height = abs(float(np.linalg.det(torus.sides))) / float(np.hypot(*torus.sides[1 - k]))
+    step, start = torus.steps[:, k], places[torus.vertex_of]
+    shares = np.where(step > 0, 1 - start, start) / np.maximum(np.abs(step), 1e-9)
+    cut = np.where(shares < 1, shares * spans, np.inf)
+    return float(min(np.minimum(places, 1 - places).min() * height, cut.min()))
 
 
 def _to_corner(torus: _Torus) -> float:
