@@ -492,7 +492,7 @@ def test_nothing_behind_the_last_piece_that_is_wanted_is_joined() -> None:
     assert results(toy_work(attempts=1), [1, 99, -1, 2, -1]) == [[1, 99]]
 
 
-def test_the_pieces_of_an_earlier_task_come_first() -> None:
+def test_the_pieces_of_an_earlier_task_come_first_and_in_order() -> None:
     pieces = Pieces(toy_work())
     tasks = iter([[1, 2], [3, 4], [5]])
     earlier, later = pieces.next(tasks), pieces.next(tasks)
@@ -500,8 +500,13 @@ def test_the_pieces_of_an_earlier_task_come_first() -> None:
     assert later is not None
     pieces.replace(earlier, [[1], [2]])
     pieces.replace(later, [[3], [4]])
-    handed_out = [pieces.next(tasks) for _ in range(6)]
-    assert [piece and piece.task for piece in handed_out] == [[1], [2], [3], [4], [5], None]
+    handed_out = [pieces.next(tasks) for _ in range(4)]
+    assert [piece and piece.task for piece in handed_out] == [[1], [3], [5], None]
+    for piece in handed_out[1::-1]:
+        assert piece is not None
+        pieces.finish(piece, piece.task)
+    handed_out = [pieces.next(tasks) for _ in range(3)]
+    assert [piece and piece.task for piece in handed_out] == [[2], [4], None]
 
 
 @pytest.mark.usefixtures("toy")

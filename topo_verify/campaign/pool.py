@@ -116,6 +116,7 @@ class Pool(Generic[TaskT, ResultT]):
             limit = self._work.silence if worker.ready else self._work.loading
             if silence > (worker.due or limit):
                 self._lose(worker, silence)
+                break  # it takes long, and may end the work
         if self._in_flight is not None:
             self._in_flight(sum(worker.items for worker in self._at))
 

@@ -10,6 +10,7 @@ import signal
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import Any, Generic, TypeVar
 
 TaskT = TypeVar("TaskT")
@@ -173,37 +174,29 @@ class Pieces(Generic[TaskT, ResultT]):
         return None
 
     def finish(self, piece: Piece[TaskT, ResultT], result: ResultT) -> None:
-        """Record the result of a piece; its last piece finishes a task."""
+        """Record the result of a piece, and queue the next; the last one finishes a task."""
         piece.results.append(result)
         whole, division = piece.whole, self._work.division
-        if division is None:
-            self._finish_whole(whole, result)
-            return
-        if division.last(result):
-            behind = whole.pieces[whole.pieces.index(piece) + 1 :]
-            dropped = [other for other in behind if other in self.queue]
-            self.queue = deque(other for other in self.queue if other not in dropped)
-            whole.pieces = [other for other in whole.pieces if other not in dropped]
-        if all(other.results for other in whole.pieces):
-            results: list[ResultT] = []
-            for other in whole.pieces:
-                results += other.results
-                if division.last(results[-1]):  # drop what other workers did behind it
-                    break
-            self._finish_whole(whole, division.join(results))
-
-    def _finish_whole(self, whole: WholeTask[TaskT, ResultT], result: ResultT) -> None:
+        if division is not None:
+            unfinished = [other for other in whole.pieces if not other.results]
+            if unfinished and not division.last(result):
+                self.queue.append(unfinished[0])
+                return
+            result = division.join([*chain(*(other.results for other in whole.pieces))])
         if whole.losses:
             result = self._work.survived(result, whole.losses, whole.given_up)
         self.finished.append((whole.task, result))
 
     def replace(self, piece: Piece[TaskT, ResultT], tasks: Sequence[TaskT]) -> bool:
-        """Put parts in the place of a piece; False if there are fewer than two."""
+        """Put parts in the place of a piece; False if there are fewer than two.
+
+        They are done in order: where one piece hangs, the next one may, too.
+        """
         if len(tasks) < 2:
             return False
         whole = piece.whole
         parts = [Piece(task, whole) for task in tasks]
         place = whole.pieces.index(piece)
         whole.pieces[place : place + 1] = parts
-        self.queue.extendleft(reversed(parts))
+        self.queue.append(parts[0])
         return True
