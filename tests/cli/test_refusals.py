@@ -36,7 +36,7 @@ REFUSED = [
     ("world count --edges 3..1", "expected ascending numbers of edges"),
     ("world count --edges 3 --class tidy", "class 'tidy': expected any, planar"),
     ("search basic --edges 1..6", "'1..6' is not a valid integer N: Worlds of 1 to N edges"),
-    ("world sample --edges 300", "write worlds to files with -o FOLDER"),
+    ("world sample --edges 300", "save it as a file (-o; in Python `save`)"),
     ("world sample --edges 5 -o mappers.py", "-o mappers.py: cannot create this folder"),
     (f"replay {'x' * 5000}", "no such world: 'xxx"),
     ("replay nothing.jsonl", "no such world: 'nothing.jsonl'"),

@@ -258,6 +258,8 @@ def test_sample_prints_ids_that_other_commands_take(call: Call, results: Results
     envelope = results("world sample --edges 9 -n 4 --class planar --seed 5")
     assert envelope["seed"] == 5
     assert [entry["id"] for entry in envelope["results"]] == ids
+    printed = call("world sample --edges 9 -n 4 --class planar --seed 5 --format markdown").stdout
+    assert printed == "\n".join(["```", *ids, "```", ""])
 
 
 def test_sample_writes_world_files(call: Call, folder: Path) -> None:

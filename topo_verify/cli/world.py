@@ -24,7 +24,7 @@ from topo_verify.world import unrooted
 from topo_verify.world.enumeration import pruned
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.pruned import ranked_tables
-from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
+from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES, require_id_edges
 from topo_verify.world.formats import files
 from topo_verify.world.io import WRITTEN, encoded, format_of_name, save, written_format
 from topo_verify.world.rooted_map import Dart, World
@@ -369,8 +369,9 @@ def _first(worlds: WorldClass, edges: int, number: int | None, *, unmarked: bool
     return islice(unrooted.ranks(edges, worlds) if unmarked else every, number)
 
 
-def _ids(entries: Iterable[ListEntry]) -> Iterator[Block]:
-    return (Raw(entry.id) for entry in entries)
+def _ids(entries: Sequence[ListEntry | SampleEntry]) -> Iterable[Block]:
+    lines = [getattr(entry, "file", None) or str(entry.id) for entry in entries]
+    return [Raw("\n".join(lines))] if lines else []
 
 
 # ---------------------------------------------------------------- sample
@@ -445,7 +446,7 @@ def sample(
         for index, world in enumerate(drawn):
             file = None
             if folder is None:
-                _require_id(len(world.edges))
+                require_id_edges(len(world.edges))
             else:
                 target = options.make_folder(folder, "-o")
                 file = str(target / f"m{len(world.edges)}-seed{seed}-{index}.json")
@@ -462,15 +463,7 @@ def sample(
             )
             output.progress("drawing worlds", index + 1, number)
 
-    return output.run("world-sample", sampled, _show_sampled, seed=seed)
-
-
-def _require_id(edges: int) -> None:
-    if edges > MAX_ID_EDGES:
-        raise InputError(
-            f"world sample: a world with {edges} edges has no id to print (only worlds of up to"
-            f" {MAX_ID_EDGES} edges have one); write worlds to files with -o FOLDER"
-        )
+    return output.run("world-sample", sampled, _ids, seed=seed)
 
 
 def _by_strategy(
@@ -483,11 +476,6 @@ def _by_strategy(
             " --strategy 'worlds(min_edges=5, max_edges=9, simple=True)'"
         )
     return iter(worlds_drawn("--strategy", text, number, seed))
-
-
-def _show_sampled(entries: Sequence[SampleEntry]) -> Iterator[Block]:
-    for entry in entries:
-        yield Raw(entry.file or str(entry.id))
 
 
 # ---------------------------------------------------------------- draw

@@ -178,7 +178,7 @@ def require_id_edges(edges: int) -> None:
     if edges > MAX_ID_EDGES:
         raise InputError(
             f"a world with {edges} edges has no id (ids go up to {MAX_ID_EDGES} edges):"
-            " save it as a file and name the file"
+            " save it as a file (-o; in Python `save`) and name the file"
         )
 
 
