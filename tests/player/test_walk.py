@@ -271,6 +271,14 @@ def test_a_pose_says_which_darts_it_leaves_out() -> None:
     assert "(it leaves out 4, 5, unexplored too, at places that look like this one)" in shown
 
 
+def test_a_pose_after_further_moves_is_said_to_come_late() -> None:
+    def moves_first(trace: ev.Trace) -> list[ev.Event]:
+        return [*trace[:8], trace[9], trace[8], *trace[10:]]
+
+    shown = text(played("m4/41", "enhancement-ii", edit=moves_first))
+    assert "(it asks late: it crossed edge 7 at event 7, and has moved on since)" in shown
+
+
 def test_two_runs_are_shown_up_to_where_they_part() -> None:
     run = played("m4/41", "enhancement-ii")
     sides = [("one", "reject 4"), ("other\x1b[31m", "go back")]

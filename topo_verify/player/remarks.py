@@ -178,7 +178,7 @@ def _about_pose(playback: Playback, moment: Moment, pose: ev.Pose) -> Iterator[s
         if darts:
             yield f"it leaves out {listed(darts)}, unexplored too, at {at}"
     if is_late:
-        yield f"it crossed edge {edge} at event {crossed}, and is elsewhere now"
+        yield f"it asks late: it crossed edge {edge} at event {crossed}, and has moved on since"
     last = next(
         (m for m in reversed(playback.moments[: moment.number]) if isinstance(m.event, ev.Move)),
         None,
