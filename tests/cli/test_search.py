@@ -136,6 +136,16 @@ def test_ctrl_c_exits_3_and_prints_what_is_done(folder: Path) -> None:
     assert error.startswith(f"topo-verify: interrupted after {entry['checked']} of 8,954 worlds")
 
 
+def test_ctrl_c_tells_whether_the_ledger_has_finished_work(folder: Path, call: Call) -> None:
+    line = "search mappers.py:starts_and_sleeps --move-timeout 60 --workers 1 --ledger"
+    *_, error = interrupted(folder, *f"{line} none --edges 2 --class genus:1".split())
+    assert error.startswith("topo-verify: none has nothing yet: no shard of worlds was finished\n")
+    call(f"{line} some --edges 1")
+    (folder / "at-work").unlink()
+    *_, error = interrupted(folder, *f"{line} some --edges 2".split())
+    assert error.startswith("topo-verify: some has the finished work: the same command goes on\n")
+
+
 def test_a_world_of_an_endless_loop_is_run_three_times(folder: Path, call: Call) -> None:
     text = "def f(robot):\n    print(file=open('runs', 'a'))\n    while True:\n        pass\n"
     (folder / "loop.py").write_text(text)

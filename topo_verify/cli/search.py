@@ -230,7 +230,11 @@ def _opened(
         try:
             yield known
         except KeyboardInterrupt:
-            output.note(f"{ledger} has the finished work: the same command goes on")
+            results = map(known.get, known.known())
+            if any(result is not None and result.tally.worlds for result in results):
+                output.note(f"{ledger} has the finished work: the same command goes on")
+            else:
+                output.note(f"{ledger} has nothing yet: no shard of worlds was finished")
             raise
         store.require_file()
 
