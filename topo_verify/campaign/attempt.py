@@ -27,7 +27,6 @@ from topo_verify.programs.program import Program, TranscriptLine
 from topo_verify.robot import events as ev
 from topo_verify.robot.limits import Limits, MoveTimeout
 from topo_verify.robot.stopwatch import tasks_of
-from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
 OUTSIDE = "perhaps for a reason outside; the second try passed"
@@ -252,5 +251,4 @@ def _map(run: Exploration, report: Report) -> str | None:
     except InputError:
         return None
     # The id is canonical, so the mapper's numbering of darts does not matter.
-    small = len(drawn.edges) <= rank_order.MAX_ID_EDGES
-    return drawn.id if small else f"sha256:{hashed(drawn.code)}"
+    return drawn.known_id or f"sha256:{hashed(drawn.code)}"

@@ -56,7 +56,6 @@ from topo_verify.robot.limits import (
     within,
 )
 from topo_verify.robot.simulator import SimulatedRobot, first_percept
-from topo_verify.world.enumeration import rank_order
 from topo_verify.world.io import notebook
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
@@ -297,11 +296,10 @@ def _on(engine: Engine, target: Target, limits: Limits, *, trace: bool) -> Targe
 
 
 def _start(world: World, target: Target, policies: Policies | None) -> Start:
-    known = len(world.edges) <= rank_order.MAX_ID_EDGES
     return Start(
         algorithm=target.text,
         policies=policies,
-        world=world.id if known else None,
+        world=world.known_id,
         percept=first_percept(world),
     )
 

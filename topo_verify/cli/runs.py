@@ -36,7 +36,6 @@ from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, View
 from topo_verify.robot.events import Finish
 from topo_verify.robot.limits import Limits
-from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
@@ -53,19 +52,13 @@ class NamedWorld:
     @property
     def name(self) -> str:
         """The world's name in results: its own, else its id, else "world"."""
-        if self.world.name:
-            return self.world.name
-        return self.world.id if self._has_id else "world"
-
-    @property
-    def _has_id(self) -> bool:
-        return len(self.world.edges) <= MAX_ID_EDGES
+        return self.world.name or self.world.known_id or "world"
 
     @cached_property
     def argument(self) -> str:
         """A WORLD argument for a later call; a large one from standard input is saved."""
         if self.text == "-":
-            return self.world.id if self._has_id else _saved(self.world)
+            return self.world.known_id or _saved(self.world)
         return f"./{self.text}" if self.text.startswith("-") else self.text
 
     @property

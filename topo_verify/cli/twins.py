@@ -9,7 +9,6 @@ import msgspec
 
 from topo_verify.errors import plural, shown
 from topo_verify.report.blocks import Block, Text, TextTable
-from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import Dart, World
 from topo_verify.world.twins import MarkerModel, find_twin
@@ -44,7 +43,7 @@ def twin_entry(world: World, model: MarkerModel, file: str | None) -> TwinEntry:
         files.write(file, _side_by_side(world, other))
     return TwinEntry(
         model,
-        other.id if len(other.edges) <= MAX_ID_EDGES else None,
+        other.known_id,
         other.genus,
         "",
         other.vertices,
@@ -63,7 +62,7 @@ def _side_by_side(*worlds: World) -> str:
     parts: list[str] = []
     x = 0.0
     for world, picture, (width, height) in zip(worlds, pictures, columns, strict=True):
-        name = world.id if len(world.edges) <= MAX_ID_EDGES else plural(len(world.edges), "edge")
+        name = world.known_id or plural(len(world.edges), "edge")
         words = f"{shown(name, limit=24)}, genus {world.genus}"
         column = max(width, 0.65 * font * len(words))
         at = f'x="{x + (column - width) / 2:g}" y="{(top - height) / 2:g}"'

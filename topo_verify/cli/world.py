@@ -135,25 +135,21 @@ def _shown(at: NamedWorld, twin: TwinEntry | None) -> ShowEntry:
         ShowEntry,
         world,
         name=at.name,
-        id=_id(world),
+        id=world.known_id,
         vertices=len(world.vertices),
         edges=len(world.edges),
         faces=len(world.faces),
         simple=world.is_simple,
         loopless=world.is_loopless,
         planar=world.is_planar,
-        dual=_id(world.dual()),
-        automorphisms=unrooted.automorphisms(world) if _id(world) else None,
-        unrooted=unrooted.unrooted_id(world) if _id(world) else None,
+        dual=world.dual().known_id,
+        automorphisms=unrooted.automorphisms(world) if world.known_id else None,
+        unrooted=unrooted.unrooted_id(world) if world.known_id else None,
         least_cost=world.least_cost(),
         rotation=world.vertices,
         edge_darts=world.edges,
         twin=twin,
     )
-
-
-def _id(world: World) -> str | None:
-    return world.id if len(world.edges) <= MAX_ID_EDGES else None
 
 
 def _show(entries: Sequence[ShowEntry]) -> Iterator[Block]:
@@ -453,7 +449,7 @@ def sample(
                 files.write(file, world.to_json() + "\n")
             yield Result(
                 SampleEntry(
-                    id=_id(world),
+                    id=world.known_id,
                     edges=len(world.edges),
                     kind=str(worlds) if strategy is None else None,
                     strategy=strategy,

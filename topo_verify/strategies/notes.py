@@ -15,7 +15,6 @@ from hypothesis.internal.observability import observability_enabled
 
 from topo_verify.errors import plural, shown
 from topo_verify.robot.events import Augment, Policies, Trace
-from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.rooted_map import World
 
 
@@ -60,10 +59,9 @@ def observe(run: ObservedRun) -> None:
 
 def describe(run: ObservedRun) -> str:
     """Algorithm, policies, world (its id, or its JSON) and cost in one line."""
-    world = run.world.id if len(run.world.edges) <= MAX_ID_EDGES else run.world.to_json()
     chosen = run.policies
     how = "" if chosen is None else f" (pick {chosen.pick}, order {chosen.order})"
-    return f"{shown(run.algorithm)}{how} in {world}: {plural(run.cost, 'edge traversal')}"
+    return f"{shown(run.algorithm)}{how} in {run.world.text}: {plural(run.cost, 'edge traversal')}"
 
 
 def features(run: ObservedRun) -> dict[str, int]:

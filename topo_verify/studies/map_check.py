@@ -28,7 +28,6 @@ from topo_verify.errors import InternalError
 from topo_verify.robot.events import Event, Move, Start, Trace
 from topo_verify.robot.percept import Door
 from topo_verify.robot.simulator import exit_dart, first_percept, percepts, shared_move
-from topo_verify.world.enumeration.rank_order import MAX_ID_EDGES
 from topo_verify.world.least_cost import BreadthFirstTree, covering_walk
 from topo_verify.world.rooted_map import Dart, World
 
@@ -96,8 +95,7 @@ def moves(world: World, at: Dart, doors: Sequence[Door]) -> Iterator[Move]:
 
 def tour_log(world: World) -> Trace:
     """The log of a robot that walks `World.proof_tour`, the cheapest proof."""
-    known = world.id if len(world.edges) <= MAX_ID_EDGES else None
-    start = Start(percept=first_percept(world), world=known)
+    start = Start(percept=first_percept(world), world=world.known_id)
     return start, *moves(world, world.root or 0, world.proof_tour())
 
 

@@ -46,7 +46,7 @@ class _Formats(Protocol):
 
 @dataclass(frozen=True, eq=False, repr=False)  # cached_property needs `__dict__`
 class World:
-    """An immutable, validated, hashable world. Equal iff alpha, sigma and root are.
+    """An immutable, validated, hashable world, made in O(m). Equal iff alpha, sigma and root are.
 
     Args:
         alpha: the other dart of each edge; an involution without fixed point on 0 … 2m-1.
@@ -57,7 +57,6 @@ class World:
         name, vertex_names, positions, source, licence: not compared; positions have y upwards.
     Raises:
         InputError: the arguments do not make one connected map with a marker; names the dart.
-    Complexity: O(m).
     """
 
     # set in `world/__init__.py`: importing io.py here would close a circle
@@ -92,8 +91,7 @@ class World:
         """The world from rotations, pairs of darts and the marked dart, as a world file has them.
 
         Args:
-            vertices: the darts of each vertex in clockwise order; distinct integers, renumbered in
-                ascending order.
+            vertices: the darts of each vertex, clockwise; distinct integers, renumbered ascending.
             edges: two darts each.
             marker: a dart; None if there is no dart.
             about: name, vertex_names, positions, source, licence.
@@ -295,6 +293,11 @@ class World:
         rank_order.require_id_edges(len(self.edges))
         return f"m{len(self.edges)}/{rank_order.rank(self.code)}"
 
+    @property
+    def known_id(self) -> str | None:
+        """The id; None above 200 edges."""
+        return self.id if len(self.edges) <= rank_order.MAX_ID_EDGES else None
+
     @classmethod
     def from_text(cls, text: str) -> Self:
         """The world of this `text`."""
@@ -303,7 +306,7 @@ class World:
     @property
     def text(self) -> str:
         """The id; the JSON of a world too large for an id."""
-        return self.id if len(self.edges) <= rank_order.MAX_ID_EDGES else self.to_json()
+        return self.known_id or self.to_json()
 
     def is_isomorphic(self, other: World) -> bool:
         """Whether a bijection of darts keeps alpha, sigma and root."""
@@ -378,8 +381,7 @@ class World:
         return self.formats.twin(self, model)
 
     def _repr_pretty_(self, printer: Any, _: bool) -> None:  # noqa: FBT001  asked by Hypothesis
-        small = len(self.edges) <= rank_order.MAX_ID_EDGES
-        printer.text(f"tv.World.from_id({self.id!r})" if small else repr(self))
+        printer.text(f"tv.World.from_id({self.id!r})" if self.known_id else repr(self))
 
 
 def cycles(permutation: Sequence[int], starts: Sequence[int] = ()) -> tuple[tuple[int, ...], ...]:
