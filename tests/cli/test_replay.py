@@ -108,7 +108,7 @@ def test_options_that_mean_nothing_for_a_trace_are_refused(
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ('{"type": "move", "door": 0, "percept": {"degree": 1, "marker": null}}', "begins with"),
+        ('{"type": "move", "door": 0, "percept": {"degree": 1, "marker": null}}', "type 'start'"),
         ('{"type": "dance"}', "line 1"),
         ('{"type": "start", "version": 2, "percept": {"degree": 1, "marker": 0}}', "newer"),
         (
