@@ -68,6 +68,7 @@ LATE = {
     ("campaign", "Report.playback"): "player",
     ("campaign", "Report.walk"): "player",
     ("campaign", "Report._repr_html_"): "player",
+    ("campaign", "_card"): "player",
 }
 """The exceptions: an object is asked for its picture or its text, and the player makes them."""
 

@@ -213,12 +213,15 @@ def test_where_one_answer_is_left_the_game_does_not_advise_to_walk_on(show: Open
     assert "The history proves the world." in page.inner_text("#walk .says")
 
 
-def test_help_opens_in_the_game_and_escape_closes_it_alone(show: Open, text: str) -> None:
+@pytest.mark.parametrize("key", ["Escape", "?"])
+def test_help_opens_in_the_game_and_a_key_closes_it_alone(show: Open, text: str, key: str) -> None:
+    from playwright.sync_api import expect
+
     page = show(text, at="#walk")
     page.keyboard.press("?")
     assert "press its number" in page.inner_text("#help")
-    page.keyboard.press("Escape")
-    assert not page.is_visible("#help")
+    page.keyboard.press(key)
+    expect(page.locator("#help")).to_be_hidden()
     assert page.is_visible("#walk")
 
 

@@ -93,6 +93,20 @@ def test_the_whole_budget_can_be_used() -> None:
     assert robot.cost == 2
 
 
+def test_an_objection_to_a_decision_is_recorded_with_it_and_stops_the_robot() -> None:
+    def objection(when: int, decision: ev.Decision) -> str:
+        return f"no confirmation, {when}" * isinstance(decision, ev.Confirm)
+
+    robot = SimulatedRobot(World.from_id("m2/5"), 10, objection)
+    pose, confirm = ev.Pose(0, (2,)), ev.Confirm(0, 2, "motion")
+    robot.declare(pose)
+    with pytest.raises(MapperStopped, match="no confirmation, 2"):
+        robot.declare(confirm)
+    assert robot.events == [pose, confirm]
+    with pytest.raises(MapperStopped, match="no confirmation, 2"):
+        robot.move(0)
+
+
 def test_once_stopped_it_does_nothing_more_and_always_says_the_first_reason(
     robot: SimulatedRobot,
 ) -> None:

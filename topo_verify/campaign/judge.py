@@ -163,6 +163,14 @@ class Report(msgspec.Struct, frozen=True, dict=True):
         return "\n".join(shown(line, limit=LINE) for line in lines)
 
 
+def _card(finding: Finding) -> str:
+    from topo_verify.player.cards import finding_card
+
+    return finding_card(finding)
+
+
+setattr(Finding, "_repr_html_", _card)  # noqa: B010  undeclared
+
 _WORDS: dict[Status, str] = {
     "failed": "fail",
     "partial": "partial",

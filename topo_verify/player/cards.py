@@ -132,6 +132,3 @@ def _named(text: str | None) -> World | None:
         return World.from_text(text) if text else None
     except InputError:
         return None
-
-
-setattr(Finding, "_repr_html_", finding_card)  # noqa: B010  undeclared

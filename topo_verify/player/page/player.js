@@ -282,6 +282,7 @@ class Player {
       byId(id).addEventListener('change', (e) => document.body.classList.toggle(id, e.target.checked));
     }
     byId('ask').addEventListener('click', () => byId('help').showModal());
+    byId('help').addEventListener('keydown', ({ key }) => key === '?' && byId('help').close());
     const chart = byId('chart');
     const scrub = (e) => {
       if (e.target.tagName === 'BUTTON' || (e.type === 'pointermove' && !e.buttons)) return;
@@ -294,10 +295,22 @@ class Player {
   }
 
   keys() {
-    const keys = { ArrowRight: () => this.step(1), ArrowLeft: () => this.step(-1), n: () => this.decision(1), p: () => this.decision(-1) };
-    Object.assign(keys, { f: () => this.finding(1), F: () => this.finding(-1), Home: () => this.go(0), End: () => this.go(this.clock.last) });
-    Object.assign(keys, { '+': () => this.frames[0].zoom(1.5), '-': () => this.frames[0].zoom(1 / 1.5), 0: () => this.frames.forEach((one) => one.reset()) });
-    Object.assign(keys, { k: () => byId('known').click(), d: () => byId('darts').click(), '?': () => byId('help').showModal() });
+    const keys = {
+      ArrowRight: () => this.step(1),
+      ArrowLeft: () => this.step(-1),
+      n: () => this.decision(1),
+      p: () => this.decision(-1),
+      f: () => this.finding(1),
+      F: () => this.finding(-1),
+      Home: () => this.go(0),
+      End: () => this.go(this.clock.last),
+      '+': () => this.frames[0].zoom(1.5),
+      '-': () => this.frames[0].zoom(1 / 1.5),
+      0: () => this.frames.forEach((one) => one.reset()),
+      k: () => byId('known').click(),
+      d: () => byId('darts').click(),
+      '?': () => byId('help').showModal(),
+    };
     addEventListener('keydown', (e) => {
       if (e.ctrlKey || e.metaKey || e.altKey || e.target.closest('select, input[type=text], dialog')) return;
       if (e.key === ' ' && !e.target.closest('button, input[type=checkbox]')) this.play();

@@ -98,7 +98,7 @@ class WalkMode {
   key(event) {
     if (!this.section?.isConnected) return;
     event.stopPropagation();
-    if (byId('help').open) return; // Escape closes it
+    if (byId('help').open) return event.key === '?' && byId('help').close();
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest('select, input[type=number]')) {
       if (event.key === 'Escape') this.close();
       return;
