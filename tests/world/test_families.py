@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from itertools import accumulate, combinations, product
 from math import atan2, pi
+from random import Random
 from typing import Any, cast
 
 import numpy as np
@@ -322,26 +324,92 @@ def words(edges: int) -> Iterator[list[int]]:
             yield list(word)
 
 
-@pytest.mark.parametrize("edges", [1, 2, 3])
-def test_every_planar_map_comes_from_equally_many_trees_with_steps(edges: int) -> None:
-    """So a uniform tree, uniform steps and a coin make a uniform planar map."""
+def one_face_walks(edges: int, genus: int) -> Counter[tuple[int, ...]]:
+    """The maps with one face that vertices of others are glued to, and in how many ways."""
+    if genus == 0:
+        return Counter(tuple(walked(word)) for word in words(edges))
+    glued: Counter[tuple[int, ...]] = Counter()
+    for p in range(1, genus + 1):
+        for walk in one_face_walks(edges, genus - p):
+            corner = {dart: place for place, dart in reversed([*enumerate(walk)])}
+            vertices = map_of_one_face(walk).vertices
+            first = sorted(min(corner[dart] for dart in vertex) for vertex in vertices)
+            for chosen in combinations(first, 2 * p + 1):
+                glued[numbered(random_maps.glued(list(walk), list(chosen)))] += 1
+    return glued
+
+
+def walked(word: list[int]) -> list[int]:
+    """The walk around a plane tree: 2e up edge e, 2e+1 back."""
+    walk, above = list[int](), list[int]()
+    for step in word:
+        if step > 0:
+            above.append(2 * word[: len(walk)].count(1))
+        walk.append(above[-1] if step > 0 else above.pop() + 1)
+    return walk
+
+
+def numbered(walk: list[int]) -> tuple[int, ...]:
+    """The walk with its edges in the order in which it meets them."""
+    number: dict[int, int] = {}
+    for dart in walk:
+        if dart not in number:
+            number |= {dart: len(number), dart ^ 1: len(number) + 1}
+    return tuple(number[dart] for dart in walk)
+
+
+def map_of_one_face(walk: tuple[int, ...]) -> World:
+    sigma = [0] * len(walk)
+    for place, dart in enumerate(walk):
+        sigma[walk[place - 1] ^ 1] = dart
+    return World(tuple(dart ^ 1 for dart in range(len(walk))), tuple(sigma), walk[0])
+
+
+@pytest.mark.parametrize(("edges", "genus"), [(2, 1), (4, 1), (4, 2), (5, 2), (6, 3)])
+def test_every_map_with_one_face_is_glued_in_as_many_ways_as_twice_its_genus(
+    edges: int, genus: int
+) -> None:
+    """So a uniform choice of the vertices to glue makes a uniform map with one face."""
+    ways = one_face_walks(edges, genus)
+    assert len(ways) == random_maps.one_face_maps(edges, genus)
+    assert set(ways.values()) == {2 * genus}
+    assert {(w.genus, len(w.faces)) for w in map(map_of_one_face, ways)} == {(genus, 1)}
+
+
+@pytest.mark.parametrize(
+    ("edges", "genus"), [(1, 0), (2, 0), (3, 0), (2, 1), (3, 1), (4, 1), (4, 2)]
+)
+def test_every_map_of_a_genus_comes_from_equally_many_maps_with_one_face_and_steps(
+    edges: int, genus: int
+) -> None:
+    """So a uniform map with one face, uniform steps that close and a coin make a uniform map."""
     alpha = tuple(dart ^ 1 for dart in range(2 * edges))
-    made = Counter(
-        World(alpha, tuple(sigma), root).code
-        for word in words(edges)
+    labelled = [
+        random_maps.labelled_map(walk, steps, coin=coin)
+        for walk in one_face_walks(edges, genus)
         for steps in product((-1, 0, 1), repeat=edges)
         for coin in (0, 1)
-        for sigma, root in [random_maps.planar_map(word, steps, coin=coin)]
-    )
-    planar = {w.code for w in map(World.from_code, rank_order.tables(edges)) if w.is_planar}
-    assert made.keys() == planar
-    assert set(made.values()) == {edges + 2}
+    ]
+    made = Counter(World(alpha, tuple(made[0]), made[1]).code for made in labelled if made)
+    worlds = {w.code for w in map(World.from_code, rank_order.tables(edges)) if w.genus == genus}
+    assert made.keys() == worlds
+    assert set(made.values()) == {edges + 2 - 2 * genus}
+    assert Fraction(len(labelled), edges + 2 - 2 * genus) == random_maps.draws(edges, genus)
 
 
 def test_trees_are_drawn_with_equal_chances() -> None:
     """14 rooted plane trees with 4 edges, 200 draws expected of each."""
     drawn = Counter(families.random_tree(4, seed=seed).code for seed in range(2800))
     assert len(drawn) == 14
+    assert all(150 < number < 250 for number in drawn.values())
+
+
+def test_worlds_of_genus_1_are_drawn_with_equal_chances() -> None:
+    """20 of them with 3 edges, 200 draws expected of each; about one draw in nine closes."""
+    random = Random(1)
+    worlds = [random_maps.drawn(3, 1, random) for _ in range(36_000)]
+    drawn = Counter(world.code for world in worlds if world is not None)
+    assert len(drawn) == 20
     assert all(150 < number < 250 for number in drawn.values())
 
 

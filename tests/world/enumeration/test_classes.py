@@ -236,9 +236,9 @@ def test_drawing_from_nothing_is_refused() -> None:
 
 def test_drawing_is_refused_at_once_where_it_would_take_ages() -> None:
     with pytest.raises(
-        InputError, match=r"class genus:1: too few .* with 30 edges .* of class any.* random_genus"
+        InputError, match=r"class genus:3: too few .* with 150 edges .* of all draws.* random_genus"
     ):
-        WorldClass.parse("genus:1").sample(30, Random(0))
+        WorldClass.parse("genus:3").sample(150, Random(0))
 
 
 def test_drawing_a_genus_in_large_worlds_is_refused_before_it_is_counted() -> None:
@@ -254,6 +254,15 @@ def test_planar_worlds_are_drawn_among_planar_ones() -> None:
     world = WorldClass.parse("planar,max-degree:4").sample(12, random)
     assert world.is_planar
     assert max(world.degrees) <= 4
+
+
+@pytest.mark.parametrize(("edges", "genus"), [(30, 1), (300, 1), (40, 2), (30, 3), (12, 5)])
+def test_worlds_of_a_genus_are_drawn_where_they_are_rare_and_where_they_are_not(
+    edges: int, genus: int
+) -> None:
+    world = WorldClass.parse(f"genus:{genus}").sample(edges, Random(1))
+    assert (len(world.edges), world.genus) == (edges, genus)
+    assert WorldClass.parse("genus:1,loopless").sample(12, Random(1)).is_loopless
 
 
 def test_drawing_gives_up_with_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -21,7 +21,7 @@ from topo_verify.world.enumeration.counts import (
     count_planar_loopless,
     count_planar_simple,
 )
-from topo_verify.world.families.random_maps import random_planar
+from topo_verify.world.families import random_maps
 from topo_verify.world.rooted_map import World
 
 MAX_LISTED_EDGES = 7
@@ -182,25 +182,42 @@ class WorldClass:
 
     def sample(self, edges: int, random: Random) -> World:
         """A world of the class, exactly uniform, by rejection; InputError if it is too rare."""
-        tries = MAX_DRAWN_EDGES // max(edges, 1)
-        drawn = WorldClass(genus=0) if self.genus == 0 else WorldClass()
-        if self != drawn and (self._has_formula or str(self) in PLANAR):
-            if edges > rank_order.MAX_ID_EDGES:
-                most = rank_order.MAX_ID_EDGES
-                raise InputError(self._too_rare(edges, f"none is tried above {most} edges"))
-            inside, total = self.count(edges), drawn.count(edges)
-            if not inside:
-                raise InputError(f"class {self}: there is no world with {edges} edges in it")
-            if total > inside * tries:
-                raise InputError(self._too_rare(edges, f"{inside / total:.0e} of class {drawn}"))
+        if self.genus is not None and edges < 2 * self.genus:
+            raise InputError(f"class {self}: there is no world with {edges} edges in it")
+        genus = self._drawn_genus(edges)
+        # a draw from a genus takes a quarter of the time
+        tries = MAX_DRAWN_EDGES * (1 if genus is None else 4) // max(edges, 1)
+        self._require_frequent(edges, genus, tries)
         for _ in range(tries):
-            if self.genus == 0:
-                table = random_planar(edges, seed=random.getrandbits(64)).code
-            else:
+            if genus is None:
                 table = rank_order.sample(edges, random)
+            else:
+                world = random_maps.drawn(edges, genus, random)
+                if world is None:
+                    continue
+                table = world.code
             if self.admits(table):
                 return World.from_code(table)
         raise InputError(self._too_rare(edges, f"none of {tries} that were drawn"))
+
+    def _drawn_genus(self, edges: int) -> int | None:
+        """The genus to draw from; None: worlds of any genus need fewer draws."""
+        if self.genus is None or edges > rank_order.MAX_ID_EDGES:
+            return self.genus
+        draws = random_maps.draws(edges, self.genus)
+        return self.genus if draws < rank_order.count(edges) else None
+
+    def _require_frequent(self, edges: int, genus: int | None, tries: int) -> None:
+        if self == WorldClass() or not (self._has_formula or str(self) in PLANAR):
+            return
+        if edges <= rank_order.MAX_ID_EDGES:
+            drawn = rank_order.count(edges) if genus is None else random_maps.draws(edges, genus)
+            inside = self.count(edges)
+            if 4 * drawn > inside * tries:  # e^-4: fails once in 50 times, at most
+                raise InputError(self._too_rare(edges, f"{float(inside / drawn):.0e} of all draws"))
+        elif self != WorldClass(genus):
+            most = rank_order.MAX_ID_EDGES
+            raise InputError(self._too_rare(edges, f"none is tried above {most} edges"))
 
     @property
     def _has_formula(self) -> bool:

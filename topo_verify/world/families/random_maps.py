@@ -1,28 +1,42 @@
-"""Random maps: trees and planar maps exactly uniform, maps of any given genus by adding edges.
+"""Random maps: trees, planar maps and, in sizes that allow it, maps of a genus exactly uniform.
 
 **Trees.** A rooted plane tree with m edges is a word of m ups and m downs that never sinks below
 its start. By the cycle lemma, m ups and m+1 downs, shuffled and read from behind their first lowest
 point, are such a word and a last down, all equally likely.
 
-**Planar maps.** Steps -1, 0 or 1 along the edges of a random tree label its vertices. In the order
-of a walk around the tree, each corner is joined with the next corner whose label is less by one, or
-with one new vertex if none follows. In this quadrangulation the vertices of even labels (or of odd
-ones: a coin decides), joined across each face, are the map. Each planar map with m edges arises
-from m+2 triples (tree, steps, coin), so the draw is **exactly uniform**.
+**Maps with one face.** Let a map with one face have genus g-p, and choose 2p+1 of its vertices.
+Glued together in the way of `_glued`, they are one vertex of a map with one face and genus g. Each
+map of genus g arises in 2g ways, over all p from 1 to g, so a draw from all ways is uniform.
 
-**Maps of a genus.** An edge added to a random tree splits a face, or merges two and raises the
-genus. Every rooted map can occur, but they are **not equally likely**. O(m²).
+**Maps of a genus.** Steps -1, 0 or 1 along the edges of a random map with one face label its
+vertices, if they close; in a tree they do. In the order of a walk around the face, each corner is
+joined with the next corner whose label is less by one, or with one new vertex if none follows. In
+this quadrangulation the vertices of even labels (or of odd ones: a coin decides), joined across
+each face, are the map. Each map of genus g with m edges arises from m+2-2g triples (map with one
+face, steps that close, coin), so the draw is **exactly uniform**. Steps close with a chance of
+about m^(-g/2).
+
+**Maps of a genus, of any size.** `random_genus` adds edges to a random tree; each splits a face, or
+merges two and raises the genus. Every rooted map can occur, but they are **not equally likely**.
+O(m²).
 
 Source: G. Schaeffer, "Conjugaison d'arbres et cartes combinatoires aléatoires", thesis, Bordeaux
     1998; P. Chassaing and G. Schaeffer, "Random planar lattices and integrated superBrownian
-    excursion", Probab. Theory Relat. Fields 128 (2004); A. Dvoretzky and Th. Motzkin, "A problem of
-    arrangements", Duke Math. J. 14 (1947).
+    excursion", Probab. Theory Relat. Fields 128 (2004); G. Chapuy, M. Marcus and G. Schaeffer, "A
+    bijection for rooted maps on orientable surfaces", SIAM J. Discrete Math. 23 (2009); G. Chapuy,
+    "A new combinatorial identity for unicellular maps, via a direct bijective approach", Adv. in
+    Appl. Math. 47 (2011); A. Dvoretzky and Th. Motzkin, "A problem of arrangements", Duke Math. J.
+    14 (1947).
 """
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Callable, Sequence
+from fractions import Fraction
+from functools import cache
 from itertools import accumulate
+from math import comb
 from random import Random
 
 from topo_verify.errors import InputError
@@ -52,11 +66,9 @@ def random_planar(edges: int, *, seed: int = 0, marker: Dart | None = None) -> W
     name, marker, random = arguments.settled(
         "random_planar", edges, darts=2 * edges, marker=marker, seed=seed
     )
-    word = _tree(edges, random)
-    steps = [random.choice((-1, 0, 1)) for _ in range(edges)]
-    coin = random.randrange(2)
-    sigma, root = planar_map(word, steps, coin=coin) if word else ([], 0)
-    return _rooted(name, sigma, root, marker)
+    planar = drawn(edges, 0, random, name=name, marker=marker)
+    assert planar is not None  # in a tree the steps close
+    return planar
 
 
 def random_genus(edges: int, genus: int, *, seed: int = 0, marker: Dart | None = None) -> World:
@@ -130,19 +142,95 @@ def _walk(word: Sequence[int]) -> list[Dart]:
     return walk
 
 
-def planar_map(word: Sequence[int], steps: Sequence[int], *, coin: int) -> tuple[list[Dart], Dart]:
-    """`sigma` and the root of the map that a tree, its steps and a coin encode.
+@cache
+def one_face_maps(edges: int, genus: int) -> int:
+    """The number of rooted maps with one face."""
+    if genus == 0:
+        return comb(2 * edges, edges) // (edges + 1)
+    return sum(_ways(edges, genus)) // (2 * genus)
+
+
+@cache
+def _ways(edges: int, genus: int) -> list[int]:
+    """The ways to glue 2p+1 vertices, p = 1 … genus, of maps with one face and genus - p."""
+    return [
+        one_face_maps(edges, genus - p) * comb(edges + 1 - 2 * (genus - p), 2 * p + 1)
+        for p in range(1, genus + 1)
+    ]
+
+
+def _one_face(edges: int, genus: int, random: Random) -> list[Dart]:
+    """The walk around a map with one face, uniform among all rooted ones."""
+    if genus == 0:
+        return _walk(_tree(edges, random))
+    totals = [*accumulate(_ways(edges, genus))]
+    p = 1 + bisect_right(totals, random.randrange(totals[-1]))
+    walk = _one_face(edges, genus - p, random)
+    after, visited, first = _next_corners(walk), [False] * len(walk), list[int]()
+    for corner in range(len(walk)):
+        if not visited[corner]:
+            first.append(corner)
+        while not visited[corner]:
+            visited[corner] = True
+            corner = after[corner]  # noqa: PLW2901
+    return glued(walk, sorted(random.sample(first, 2 * p + 1)))
+
+
+def glued(walk: list[Dart], corners: list[int]) -> list[Dart]:
+    """The walk around the face after the vertices with these corners are made one.
 
     Args:
-        word: the tree, ups (1) and downs (-1), at least one.
-        steps: the rise of the label along each edge, in the order of the ups.
-        coin: 0 for labels of the root's parity.
+        corners: of an odd number of vertices, the first corner of each on the walk, ascending.
     """
+    *others, c = corners
+    while others:
+        *others, a, b = others
+        walk = walk[:a] + walk[b:c] + walk[a:b] + walk[c:]
+        c = a + c - b
+    return walk
+
+
+def _next_corners(walk: Sequence[Dart]) -> list[int]:
+    """The next corner clockwise at its vertex; corner i lies before the i-th dart of the walk."""
+    place = {dart: i for i, dart in enumerate(walk)}
+    return [(place[dart ^ 1] + 1) % len(walk) for dart in walk]
+
+
+def drawn(
+    edges: int, genus: int, random: Random, *, name: str = "", marker: Dart | None = None
+) -> World | None:
+    """A map of the genus, uniform among all rooted ones; None if the steps do not close."""
+    walk = _one_face(edges, genus, random)
+    steps = [random.choice((-1, 0, 1)) for _ in range(edges)]
+    made = labelled_map(walk, steps, coin=random.randrange(2)) if walk else (list[Dart](), 0)
+    return made and _rooted(name, *made, marker)
+
+
+def draws(edges: int, genus: int) -> Fraction:
+    """The draws that `drawn` needs for one map are, on average, this over the number of maps."""
+    return Fraction(2 * 3**edges * one_face_maps(edges, genus), edges + 2 - 2 * genus)
+
+
+def labelled_map(
+    walk: Sequence[Dart], steps: Sequence[int], *, coin: int
+) -> tuple[list[Dart], Dart] | None:
+    """`sigma` and the root of the map that a map with one face, steps and a coin encode.
+
+    Args:
+        walk: around the face, with at least one edge; edge e has darts 2e and 2e+1.
+        steps: the rise of the label along each edge, from 2e to 2e+1.
+        coin: 0 for labels of the root's parity.
+    Returns:
+        None if the steps give a vertex two labels.
+    """
+    rises = (-steps[dart // 2] if dart % 2 else steps[dart // 2] for dart in walk[:-1])
+    labels, after = [*accumulate(rises, initial=0)], _next_corners(walk)
+    if any(labels[corner] != label for corner, label in zip(after, labels, strict=True)):
+        return None
     # one end of each arc is a vertex of the map
-    vertices, labels = _corners(word, steps)
-    around = _quadrangulation(vertices, labels)
+    around = _quadrangulation(after, labels)
     # twice "cross, then turn": across the face of the dart
-    kept = [2 * i + (label - labels[0] + coin) % 2 for i, label in enumerate(labels)]
+    kept = [2 * i + (label + coin) % 2 for i, label in enumerate(labels)]
     number: dict[Dart, Dart] = {}
     for dart in kept:
         if dart not in number:
@@ -154,25 +242,7 @@ def planar_map(word: Sequence[int], steps: Sequence[int], *, coin: int) -> tuple
     return sigma, number[kept[0]]
 
 
-def _corners(word: Sequence[int], steps: Sequence[int]) -> tuple[list[int], list[int]]:
-    rises = iter(steps)
-    vertices, labels = [0], [0]
-    below: list[tuple[int, int]] = []
-    count = 1
-    for step in word[:-1]:
-        if step > 0:
-            below.append((vertices[-1], labels[-1]))
-            labels.append(labels[-1] + next(rises))
-            vertices.append(count)
-            count += 1
-        else:
-            vertex, label = below.pop()
-            vertices.append(vertex)
-            labels.append(label)
-    return vertices, labels
-
-
-def _quadrangulation(vertices: Sequence[int], labels: Sequence[int]) -> list[Dart]:
+def _quadrangulation(after: Sequence[int], labels: Sequence[int]) -> list[Dart]:
     """The next dart clockwise of each; arc i has darts 2i and 2i+1, the latter at its end."""
     corners = len(labels)
     arriving: list[list[Dart]] = [[] for _ in range(corners)]
@@ -181,16 +251,18 @@ def _quadrangulation(vertices: Sequence[int], labels: Sequence[int]) -> list[Dar
     for walked in reversed(range(2 * corners)):  # twice around: the first follows the last
         corner = walked % corners
         if walked < corners:
-            after = nearest.get(labels[corner] - 1)
-            (at_new if after is None else arriving[after]).append(2 * corner + 1)
+            joined = nearest.get(labels[corner] - 1)
+            (at_new if joined is None else arriving[joined]).append(2 * corner + 1)
         nearest[labels[corner]] = corner
-    rotations: list[list[Dart]] = [[] for _ in range(max(vertices) + 1)]
-    for corner, (vertex, darts) in enumerate(zip(vertices, arriving, strict=True)):
-        rotations[vertex] += [*sorted(darts, key=_distance_to(corner, corners)), 2 * corner]
+    for corner, darts in enumerate(arriving):
+        darts.sort(key=_distance_to(corner, corners))
+        darts.append(2 * corner)
     around = [0] * (2 * corners)
-    for rotation in (*rotations, at_new):
-        for place, dart in enumerate(rotation):
-            around[rotation[place - 1]] = dart
+    for place, dart in enumerate(at_new):
+        around[at_new[place - 1]] = dart
+    for corner, darts in enumerate(arriving):
+        for dart, following in zip(darts, [*darts[1:], arriving[after[corner]][0]], strict=True):
+            around[dart] = following
     return around
 
 
