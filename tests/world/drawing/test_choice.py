@@ -154,6 +154,13 @@ def test_a_world_with_one_face_is_a_polygon_with_4g_sides(name: str, sides: int)
     assert sum(len(parts) == 2 for parts in layout.paths) == sides / 2
 
 
+@pytest.mark.parametrize(("name", "sides"), [("m4/629", "abacdcdb"), ("family:torus(3,4)", "abab")])
+def test_each_side_has_its_letter(name: str, sides: str) -> None:
+    world = resolve_world(name)
+    svg = to_svg(world, lay_out(world))
+    assert "".join(re.findall(r'<text class="tv-soft"[^>]*>([a-z])</text>', svg)) == sides
+
+
 def test_sides_of_a_polygon_that_are_paired_wrongly_are_seen() -> None:
     world = World.from_id("m4/629")
     svg = to_svg(world, lay_out(world))

@@ -159,11 +159,10 @@ def _cell(cell: CutSurface, radius: float) -> Iterator[str]:
         colour = SIDES[(ord(letter) - ord("a")) % len(SIDES)]
         data = curves.straight([(px, py) for px, py in line.tolist()])
         yield f'<path class="tv-side-{colour}" d="{data}"/>'
-        if cell.sides != "abab":
-            out = line.mean(0) - middle
-            px, py = line.mean(0) + 1.1 * radius * out / np.hypot(*out)
-            at = f'x="{number(px)}" y="{number(py + 0.35 * radius)}"'
-            yield f'<text class="tv-soft" {at}>{letter}</text>'
+        out = line.mean(0) - middle
+        px, py = line.mean(0) + 1.1 * radius * out / np.hypot(*out)
+        at = f'x="{number(px)}" y="{number(py + 0.35 * radius)}"'
+        yield f'<text class="tv-soft" {at}>{letter}</text>'
     yield "</g>"
 
 
