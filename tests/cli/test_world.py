@@ -44,6 +44,20 @@ def test_show_gives_the_rotation_as_the_world_file_does(
     assert entry["vertex_names"] == file.get("vertex_names", [])
 
 
+@pytest.mark.parametrize(
+    ("names", "answer"),
+    [
+        *(("m4/4 m4/26", "yes"), ("m4/4 m4/6", "no, a mirror image"), ("m0/0 m3/14", "no")),
+        ("'family:random_planar(300)' 'family:random_planar(300,marker=7)'", "yes"),
+    ],
+)
+def test_show_says_of_two_worlds_whether_they_differ_in_the_marker_alone(
+    call: Call, names: str, answer: str
+) -> None:
+    assert call(f"world show {names}").stdout.endswith(f"\nsame unrooted map: {answer}\n")
+    assert "same unrooted map" not in call(f"world show {names} m1/0").stdout
+
+
 def test_show_for_people_lists_each_vertex_with_its_darts_and_where_they_lead(call: Call) -> None:
     page = (Path(__file__).parents[2] / "docs" / "commands.md").read_text(encoding="utf-8")
     text = call("world show m4/41").stdout

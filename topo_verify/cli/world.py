@@ -114,8 +114,7 @@ def show(
 ) -> int:
     """Show a world: its size, genus, degrees, id and rotation.
 
-    Two worlds are the same unrooted map iff `unrooted` is the same id; to compare worlds of over
-    200 edges: topo_verify.world.unrooted.same_unrooted, in Python.
+    Of two worlds, the last line says whether they are the same without their markers.
     """
     if file is not None and (model is None or len(worlds) > 1 or not file.endswith(".svg")):
         raise InputError(
@@ -175,6 +174,11 @@ def _show(entries: Sequence[ShowEntry]) -> Iterator[Block]:
                 yield Text("The darts of a world this large: --format json.")
         if entry.twin is not None:
             yield from twin_blocks(entry.name, entry.twin)
+    if len(entries) == 2:
+        a, b = (World.from_rotations(it.rotation, it.edge_darts, it.marker) for it in entries)
+        same = unrooted.same_unrooted(a, b)
+        mirrored = not same and unrooted.same_unrooted(a, b.mirror())
+        yield Text(f"same unrooted map: {'no, a mirror image' if mirrored else _word(same)}")
 
 
 def _word(fact: object) -> str:
