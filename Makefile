@@ -25,6 +25,7 @@ PYTEST := $(BIN)/python -m pytest
 report = $(if $(JUNIT),--junitxml="$(JUNIT)/$(1).xml")
 # Few tests are long and many are short: a worker that is done takes over half of another's.
 PARALLEL := --numprocesses=auto --dist=worksteal
+TRACED := $(foreach room,world robot checkers algorithms,tests/$(room) topo_verify/$(room))
 EVERY := -m 'slow or not slow'
 # Python keeps what it compiles, whatever the environment says: the tests start hundreds of processes.
 export PYTHONDONTWRITEBYTECODE :=
@@ -47,14 +48,14 @@ verify: $(VENV)/.core
 	$(BIN)/topo-verify verify
 
 test: $(VENV)/.dev
-	$(PYTEST) $(PARALLEL) -m 'traced and not (slow or long)' --cov --cov-report= $(call report,traced)
+	$(PYTEST) $(PARALLEL) -m 'traced and not (slow or long)' --cov --cov-report= $(TRACED) $(call report,traced)
 	$(PYTEST) $(PARALLEL) -m 'not (traced or coq or slow or long)' $(call report,test)
 	@echo "Branch coverage of the trusted rooms and the algorithms (must be 100 %):"
 	$(BIN)/coverage report --fail-under=100
 
 # What tests/long.txt names, but for tests/nightly.txt; those that need Coq run in make coq.
 long: $(VENV)/.dev
-	$(PYTEST) $(PARALLEL) -m 'long and not (slow or coq)' $(call report,long)
+	$(PYTEST) $(PARALLEL) -m 'long and not (slow or coq)' tests $(call report,long)
 
 nightly: $(VENV)/.dev
 	HYPOTHESIS_PROFILE=nightly $(PYTEST) $(PARALLEL) $(EVERY)

@@ -34,7 +34,7 @@ TRACED = ("world", "robot", "checkers", "algorithms")
 """The rooms whose branch coverage must be 100 % (pyproject.toml, `source` of coverage)."""
 
 TRACING = tuple(ROOT / folder / room for folder in ("tests", "topo_verify") for room in TRACED)
-"""Where their tests are, doctests included."""
+"""Where their tests are, doctests included. `make test` collects the traced tests there alone."""
 
 settings.register_profile(
     "ci",
@@ -54,11 +54,15 @@ settings.register_profile(
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 
 
+@cache
+def _is_traced(file: Path) -> bool:
+    return any(folder in file.parents for folder in TRACING)
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark tests: `traced` measures coverage, `coq` compiles; `long` and `slow` take long."""
     for item in items:
-        inside = any(folder in item.path.parents for folder in TRACING)
-        if inside and item.get_closest_marker("no_cover") is None:
+        if _is_traced(item.path) and item.get_closest_marker("no_cover") is None:
             item.add_marker("traced")
         if is_named(LONG, item.path, item.name):
             item.add_marker("long")

@@ -9,6 +9,7 @@ whose parts it runs one by one.
 
 import re
 from collections import defaultdict
+from functools import cache
 from pathlib import Path
 
 TESTS = Path(__file__).resolve().parent
@@ -29,9 +30,12 @@ def _patterns(name: str) -> Patterns:
 LONG, NIGHTLY = _patterns("long.txt"), _patterns("nightly.txt")
 
 
+@cache
+def _file(path: Path) -> str | None:
+    return path.relative_to(TESTS).as_posix() if path.is_relative_to(TESTS) else None
+
+
 def is_named(patterns: Patterns, path: Path, name: str) -> bool:
     """Whether these patterns name the test."""
-    if not path.is_relative_to(TESTS):
-        return False
-    of_file = patterns.get(path.relative_to(TESTS).as_posix(), ())
+    of_file = patterns.get(_file(path) or "", ())
     return any(re.fullmatch(pattern, name) for pattern in of_file)

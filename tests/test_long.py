@@ -2,6 +2,7 @@ import re
 
 import pytest
 
+from tests.conftest import TRACED
 from tests.long import LONG, NIGHTLY, TESTS, Patterns, is_named
 
 
@@ -23,3 +24,7 @@ def test_what_no_pattern_names_is_not_long() -> None:
     assert not is_named(patterns, TESTS / file, name + "[1]")
     assert not is_named(patterns, TESTS / "campaign" / "test_tally.py", name)
     assert not is_named(patterns, TESTS.parent / file, name)
+
+
+def test_make_collects_the_traced_tests_of_every_traced_room() -> None:
+    assert f"foreach room,{' '.join(TRACED)}," in (TESTS.parent / "Makefile").read_text()

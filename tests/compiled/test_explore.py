@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -162,18 +163,22 @@ def test_without_address_space_the_limit_is_named(monkeypatch: pytest.MonkeyPatc
 @pytest.mark.parametrize(
     ("world", "run", "words"),
     [
-        (WORLD, {"algorithm": "mine"}, "expected an algorithm of the catalogue, got 'mine'"),
-        (WORLD, {"fault": "typo"}, "expected a fault that has a kernel, got 'typo'"),
-        (families.lattice(4, 4), {"fault": "sets-out-unturned"}, "up to 12 edges"),
-        (families.path(65538), {}, r"up to 65536 edges .* use the reference engine"),
+        (
+            lambda: WORLD,
+            {"algorithm": "mine"},
+            "expected an algorithm of the catalogue, got 'mine'",
+        ),
+        (lambda: WORLD, {"fault": "typo"}, "expected a fault that has a kernel, got 'typo'"),
+        (lambda: families.lattice(4, 4), {"fault": "sets-out-unturned"}, "up to 12 edges"),
+        (lambda: families.path(65538), {}, r"up to 65536 edges .* use the reference engine"),
     ],
     ids=["algorithm", "fault", "fault in a large world", "large world"],
 )
 def test_what_has_no_kernel_or_no_room_is_refused(
-    world: World, run: dict[str, Any], words: str
+    world: Callable[[], World], run: dict[str, Any], words: str
 ) -> None:
     with pytest.raises(InputError, match=words):
-        run_world(world, **run)
+        run_world(world(), **run)
 
 
 def test_without_numba_the_mend_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
