@@ -228,6 +228,7 @@ def test_help_opens_in_the_game_and_a_key_closes_it_alone(show: Open, text: str,
 def test_no_key_reaches_the_player_and_escape_leads_back(show: Open, text: str) -> None:
     page = show(text, at="#step=3")
     page.click("#walk-it")
+    assert page.evaluate("location.hash") == "#walk"  # a reload does not show the world
     keys(page, "0 n ArrowRight End")
     page.keyboard.press("Escape")
     assert page.locator("#walk").count() == 0
