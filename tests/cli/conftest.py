@@ -20,12 +20,12 @@ import pytest
 from click.testing import CliRunner, Result
 
 from tests.campaign.conftest import few_worlds_run_again
-from tests.proofs.mechanised.conftest import library
+from tests.proofs.mechanised.conftest import library, linked
 from topo_verify.campaign.campaign import Shard, ShardResult
 from topo_verify.campaign.store import StoredCampaign
 from topo_verify.cli import main
 
-__all__ = ["few_worlds_run_again", "library"]
+__all__ = ["few_worlds_run_again", "library", "linked"]
 """Fixtures of other rooms, for the tests of this one."""
 
 Call = Callable[..., Result]

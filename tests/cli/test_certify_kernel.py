@@ -51,16 +51,14 @@ def test_each_verdict_is_stated_in_a_file_of_its_own(
         assert re.fullmatch(r"topo-verify/certificate 1\n[0-9 \n]+", Path(one["file"]).read_text())
 
 
-@pytest.mark.coq
-@needs_coq
+@pytest.mark.usefixtures("linked")
 @pytest.mark.slow
 def test_each_verdict_is_accepted_by_coqc(results: Results) -> None:
     found = [entry["kernel"] for entry in results(THREE, code=1)["results"]]
     assert [(one["accepted"], one["by"]) for one in found] == [(True, toolchain.version())] * 3
 
 
-@pytest.mark.coq
-@needs_coq
+@pytest.mark.usefixtures("linked")
 @pytest.mark.slow
 def test_the_command_that_is_printed_checks_the_certificate(call: Call, results: Results) -> None:
     text = call("certify ring.jsonl --kernel").stdout
@@ -131,8 +129,7 @@ def test_a_log_without_decisions_has_no_sentence_about_them(
     assert "decisions that follow," not in call("certify ring.jsonl --kernel").stdout
 
 
-@pytest.mark.coq
-@needs_coq
+@pytest.mark.usefixtures("linked")
 @pytest.mark.slow
 def test_a_decision_that_does_not_follow_is_not_certified(results: Results) -> None:
     trace = trace_of("m3/50")

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import filecmp
 import shutil
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -46,6 +49,27 @@ def place(library: Path, tmp_path: Path) -> Path:
         if path.suffix in {".v", ".vo"}:
             (tmp_path / path.name).symlink_to(path)
     return tmp_path
+
+
+@pytest.fixture
+def linked(library: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A source of the library that is to be compiled, unchanged, is linked to its compiled file."""
+    compile_all = toolchain.compile_all
+
+    def link(folder: Path, names: Iterable[str], **options: Any) -> toolchain.ProgramRun:
+        others: list[str] = []
+        for name in names:
+            compiled = library / f"{name}.vo"
+            same = (toolchain.SOURCES / f"{name}.v", folder / f"{name}.v")
+            if compiled.exists() and filecmp.cmp(*same, shallow=False):
+                (folder / compiled.name).symlink_to(compiled)
+            else:
+                others.append(name)
+        if not others:
+            return toolchain.ProgramRun(accepted=True, output="")
+        return compile_all(folder, others, **options)
+
+    monkeypatch.setattr(toolchain, "compile_all", link)
 
 
 def extracted(library: Path, folder: Path, name: str, main: str) -> Path:

@@ -512,7 +512,7 @@ def test_a_mutant_is_refused(mutant: Mutant, place: Path) -> None:
 
 def test_a_patch_that_changes_nothing_is_accepted(place: Path) -> None:
     same = Mutant(
-        "swapped", "TableCorrect", "unfold refute. intros H.", "intros H. unfold refute in H.", ""
+        "swapped", "Certificate", "intros _. unfold no_dart.", "unfold no_dart. intros _.", ""
     )
     assert refusal(same, place) == ("", "")
 

@@ -115,8 +115,8 @@ def test_the_symbols_are_the_statement_in_its_file_with_the_variables_of_its_sec
 
 
 @pytest.mark.slow
-def test_the_whole_library_is_compiled_and_checked_again(library: Path) -> None:
-    del library
+@pytest.mark.usefixtures("linked")
+def test_the_whole_compiled_library_is_checked_again() -> None:
     for theorem in MECHANISED:
         outcome = theorem.prove(Budget(timeout=LIMIT, together=NAMES))
         assert theorem.ok(outcome), outcome.note
