@@ -15,6 +15,7 @@ GOLDEN = Path(__file__).parent.parent / "data" / "golden.json"
 CASES: list[dict[str, Any]] = json.loads(GOLDEN.read_text())["cases"]
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize("name", SURE)
 @pytest.mark.parametrize("case", CASES, ids=lambda case: str(case["world"]["name"]))
 def test_the_cost_is_the_golden_cost_to_the_traversal(case: dict[str, Any], name: str) -> None:

@@ -102,6 +102,7 @@ def test_places_look_alike_until_two_degrees_were_seen(
     assert seen == expected
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize("name", ["homing", "planner"])
 def test_where_places_look_alike_the_first_closed_trip_goes_round_a_face(name: str) -> None:
     run = explore(families.torus(5, 5), name)

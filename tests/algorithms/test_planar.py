@@ -81,6 +81,7 @@ def test_those_that_steer_declare_the_prior_where_they_use_it() -> None:
     assert {r.evidence.contradiction for r in rejects if r.rule == "planar"} == {FACE}
 
 
+@pytest.mark.no_cover
 def test_the_prior_saves_moves_on_a_grid() -> None:
     for name in ("folding", "homing"):
         assert explore(GRID, f"{name}+planar").cost < explore(GRID, name).cost

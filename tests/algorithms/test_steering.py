@@ -72,6 +72,7 @@ def every_claim_holds(report: Report) -> bool:
 # ---------------------------------------------------------------- sound by construction
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize(
     ("name", "text"),
     [(name, text) for name in STEERED for text in LARGER if fits(name, families_world(text))],
@@ -88,6 +89,7 @@ def test_every_claim_holds_in_worlds_drawn(name: str, world: World) -> None:
     assert every_claim_holds(report), str(report)
 
 
+@pytest.mark.no_cover
 @given(world=any_world(max_edges=7), random=st.randoms(use_true_random=False))
 def test_no_choice_of_edges_and_doors_breaks_a_claim(world: World, random: Random) -> None:
     report = examine(drawn(random), world)
@@ -154,6 +156,7 @@ def watched_ways(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[list[int]]]:
         yield found
 
 
+@pytest.mark.no_cover
 def test_each_way_home_leaves_fewer_hypotheses(monkeypatch: pytest.MonkeyPatch) -> None:
     for rounds in watched_ways(monkeypatch):
         assert max(map(len, rounds)) > 1
@@ -177,6 +180,7 @@ def test_a_way_home_leads_over_what_was_never_crossed(monkeypatch: pytest.Monkey
     assert not any(seen)
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize("door", [back, first_dart])
 def test_the_bound_ends_every_run_even_without_patience(
     door: steering.NextDoor, monkeypatch: pytest.MonkeyPatch

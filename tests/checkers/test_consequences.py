@@ -95,6 +95,7 @@ def test_what_is_met_is_what_follows_in_any_order(world: World, shuffle: Random)
             assert listed(ends[0], ends[2], ends[1]) == listed(*ends)
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize("place", [BEHIND_A_TURNED, *THREE_ENDS])
 def test_what_is_met_does_not_depend_on_what_was_met_before(place: str) -> None:
     shuffle, most = Random(0), 0

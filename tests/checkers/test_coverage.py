@@ -53,6 +53,7 @@ def number(trace: ev.Trace, kind: type[ev.Event]) -> int:
     return sum(isinstance(event, kind) for event in trace)
 
 
+@pytest.mark.no_cover
 def test_the_algorithms_of_the_catalogue_are_judged_in_full() -> None:
     for world in worlds(range(1, 4)):
         for name in CATALOGUE:

@@ -145,6 +145,7 @@ def test_what_contradicts_in_no_way_can_be_joined_and_looking_leaves_no_trace() 
     assert joined
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize("degree", [4, 1000])
 def test_a_place_takes_few_bytes_and_no_more_where_it_has_more_doors(degree: int) -> None:
     start, beyond = Start(percept=Percept(degree, 0)), Move(1, Percept(degree, None))

@@ -177,6 +177,7 @@ def renamed(trace: ev.Trace, old: ev.RuleName, new: ev.RuleName) -> ev.Trace:
     )
 
 
+@pytest.mark.no_cover
 def test_what_only_planarity_rejects_follows_only_if_planarity_was_declared() -> None:
     told = 0
     for world in worlds([4]):

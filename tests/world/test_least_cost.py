@@ -109,6 +109,7 @@ def test_it_proves_every_world_at_the_least_cost(edges: int) -> None:
         assert len(doors) == world.least_cost(), world
 
 
+@pytest.mark.no_cover
 @given(
     any_world(max_edges=40)
     | st.sampled_from(

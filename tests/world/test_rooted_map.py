@@ -158,6 +158,7 @@ def without_marker(world: World) -> object:
     return min(world.with_marker(dart).code for dart in range(len(world.alpha)))
 
 
+@pytest.mark.no_cover
 def test_a_map_and_its_dual_have_the_same_medial_map() -> None:
     images = [(world, world.mirror(), world.dual()) for world in every_world((1, 2, 4))]
     codes = [[without_marker(medial(world)) for world in row] for row in images]

@@ -32,7 +32,7 @@ def filtered(kind: WorldClass, edges: int) -> list[tuple[int, rank_order.Table]]
 
 
 @pytest.mark.parametrize("text", CLASSES)
-@pytest.mark.parametrize("edges", range(6))
+@pytest.mark.parametrize("edges", [*range(5), pytest.param(5, marks=pytest.mark.no_cover)])
 def test_growing_gives_what_filtering_gives_with_the_ranks_and_in_their_order(
     text: str, edges: int
 ) -> None:
@@ -48,12 +48,17 @@ def test_worlds_are_counted_as_they_are_listed(text: str) -> None:
     assert pruned.count_by_vertices(5, kind) == listed
 
 
+@pytest.mark.no_cover
 def test_a_genus_and_a_property_of_the_graph_are_counted_where_few_worlds_have_one_of_them() -> (
     None
 ):
     assert pruned.count(8, WorldClass.parse("planar,simple,max-degree:3")) > 0
     kind = WorldClass.parse("genus:1,loopless")
     assert pruned.count(6, kind) == kind.count(6)
+
+
+def test_more_than_a_million_worlds_are_not_counted_one_by_one() -> None:
+    kind = WorldClass.parse("genus:1,loopless")
     with pytest.raises(InputError, match="with 9 edges there may be 11370212: expected 1000000"):
         pruned.count(9, kind)
     with pytest.raises(
@@ -62,6 +67,7 @@ def test_a_genus_and_a_property_of_the_graph_are_counted_where_few_worlds_have_o
         pruned.count_by_vertices(12, WorldClass.parse("planar,loopless"))
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize("text", ["planar,loopless", "planar,simple"])
 def test_the_formulas_for_planar_graphs_give_the_numbers_of_the_lists(text: str) -> None:
     kind = WorldClass.parse(text)
@@ -89,7 +95,7 @@ def test_a_shard_far_inside_a_list_that_nobody_could_walk_through_starts_at_once
 
 
 @pytest.mark.parametrize("text", ["planar", "genus<=1", "genus<=2", "loopless"])
-@pytest.mark.parametrize("edges", range(1, 6))
+@pytest.mark.parametrize("edges", [*range(1, 5), pytest.param(5, marks=pytest.mark.no_cover)])
 def test_no_branch_ends_without_a_world(
     text: str, edges: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
