@@ -203,7 +203,8 @@ def test_a_mark_that_cannot_be_meant_is_an_error_of_one_sentence(
     result = session()
     result.assert_outcomes(errors=len(MISTAKES))
     parts = re.split(r"(?m)^_+ ERROR collecting test_\d\.py _+$", result.stdout.str())
-    for part, told in zip(parts[1:], MISTAKES.values(), strict=True):
+    for number, (part, told) in enumerate(zip(parts[1:], MISTAKES.values(), strict=True)):
+        assert f"test_{number}.py::test_mine: " in part
         assert told in part
     assert "Traceback" not in result.stdout.str()
 

@@ -139,7 +139,10 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     _import_for(metafunc)
     mark = metafunc.definition.get_closest_marker("topo")
     if mark is not None:
-        cases = _cases(metafunc.config, mark)
+        try:
+            cases = _cases(metafunc.config, mark)
+        except pytest.Collector.CollectError as error:
+            raise pytest.Collector.CollectError(f"{metafunc.definition.nodeid}: {error}") from error
         several = len({case.target.text for case in cases}) > 1
         names = [f"{case.target.text}-{case.claim}" if several else case.claim for case in cases]
         metafunc.fixturenames.append(_CASE)

@@ -281,7 +281,7 @@ def test_drawing_gives_up_with_a_sentence(monkeypatch: pytest.MonkeyPatch) -> No
     with pytest.raises(
         InputError,
         match=r"class simple: too few .* \(none of 50 that were .* a wider class,"
-        r" or, if it has few, choose from tv\.worlds\(\d+, cls='simple'\)$",
+        r" or if it has few, choose from tv\.worlds\(\d+, cls='simple'\)$",
     ):
         WorldClass.parse("simple").sample(25, Random(0))
 

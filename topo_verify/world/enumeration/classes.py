@@ -234,11 +234,14 @@ class WorldClass:
         return rank_order.count(edges) if x == 1 else rank_order.count_by_recurrence(edges, x)
 
     def _too_rare(self, edges: int, evidence: str) -> str:
-        family = ", or draw from the family random_genus, whose worlds are not equally likely"
+        instead = (
+            "draw from the family random_genus, whose worlds are not equally likely"
+            if self._has_formula
+            else f"if it has few, choose from tv.worlds({edges}, cls={str(self)!r})"
+        )
         return (
             f"class {self}: too few of the worlds with {edges} edges are in it to draw one"
-            f" ({evidence}): ask for fewer edges or a wider class, or, if it has few, choose"
-            f" from tv.worlds({edges}, cls={str(self)!r}){family if self._has_formula else ''}"
+            f" ({evidence}): ask for fewer edges or a wider class, or {instead}"
         )
 
 
