@@ -192,8 +192,10 @@ def glued(walk: list[Dart], corners: list[int]) -> list[Dart]:
 
 def _next_corners(walk: Sequence[Dart]) -> list[int]:
     """The next corner clockwise at its vertex; corner i lies before the i-th dart of the walk."""
-    place = {dart: i for i, dart in enumerate(walk)}
-    return [(place[dart ^ 1] + 1) % len(walk) for dart in walk]
+    following = [0] * len(walk)
+    for i, dart in enumerate(walk):
+        following[dart] = (i + 1) % len(walk)
+    return [following[dart ^ 1] for dart in walk]
 
 
 def drawn(
@@ -225,7 +227,7 @@ def labelled_map(
     """
     rises = (-steps[dart // 2] if dart % 2 else steps[dart // 2] for dart in walk[:-1])
     labels, after = [*accumulate(rises, initial=0)], _next_corners(walk)
-    if any(labels[corner] != label for corner, label in zip(after, labels, strict=True)):
+    if [labels[corner] for corner in after] != labels:
         return None
     # one end of each arc is a vertex of the map
     around = _quadrangulation(after, labels)
