@@ -17,7 +17,7 @@ from topo_verify.campaign.targets import one_target
 from topo_verify.compiled import available
 from topo_verify.errors import InputError
 from topo_verify.robot.limits import Limits
-from topo_verify.studies.search.search import Search, SearchEntry, search, search_campaign
+from topo_verify.studies.search.search import SearchEntry, search, search_campaign
 
 pytestmark = pytest.mark.skipif(
     not available() or shutil.which("cc") is None, reason="numba or cc is not installed"
@@ -85,10 +85,11 @@ def test_a_misdeed_convicts_the_mapper_in_its_world(deed: str, tmp_path: Path) -
 
 def test_a_note_names_the_world_of_an_endless_loop_once(tmp_path: Path) -> None:
     mappers = [one_target(hostile(tmp_path, "loop"))]
-    campaign = search_campaign(mappers, edges=2)
+    campaign = search_campaign(mappers, edges=2, limits=Limits(move_timeout=1.1))
     notes: list[str] = []
-    study = Search(campaign, mappers, pooled(1, note=notes.append))
-    study.work()
+    run = pooled(1, note=notes.append)
+    ((_, result),) = run(campaign, iter([Shard(2, 7, 8)]), lambda _number: None)
+    assert result.tally.timeouts == 1
     (note,) = notes
     assert note.startswith("m2/7: no result of the mapper for ")
     assert note.endswith(" before the verdict (--move-timeout 1 waits less)")
