@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 from itertools import chain
+from random import Random
 
 import pytest
 
@@ -181,12 +182,21 @@ MISTAKES = [
 """Of the judge: the claim that a mistake is in, the kernel, what stands there, the mistake."""
 
 
+checked = cache(by_checkers)
+
+
 @cache
-def judged_runs() -> tuple[tuple[Run, Judged], ...]:
-    """Runs right, wrong and doctored, with the verdict of the checkers."""
+def some_runs() -> tuple[Run, ...]:
+    """Runs right, wrong and doctored, shuffled: a mistake shows among the first of them."""
     small = chain(worlds(edges=1), worlds(edges=2), sampled(3, 20), sampled(4, 4))
-    every = (run for world in small for name in MAPPERS for run in runs(world, name, 3))
-    return tuple((run, by_checkers(run)) for run in every)
+    every = [run for world in small for name in MAPPERS for run in runs(world, name, 3)]
+    Random("judged").shuffle(every)
+    return tuple(every)
+
+
+def judged_runs() -> Iterator[tuple[Run, Judged]]:
+    """These runs with the verdict of the checkers."""
+    return ((run, checked(run)) for run in some_runs())
 
 
 def test_every_claim_has_a_mistake_and_the_judge_as_it_is_has_none() -> None:
