@@ -103,8 +103,8 @@ def compiled(
     module = machine_code(layout, checked)
     dispatcher = getattr(module, function.__name__)
     if not dispatcher.signatures:
-        signature = _signature(function)
-        _make(module, function.__name__, lambda: dispatcher.compile(signature))
+        _make(module, function.__name__, lambda: dispatcher.compile(_signature(function)))
+        dispatcher.disable_compile()  # a call with a bool would add code without a checksum
     return cast("Callable[..., Any]", dispatcher)
 
 

@@ -1,5 +1,8 @@
 """The kernel is held to the states that are found by running the mapper."""
 
+# A test may look inside.
+# pyright: reportPrivateUsage=false
+
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -107,6 +110,14 @@ def test_the_numbers_in_all_worlds_of_four_edges_are_pinned(
     found = [table.found_in(world, CATALOGUE[name]) for world in worlds([4])]
     rows = [(one.states, one.choices, one.cheapest, one.dearest) for one in found]
     assert tuple(map(sum, zip(*rows, strict=True))) == totals
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_no_call_makes_machine_code_beside_that_which_is_kept(name: str) -> None:
+    """Else the next process would find it without a checksum, and compile all again."""
+    table.found_in(World.from_id("m4/133"), CATALOGUE[name])
+    entries = [each for each in vars(table._tables()).values() if hasattr(each, "signatures")]
+    assert [len(each.signatures) for each in entries] == [1] * 6
 
 
 @pytest.mark.parametrize("name", KNOWN)

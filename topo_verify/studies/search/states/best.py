@@ -32,10 +32,11 @@ class Tables:
         self._tree = _ints(k.VERTICES)
         self._depth = _ints(k.VERTICES)
         self._size, self._rule, self._overlap = 0, k.NONE, False
-        self._search_world = compiled(k.search_world, k.STATES)
-        self._outward, self._behind = compiled(k.outward, k.STATES), compiled(k.behind, k.STATES)
+        # callees first, or numba would compile them for the types of their callers
         self._tie, self._same_walk = compiled(k.tie, k.STATES), compiled(k.same_walk, k.STATES)
         self._try = compiled(k.tried, k.STATES)
+        self._outward, self._behind = compiled(k.outward, k.STATES), compiled(k.behind, k.STATES)
+        self._search_world = compiled(k.search_world, k.STATES)
 
     def search(self, size: int, rule: int, *, overlap: bool) -> None:
         """Search the states of the world in the table, which has `size` darts."""
