@@ -202,21 +202,20 @@ def small_site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "out"
 
 
-@pytest.mark.parametrize("width", [360, 768, 1024, 1280, 1312, 1366, 1440, 1600, 1920])
 @pytest.mark.parametrize("name", ["index", "genindex"])
-def test_no_page_is_wider_than_its_window(
-    name: str, width: int, small_site: Path, browser: Browser
-) -> None:
-    page = browser.new_page(viewport={"width": width, "height": 800})
+def test_no_page_is_wider_than_its_window(name: str, small_site: Path, browser: Browser) -> None:
+    page = browser.new_page()
     page.goto((small_site / f"{name}.html").as_uri())
-    widths = page.evaluate(
-        "() => [document.documentElement.scrollWidth,"
-        " document.querySelector('.toc-drawer').getBoundingClientRect().right]"
-    )
+    for width in (360, 768, 1024, 1280, 1312, 1366, 1440, 1600, 1920):
+        page.set_viewport_size({"width": width, "height": 800})
+        page_width, contents_end = page.evaluate(
+            "() => [document.documentElement.scrollWidth,"
+            " document.querySelector('.toc-drawer').getBoundingClientRect().right]"
+        )
+        assert page_width <= width
+        if name == "index" and width > 1312:  # below, the theme puts the contents behind a button
+            assert contents_end <= width
     page.close()
-    assert widths[0] <= width
-    if name == "index" and width > 1312:  # below, the theme puts the contents behind a button
-        assert widths[1] <= width
 
 
 def test_the_gallery_has_every_family_and_the_first_genera() -> None:
