@@ -421,6 +421,7 @@ def test_what_a_test_runs_itself_has_the_settings_of_a_property_of_a_mapper(
                     assert phases >= set("{phases}".split())
                     assert ("explain" in phases) is ("explain" in "{phases}")
 
+            Walk.TestCase.settings = settings(Walk.TestCase.settings, max_examples=2)
             run_state_machine_as_test(Walk)
 
         def test_robot(topo_robot):
