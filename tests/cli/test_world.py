@@ -341,7 +341,10 @@ def test_the_part_that_is_shown_of_a_large_world_may_be_around_any_vertex(
     assert "is drawn around its marker: no whole picture was read back true" in call(line).stderr
     vertices = [f'data-vertex="{vertex}"' for vertex in range(entry["vertices"])]
     hidden = next(k for k, vertex in enumerate(vertices) if vertex not in entry["text"])
-    assert vertices[hidden] in call(f"{line} --around {hidden}").stdout
+    ball = call(f"{line} --around {hidden}").stdout
+    assert vertices[hidden] in ball
+    (circle,) = re.findall(rf'{vertices[hidden]} (cx="\S+" cy="\S+")', ball)
+    assert f"{circle} r=" in ball.split("<title>here</title>")[0].split("<circle")[-1]
 
 
 def test_a_vertex_that_is_not_there_is_refused(call: Call, refused: Refused) -> None:

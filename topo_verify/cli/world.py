@@ -518,7 +518,7 @@ class DrawEntry(msgspec.Struct, frozen=True):
 @options.number(
     "--around",
     metavar="VERTEX",
-    meaning="Show only what is near this vertex.  [default: all, up to about 1,000 edges]",
+    meaning="Show what is near this vertex, and ring it.  [default: all, to about 1,000 edges]",
 )
 @options.marker
 def draw(
@@ -544,7 +544,7 @@ def draw(
             large = len(at.world.edges) > WHOLE
             why = f"it has over {WHOLE:,} edges" if large else "no whole picture was read back true"
             output.note(f"{at.name} is drawn around its marker: {why}")
-        content = document(at.world, layout, kind, doors=doors, darts=darts)
+        content = document(at.world, layout, kind, doors=doors, darts=darts, here=around)
         if file != "-":
             files.write(file, content)
         yield Result(
