@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from topo_verify.world import families
-from topo_verify.world.drawing import curves, lay_out
+from topo_verify.world.drawing import curves, lay_out, to_svg
 from topo_verify.world.drawing.svg import leaving, places
 from topo_verify.world.rooted_map import World
 
@@ -27,6 +28,17 @@ def test_the_arrow_is_half_as_long_as_a_vertex_is_wide_or_longer(name: str) -> N
     x, y, radius = map(float, place.groups())
     across = ((float(tip[1]) - x) ** 2 + (float(tip[2]) - y) ** 2) ** 0.5
     assert across - radius >= radius
+
+
+@pytest.mark.parametrize("radius", [11, 1])
+def test_the_gap_beneath_a_bridge_shows_on_both_sides_of_it(radius: float) -> None:
+    world = families.king(3, 4)
+    svg = to_svg(world, replace(lay_out(world), radius=radius))  # strokes stay legible
+    edge, halo = (
+        float(re.findall(rf'{before} stroke-width="(\S+)"', svg)[0])
+        for before in ("<g", 'class="tv-halo"')
+    )
+    assert halo >= 3 * edge
 
 
 # ---------------------------------------------------------------- the numbers of darts

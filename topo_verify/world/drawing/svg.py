@@ -109,10 +109,10 @@ def _head(world: World, layout: Layout) -> Iterator[str]:
 
 def _body(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[str]:  # noqa: FBT001
     radius = layout.radius
-    line = number(min(max(0.15 * radius, max(layout.width, layout.height) / 800), 0.45 * radius))
+    line = min(max(0.15 * radius, max(layout.width, layout.height) / 800), 0.45 * radius)
     if layout.cell:
         yield from _cell(layout.cell, radius)
-    yield f'<g stroke-width="{line}" stroke-linecap="round" stroke-linejoin="round">'
+    yield f'<g stroke-width="{number(line)}" stroke-linecap="round" stroke-linejoin="round">'
     for (a, b), parts in zip(world.edges, layout.paths, strict=True):
         for k, data in enumerate(parts):
             part = f' data-part="{k}"' if len(parts) > 1 else ""
@@ -122,8 +122,8 @@ def _body(world: World, layout: Layout, doors: bool, darts: bool) -> Iterator[st
         yield f'<path class="tv-stub" data-stub="{dart}" stroke-dasharray="{dash}" d="{data}"/>'
     yield "</g>"
     if layout.bridges:
-        halo = number(0.62 * radius)
-        yield f'<g stroke-width="{line}">'
+        halo = number(max(0.62 * radius, 3 * line))
+        yield f'<g stroke-width="{number(line)}">'
         for bridge in layout.bridges:
             yield f'<path class="tv-halo" stroke-width="{halo}" d="{bridge.path}"/>'
             yield f'<path class="tv-over" d="{bridge.path}"/>'
