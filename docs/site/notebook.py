@@ -35,8 +35,9 @@ def shown(code: str, names: dict[str, Any]) -> str:
     if plt := names.get("plt"):
         for number in plt.get_fignums():
             plt.figure(number).savefig(picture := StringIO(), format="svg")
-            inside = picture.getvalue().partition("<svg")[2]
-            html += f"<svg style='max-width:100%;height:auto'{inside}"
+            inside = picture.getvalue().partition("<svg")[2].replace("#ffffff", "none")
+            inside = inside.replace("#000000", "currentColor")  # the theme's, light or dark
+            html += f"<svg style='max-width:100%;height:auto;fill:currentColor'{inside}"
         plt.close("all")
     if hasattr(value, "_repr_html_"):
         return html + value._repr_html_()

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import importlib.util
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -65,7 +66,10 @@ def test_a_notebook_becomes_its_cells_and_what_they_show(tmp_path: Path) -> None
     )
     cells[1]["source"] = ["import matplotlib.pyplot as plt\n", "plt.plot([1, 2])\n", "plt.show()"]
     path.write_text(json.dumps({"cells": cells}), encoding="utf-8")
-    assert part("site/notebook.py").page(path).count("<svg style='max-width:100%") == 1
+    chart = part("site/notebook.py").page(path)
+    assert chart.count("<svg style='max-width:100%") == chart.count("fill:currentColor") == 1
+    assert "stroke: currentColor" in chart  # black on white would not follow the theme
+    assert not {"#ffffff", "#000000"} & set(re.findall(r"#[0-9a-f]{6}", chart))
     cells[1]["source"] = ["1 / 0"]
     path.write_text(json.dumps({"cells": cells}), encoding="utf-8")
     with pytest.raises(ZeroDivisionError):
