@@ -151,7 +151,7 @@ def test_a_search_without_a_counterexample_has_no_picture() -> None:
 def test_no_command_is_shown_for_what_no_command_finds() -> None:
     entry = tv.search(lambda _robot: None, edges=1)
     assert "again:" not in str(entry)
-    assert 'look closer: tv.examine(mapper, "m1/0")' in str(entry)
+    assert 'look closer: tv.examine(your mapper, "m1/0")' in str(entry)
     assert "again:" in str(tv.search(guess)), "edges has the default of the command"
     assert "look closer:" not in str(tv.search(guess, edges=1))
 
@@ -161,6 +161,21 @@ def test_a_mapper_of_a_notebook_is_called_by_its_name() -> None:
 
     lazy.__module__, lazy.__qualname__ = "__main__", "lazy"
     assert 'look closer: tv.examine(lazy, "m1/0")' in str(tv.search(lazy, edges=1))
+
+
+def test_a_name_that_may_be_another_mapper_is_not_advised(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Lazy:
+        def __call__(self, _robot: tv.Robot) -> None: ...
+
+        def explore(self, _robot: tv.Robot) -> None: ...
+
+    Lazy.__module__ = Lazy.explore.__module__ = "__main__"
+    mapper = Lazy()
+    for unnamed in (mapper, mapper.explore):
+        shown = str(tv.search(unnamed, edges=1))
+        assert 'look closer: tv.examine(your mapper, "m1/0")' in shown
+    monkeypatch.setattr(sys.modules["__main__"], "mine", mapper, raising=False)
+    assert 'look closer: tv.examine(mine, "m1/0")' in str(tv.search(mapper, edges=1))
 
 
 def test_a_report_names_a_large_world_by_its_name() -> None:

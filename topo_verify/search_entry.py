@@ -47,7 +47,7 @@ def _blocks(entry: SearchEntry) -> Iterator[Block]:
     first = entry.counterexample
     if first is not None and not first.replay:
         name = entry.target.removeprefix("<").removesuffix(">")
-        mapper = name if name.isidentifier() and name != "lambda" else "mapper"
+        mapper = name if name.isidentifier() and name != "lambda" else "your mapper"
         yield Command(f'tv.examine({mapper}, "{first.world}")', "look closer: ")
 
 

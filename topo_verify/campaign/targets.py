@@ -10,8 +10,8 @@
     basic,path/file.py:name     several of these, except programs and libraries
 
 Conversely, `text_of` names a callable by its catalogue name, its module, its file if other
-programs do not find the module by name, or else, as for a closure, by `module:<name>`, or as for
-what a notebook holds, by `<name>`. Neither finds anything.
+programs do not find the module by name, or else, as for a closure, by `module:<maker.name>`, or as
+for what a notebook holds, by `<name>`. Neither finds anything.
 
 Source: docs/semantics.md, section 16.
 """
@@ -206,8 +206,8 @@ def text_of(mapper: Mapper) -> str:
     place = None if module is None or name is None else _place(module)
     if place is not None:
         return f"{place}:{name}"
-    called: str = getattr(mapper, "__qualname__", type(mapper).__qualname__)
-    name = f"<{called.rpartition('.')[2].strip('<>')}>"
+    called: str = getattr(mapper, "__qualname__", f"{type(mapper).__qualname__}()")
+    name = f"<{name or called.replace('<locals>.', '').replace('<lambda>', 'lambda')}>"
     return name if home == "__main__" else f"{home}:{name}"
 
 
