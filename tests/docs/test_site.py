@@ -185,7 +185,7 @@ def test_other_words_of_the_page_are_not_linked(name: str) -> None:
 
 @pytest.fixture(scope="module")
 def small_site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A site with the theme and the styles of docs/: a wide table, and long names in the index."""
+    """A site with the theme and the styles of docs/: a wide table, a report, long names."""
     for module in ("furo", "myst_parser"):
         pytest.importorskip(module, reason=f"{module} is not installed")
     folder = tmp_path_factory.mktemp("site")
@@ -193,7 +193,8 @@ def small_site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     long = "topo_verify.world.enumeration.classes.WorldClass.admits"
     names = (f"```{{py:method}} {long}{i}\n```\n" for i in range(2))
     table = f"# Wide\n\n{row}\n{'| --- ' * 10}|\n{row}\n\n## Part\n\n"
-    (folder / "index.md").write_text(table + "".join(names))
+    report = f"<div><pre>\n{'report -' * 10}\n</pre></div>\n\n"  # lines of 80, as reports have
+    (folder / "index.md").write_text(table + report + "".join(names))
     options = {
         "extensions": "myst_parser",
         "html_theme": "furo",
@@ -204,6 +205,11 @@ def small_site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     command = [sys.executable, "-m", "sphinx", "-q", "-C", *settings, str(folder), f"{folder}/out"]
     subprocess.run(command, check=True)
     return folder / "out"
+
+
+CUT_REPORTS = (
+    "() => [...document.querySelectorAll('pre')].filter(e => e.scrollWidth > e.clientWidth).length"
+)
 
 
 @pytest.mark.parametrize("name", ["index", "genindex"])
@@ -217,6 +223,8 @@ def test_no_page_is_wider_than_its_window(name: str, small_site: Path, browser: 
             " document.querySelector('.toc-drawer').getBoundingClientRect().right]"
         )
         assert page_width <= width
+        if width > 360:  # on a phone a report scrolls
+            assert page.evaluate(CUT_REPORTS) == 0
         if name == "index" and width > 1312:  # below, the theme puts the contents behind a button
             assert contents_end <= width
     page.close()
