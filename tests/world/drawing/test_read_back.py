@@ -7,7 +7,7 @@ import re
 import pytest
 
 from topo_verify.world.drawing import lay_out, read_back, to_svg
-from topo_verify.world.families import lattice
+from topo_verify.world.families import king, lattice
 from topo_verify.world.rooted_map import World
 
 pytestmark = pytest.mark.no_cover  # drawing is not trusted: it is left out of the measure
@@ -101,6 +101,15 @@ def test_an_edge_that_comes_back_into_its_own_vertex_is_seen(svg: str, world: Wo
 
 def test_a_crossing_is_seen(svg: str, world: World) -> None:
     assert untruths(through(svg, 0, "-50 300"), world)[-1].endswith(" 0 are meant")
+
+
+@pytest.mark.parametrize("missing", [1, 2, 4])
+def test_a_crossing_without_its_bridge_is_seen(missing: int) -> None:
+    world = king(3, 3)
+    svg = to_svg(world, lay_out(world))
+    assert untruths(svg, world) == []
+    plain = re.sub('<path class="tv-halo".*', "", svg, count=missing)
+    assert untruths(plain, world) == [f"{missing} of 4 crossings have no bridge"]
 
 
 def test_circles_that_overlap_are_seen(svg: str, world: World) -> None:

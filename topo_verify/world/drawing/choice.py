@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from topo_verify.errors import InputError, InternalError
 from topo_verify.world.drawing import curves, read_back
 from topo_verify.world.drawing.cells import polygon, torus_cell
-from topo_verify.world.drawing.layout import Bridge, Layout, Sketch, fitted
+from topo_verify.world.drawing.layout import Layout, Sketch, find_bridges, fitted
 from topo_verify.world.drawing.planar import planar
 from topo_verify.world.drawing.straight import given, is_crowded, spread, tree
 from topo_verify.world.drawing.svg import to_svg
@@ -39,7 +39,7 @@ def lay_out(world: World, *, centre: Dart | None = None) -> Layout:
     if centre is not None and len(ball(world, centre, limit=LIMIT).vertices) < len(world.vertices):
         return _ball(world, centre)
     flat = torus_cell(world) or polygon(world)
-    if flat is not None and not untrue(world, flat, 0):
+    if flat is not None and not untrue(world, flat):
         return flat
     for sketch in _sketches(world):
         layout = _true(world, sketch)
@@ -64,7 +64,7 @@ def lay_out_known(world: World, places: int) -> Layout:
             continue
         words = 2 * max(layout.radius, layout.width / 60)  # a line below the picture
         whole = replace(put_back(around, layout), kind="known", height=layout.height + words)
-        if not untrue(world, whole, None):
+        if not untrue(world, whole):
             return whole
     raise InputError(
         f"no picture of {len(world.edges):,} edges, expected up to about {WHOLE:,}: draw the map"
@@ -96,7 +96,7 @@ def _ball(world: World, centre: Dart) -> Layout:
             layout = _true(around.part, sketch)
             if layout is not None:
                 whole = put_back(around, layout)
-                if not untrue(world, whole, None):
+                if not untrue(world, whole):
                     return whole
         limit //= 2
     raise InternalError(f"no true picture of {world!r} was found")
@@ -105,34 +105,33 @@ def _ball(world: World, centre: Dart) -> Layout:
 def _true(world: World, sketch: Sketch) -> Layout | None:
     """The true layout of the sketch with the roundest corners, if any."""
     straight = fitted(sketch, 0.0)
-    if _share(straight) < CRAMPED and untrue(world, straight, _meant(sketch, straight)):
+    if _share(straight) < CRAMPED and _wrong(world, sketch, straight):
         return None  # vertices coincide
     best: Layout | None = None
     for rounding in ROUNDINGS:
         layout = fitted(sketch, rounding)
         if best is not None and _share(layout) < 1.3 * _share(best):
             break
-        if not untrue(world, layout, _meant(sketch, layout)):
+        if not _wrong(world, sketch, layout):
             best = layout
             if _share(layout) > ROOMY:
                 break
     return best
 
 
-def _meant(sketch: Sketch, layout: Layout) -> int | None:
-    """The crossings of the sketch; a twentieth may differ, since each has its bridge."""
-    if sketch.bridges and abs(len(layout.bridges) - sketch.bridges) <= sketch.bridges // 20:
-        return len(layout.bridges)
-    return sketch.bridges
+def _wrong(world: World, sketch: Sketch, layout: Layout) -> bool:
+    """Whether the picture is untrue, or over a twentieth off the sketch's number of bridges."""
+    meant = len(layout.bridges) if sketch.bridges is None else sketch.bridges
+    return abs(len(layout.bridges) - meant) > meant // 20 or bool(untrue(world, layout))
 
 
 def _share(layout: Layout) -> float:
     return layout.radius / max(layout.width, layout.height)
 
 
-def untrue(world: World, layout: Layout, bridges: int | None) -> list[str]:
-    """The mistakes in the picture of the layout; `bridges`: the crossings meant, None: any."""
-    return read_back.untruths(read_back.read(to_svg(world, layout)), world, bridges=bridges)
+def untrue(world: World, layout: Layout) -> list[str]:
+    """The mistakes in the picture of the layout."""
+    return read_back.untruths(read_back.read(to_svg(world, layout)), world)
 
 
 LIMIT = 220
@@ -194,18 +193,16 @@ def put_back(around: Ball, layout: Layout) -> Layout:
     edge_of = {dart: k for k, edge in enumerate(world.edges) for dart in edge}
     numbers = [edge_of[darts[a]] for a, _ in part.edges]
     paths: list[tuple[str, ...]] = [()] * len(world.edges)
-    stubs: list[tuple[Dart, str]] = []
+    stubs: dict[Dart, str] = {}
+    visible = [""] * len(world.edges)
     for number, (a, _), parts in zip(numbers, part.edges, layout.paths, strict=True):
         if darts[a] in around.cut:
             points = curves.flatten(parts[0])
-            stubs.append((darts[a], curves.piece(points, 0.0, 0.7 * curves.length(points))))
+            visible[number] = curves.piece(points, 0.0, 0.7 * curves.length(points))
+            stubs[darts[a]] = visible[number]
         else:
             paths[number] = parts
-    bridges = tuple(
-        Bridge(numbers[bridge.over], numbers[bridge.under], bridge.path)
-        for bridge in layout.bridges
-        if not {darts[part.edges[k][0]] for k in (bridge.over, bridge.under)} & around.cut.keys()
-    )
+            visible[number] = parts[0]
     places = dict(zip(around.vertices, layout.centres, strict=False))
     queue: deque[int] = deque()
     for dart, leaf in around.cut.items():
@@ -225,7 +222,7 @@ def put_back(around: Ball, layout: Layout) -> Layout:
         kind="ball",
         centres=tuple(places[vertex] for vertex in range(len(world.vertices))),
         paths=tuple(paths),
-        bridges=bridges,
-        stubs=tuple(sorted(stubs)),
+        bridges=find_bridges(visible, layout.radius),
+        stubs=tuple(sorted(stubs.items())),
         hidden=frozenset(range(len(world.vertices))) - {*around.vertices},
     )

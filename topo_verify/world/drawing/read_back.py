@@ -32,12 +32,14 @@ class Picture:
         curves: the parts of each edge, by its two darts.
         stubs: the beginnings of edges that leave a ball, by their dart.
         sides: of a cut surface, by letter.
+        gaps: in the edges below bridges, each along the edge above.
     """
 
     circles: dict[int, tuple[float, float, float]]
     curves: dict[tuple[Dart, Dart], tuple[Floats, ...]]
     stubs: dict[Dart, Floats]
     sides: dict[str, list[Floats]]
+    gaps: list[Floats]
 
 
 def read(svg: str) -> Picture:
@@ -46,6 +48,7 @@ def read(svg: str) -> Picture:
     parts: dict[tuple[Dart, Dart], dict[int, Floats]] = {}
     stubs: dict[Dart, Floats] = {}
     sides: dict[str, list[Floats]] = {}
+    gaps: list[Floats] = []
     for element in ET.fromstring(svg).iter():  # noqa: S314  our own picture
         get = element.attrib.get
         if element.tag == f"{SVG}circle" and (vertex := get("data-vertex")) is not None:
@@ -60,6 +63,8 @@ def read(svg: str) -> Picture:
             parts[a, b][part] = flatten(get("d", ""))
         elif (stub := get("data-stub")) is not None:
             stubs[int(stub)] = flatten(get("d", ""))
+        elif get("class") == "tv-halo":
+            gaps.append(flatten(get("d", "")))
         elif (cell := get("data-cell")) is not None:
             corner, right, up = np.array([*map(float, cell.split())]).reshape(3, 2)
             corners = np.array([corner, corner + right, corner + right + up, corner + up])
@@ -68,7 +73,7 @@ def read(svg: str) -> Picture:
             corners = np.array([*map(float, outline.split())]).reshape(-1, 2)
             sides = _sides(corners, get("data-sides", ""))
     curves = {edge: tuple(pieces[k] for k in sorted(pieces)) for edge, pieces in parts.items()}
-    return Picture(circles, curves, stubs, sides)
+    return Picture(circles, curves, stubs, sides, gaps)
 
 
 def _sides(corners: Floats, letters: str) -> dict[str, list[Floats]]:
@@ -80,8 +85,8 @@ def _sides(corners: Floats, letters: str) -> dict[str, list[Floats]]:
     return sides
 
 
-def untruths(picture: Picture, world: World, *, bridges: int | None = None) -> list[str]:
-    """The differences between the picture and the world; `bridges`: the crossings meant."""
+def untruths(picture: Picture, world: World) -> list[str]:
+    """The differences between the picture and the world."""
     missing = sorted(set(range(len(world.vertices))) - picture.circles.keys())
     if missing and not picture.stubs:
         return [f"vertex {missing[0]} is not drawn"]
@@ -90,12 +95,12 @@ def untruths(picture: Picture, world: World, *, bridges: int | None = None) -> l
             return mistakes
     mistakes = [*_orders(picture, world), *overlaps(picture), *_touches(picture, world)]
     flat = [part for parts in picture.curves.values() for part in parts]
-    flat += picture.stubs.values()
-    number = len(crossings(flat))
-    if bridges is None:
-        bridges = number if world.genus and not picture.sides else 0
-    if number != bridges:
-        mistakes.append(f"{number} crossings are drawn, {bridges} are meant")
+    places = np.reshape([c.at for c in crossings([*flat, *picture.stubs.values()])], (-1, 2))
+    apart = [np.full(len(places), np.inf), *(distances(places, gap) for gap in picture.gaps)]
+    if len(places) and (picture.sides or not world.genus):
+        mistakes.append(f"{len(places)} crossings are drawn, 0 are meant")
+    elif plain := int((np.min(apart, axis=0) > TOLERANCE).sum()):
+        mistakes.append(f"{plain} of {len(places)} crossings have no bridge")
     return mistakes
 
 
