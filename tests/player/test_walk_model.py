@@ -195,11 +195,18 @@ def test_a_sketch_shows_the_rotation_of_every_vertex_clockwise() -> None:
 def test_roads_of_small_and_of_well_known_planar_maps_do_not_cross_in_their_sketches() -> None:
     planar = [families.cube(), families.octahedron(), families.prism(5), families.lattice(3, 3)]
     source = script("geometry.js") + MODEL + script("sketch.js")
-    source += "const answer = (world) => sketchOf(world).crossings();"
+    source += "const answer = (world) => Math.floor(sketchOf(world).crossings());"
     planar += [world for world in worlds([1, 2, 3]) if not world.genus]
     planar += map(World.from_id, ("m4/34", "m4/45", "m4/471"))  # a loop around a dead end, or none
     assert set(answers(source, map(data, planar))) == {0}
     assert min(answers(source, map(data, [World.from_id("m2/8"), families.torus(3, 3)]))) > 0
+
+
+def test_roads_cross_in_the_sketch_of_one_in_fifty_planar_worlds_with_4_edges_at_most() -> None:
+    four = [world for world in worlds([4]) if not world.genus]
+    source = script("geometry.js") + MODEL + script("sketch.js")
+    source += "const answer = (world) => sketchOf(world).crossings() >= 1;"
+    assert sum(answers(source, map(data, four))) < len(four) / 50
 
 
 def test_a_declaration_can_be_taken_back() -> None:

@@ -25,28 +25,31 @@ class Sketch {
   /** The sketch with the fewest crossings: grown from the one before, or with a face outside. */
   static best(vertices, alpha, before) {
     let best = new Sketch(vertices, alpha, before?.spots), fewest = best.crossings();
-    for (const start of fewest ? best.faces().map((face) => best.inside(face)) : []) {
+    for (const start of fewest >= 1 ? best.faces().map((face) => best.inside(face)) : []) {
       const other = new Sketch(vertices, alpha, start), number = other.crossings();
       if (number < fewest) [best, fewest] = [other.turnedLike(before?.spots ?? []), number];
     }
-    if (fewest) best.untwist();
+    // Of a small planar map: it takes long, and another one has to cross.
+    if (alpha.size < 20 && vertices.length - alpha.size / 2 + best.faces().length === 2) best.untwist();
     return best;
   }
 
-  /** Turn each vertex with several roads to one place so that few roads cross and they are short. */
+  /** Three times, move and turn each vertex a little while fewer roads cross, or they are shorter. */
   untwist() {
-    const length = () => [...this.alpha.keys()].reduce((sum, dart) => sum + new Trail(flattened(this.road(dart))).length, 0);
-    this.spots.forEach((spot, v) => {
-      const { turn } = spot, ends = this.vertices[v].flatMap((dart) => this.owner.get(this.alpha.get(dart))?.[0] ?? []);
-      if (new Set(ends).size === ends.length) return;
-      const tried = Array.from({ length: 12 }, (_, k) => {
-        spot.turn = turn + (k * Math.PI) / 6;
+    let least = this.crossings();
+    for (const spot of this.spots.concat(this.spots, this.spots)) {
+      let best = { ...spot };
+      const { x, y, turn } = spot;
+      for (let k = 0; k < 72 && least >= 1; k += 1) {
+        const far = 40 * (k % 3);
+        Object.assign(spot, { x: x + far * Math.cos(k), y: y + far * Math.sin(k), turn: turn + 2.4 * k });
         this.straighten();
-        return [this.crossings() + length() / 1e6, spot.turn];
-      });
-      [, spot.turn] = tried.reduce((least, one) => (one[0] < least[0] ? one : least));
-      this.straighten();
-    });
+        const number = this.crossings();
+        if (number < least) [least, best] = [number, { ...spot }];
+      }
+      Object.assign(spot, best);
+    }
+    this.straighten();
   }
 
   /** The vertices along each face, in the directions of its roads. */
@@ -92,24 +95,25 @@ class Sketch {
     return this;
   }
 
-  /** How often two roads cross, or a road runs over a vertex. */
+  /** How often two roads cross, a road runs over a vertex, or two vertices are near; and a millionth of their length. */
   crossings() {
     const side = ([a, b], [c, d], [e, f]) => (c - a) * (f - b) - (d - b) * (e - a);
-    const roads = [...this.alpha].filter(([a, b]) => a < b).map(([dart]) => this.along(dart));
+    const roads = [...this.alpha].filter(([a, b]) => a < b).map(([dart]) => {
+      const [points] = flattened(this.road(dart));
+      return points.slice(1).map((point, n) => [points[n], point]);
+    });
     let number = 0;
+    this.spots.forEach((one, v) => {
+      for (const two of this.spots.slice(0, v)) number += Math.hypot(one.x - two.x, one.y - two.y) < 3.5 * ROUND;
+    });
     roads.forEach((road, k) => {
       for (const [a, b] of road) {
+        number += Math.hypot(a[0] - b[0], a[1] - b[1]) / 1e6;
         for (const { x, y } of this.spots) number += Math.hypot(a[0] - x, a[1] - y) < 0.9 * ROUND;
         for (const [c, d] of roads.slice(0, k).flat()) number += side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
       }
     });
     return number;
-  }
-
-  /** The road of a dart as short straight pieces. */
-  along(dart) {
-    const [points] = flattened(this.road(dart));
-    return points.slice(1).map((point, n) => [points[n], point]);
   }
 
   /** Where a new vertex stands: at the end of its first road to one that stands already. */
