@@ -230,6 +230,19 @@ def test_no_page_is_wider_than_its_window(name: str, small_site: Path, browser: 
     page.close()
 
 
+def test_a_frame_follows_the_theme_of_the_site(small_site: Path, browser: Browser) -> None:
+    page = browser.new_page(color_scheme="null")  # an emulated one overrules the theme in frames
+    page.goto((small_site / "index.html").as_uri())
+    page.evaluate("document.body.append(document.createElement('iframe'))")
+    for theme in ("dark", "light", "dark"):
+        page.evaluate(f"document.body.dataset.theme = '{theme}'")
+        page.frames[1].wait_for_function(
+            "dark => matchMedia('(prefers-color-scheme: dark)').matches === dark",
+            arg=theme == "dark",
+        )
+    page.close()
+
+
 def test_the_gallery_has_every_family_and_the_first_genera() -> None:
     pictures = part("gallery.py").PICTURES
     assert FAMILIES.keys() <= pictures.keys()
