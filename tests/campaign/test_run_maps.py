@@ -85,6 +85,13 @@ def test_nonsense_is_no_map(result: object, reason: str) -> None:
     assert reason in why(delivers(result))
 
 
+@pytest.mark.filterwarnings("error")
+def test_an_async_mapper_is_told_the_word_to_remove() -> None:
+    async def mapper(_robot: Robot) -> None: ...
+
+    assert why(mapper).startswith("the mapper is `async`: remove the word")
+
+
 def test_a_map_that_never_ends_is_out_of_time() -> None:
     endless = {"vertices": Endless(), "edges": EDGES, "marker": 0}
     assert why(delivers(endless), SHORT).startswith(

@@ -11,7 +11,7 @@ import traceback
 from bdb import BdbQuit
 from collections.abc import Callable, Iterable
 from contextlib import suppress
-from inspect import isgenerator
+from inspect import iscoroutine, isgenerator
 from operator import index
 from pathlib import Path
 from typing import NamedTuple, TypeVar
@@ -58,31 +58,27 @@ def deliver(
     """
     try:
         result = mapper(robot)
-    except MapperStopped:
-        raise
     except BaseException as raised:
-        if not alone and _passes(raised):
+        if _passes(raised, alone):
             raise
         why = f"the mapper raised {exception_text(raised)}"
         return Undelivered(why + DEBUG * (alone and isinstance(raised, BdbQuit)), raised)
     try:
         return finish_of(result)
-    except MapperStopped:
-        raise
     except InputError as nonsense:
         return Undelivered(str(nonsense))
     except BaseException as raised:
-        if not alone and _passes(raised):
+        if _passes(raised, alone):
             raise
-        why = f"what was delivered cannot be read: {exception_text(raised)}"
-        return Undelivered(why, raised)
+        return Undelivered(f"what was delivered cannot be read: {exception_text(raised)}", raised)
 
 
-def _passes(error: BaseException) -> bool:
+def _passes(error: BaseException, alone: bool) -> bool:  # noqa: FBT001  as in `deliver`
     # Of the bases, too: pytest names another module in those that it prints.
     homes = {kind.__module__.partition(".")[0] for kind in type(error).__mro__}
     of_tool = not isinstance(error, Exception) and not homes.isdisjoint(TEST_TOOLS)
-    return of_tool or isinstance(error, KeyboardInterrupt)
+    of_caller = of_tool or isinstance(error, KeyboardInterrupt)
+    return isinstance(error, MapperStopped) or (of_caller and not alone)
 
 
 def exception_text(error: BaseException) -> str:
@@ -166,6 +162,9 @@ def finish_of(result: object) -> Finish:
     """
     if isgenerator(result):
         raise InputError("the mapper returned a generator: it has a `yield`; return the map")
+    if iscoroutine(result):
+        result.close()  # else Python warns that it was never awaited
+        raise InputError("the mapper is `async`: remove the word; the robot needs no `await`")
     vertices, edges, marker = map_parts(result)
     cost = optional_part(result, "cost")
     if cost is not None and (isinstance(cost, bool) or not hasattr(cost, "__index__")):
@@ -175,6 +174,5 @@ def finish_of(result: object) -> Finish:
     if cost is not None and index(cost).bit_length() > 64:
         # msgspec writes 64 bits; no run has 2^64 moves.
         raise InputError("the mapper reports a cost of more than 64 bits: expected its moves")
-    rotations = tuple(map(tuple, vertices))
-    delivered = MapData(rotations, tuple(map(tuple, edges)), marker)
+    delivered = MapData(tuple(map(tuple, vertices)), tuple(map(tuple, edges)), marker)
     return Finish(None if cost is None else index(cost), delivered)

@@ -79,7 +79,7 @@ class Limits:
         move_timeout: seconds between two moves, without those spent waiting for a processor.
         world_timeout: such seconds in all.
     Raises:
-        InputError: seconds are not in (0, MOST_SECONDS], or the budget is negative.
+        InputError: seconds are no number in (0, MOST_SECONDS], or the budget no integer from 0 on.
     """
 
     budget: int | None = None
@@ -93,11 +93,11 @@ class Limits:
         )
 
     def __post_init__(self) -> None:
-        if self.budget is not None and self.budget < 0:
-            raise InputError(f"budget: expected at least 0 moves, got {self.budget!r}")
+        if self.budget is not None and not (hasattr(self.budget, "__index__") and self.budget >= 0):
+            raise InputError(f"budget: expected an integer of 0 or more, got {self.budget!r}")
         for name in ("move_timeout", "world_timeout"):
             seconds = getattr(self, name)
-            if not 0 < seconds <= MOST_SECONDS:
+            if not (hasattr(seconds, "__float__") and 0 < seconds <= MOST_SECONDS):
                 raise InputError(
                     f"{name}: expected seconds in (0, {MOST_SECONDS}], got {seconds!r}"
                 )
