@@ -2,7 +2,8 @@
 
     .venv/bin/python benchmarks/advice.py
 
-100 random worlds each. In the second half the robot first strolls at random, free of charge.
+25 random worlds of each family. For the column *after a stroll* the robot first takes 50 random
+moves, free of charge.
 """
 
 from __future__ import annotations

@@ -36,8 +36,10 @@ class Walker:
     def follow(self) -> int:
         """Follow the advice until there is none; return the number of moves since."""
         before = len(self.log)
+        most = 2 * self.world.cost_bound
         while (way := certify(self.log).advice) is not None:
             self.go(way.walk)
+            assert len(self.log) - before <= most, "the advice proves nothing"
         return len(self.log) - before
 
 
