@@ -327,7 +327,8 @@ def words(edges: int) -> Iterator[list[int]]:
 def one_face_walks(edges: int, genus: int) -> Counter[tuple[int, ...]]:
     """The maps with one face that vertices of others are glued to, and in how many ways."""
     if genus == 0:
-        return Counter(tuple(walked(word)) for word in words(edges))
+        around = random_maps._walk  # pyright: ignore[reportPrivateUsage]
+        return Counter(tuple(around(word)) for word in words(edges))
     glued: Counter[tuple[int, ...]] = Counter()
     for p in range(1, genus + 1):
         for walk in one_face_walks(edges, genus - p):
@@ -337,16 +338,6 @@ def one_face_walks(edges: int, genus: int) -> Counter[tuple[int, ...]]:
             for chosen in combinations(first, 2 * p + 1):
                 glued[numbered(random_maps.glued(list(walk), list(chosen)))] += 1
     return glued
-
-
-def walked(word: list[int]) -> list[int]:
-    """The walk around a plane tree: 2e up edge e, 2e+1 back."""
-    walk, above = list[int](), list[int]()
-    for step in word:
-        if step > 0:
-            above.append(2 * word[: len(walk)].count(1))
-        walk.append(above[-1] if step > 0 else above.pop() + 1)
-    return walk
 
 
 def numbered(walk: list[int]) -> tuple[int, ...]:

@@ -5,7 +5,7 @@ its start. By the cycle lemma, m ups and m+1 downs, shuffled and read from behin
 point, are such a word and a last down, all equally likely.
 
 **Maps with one face.** Let a map with one face have genus g-p, and choose 2p+1 of its vertices.
-Glued together in the way of `_glued`, they are one vertex of a map with one face and genus g. Each
+Glued together in the way of `glued`, they are one vertex of a map with one face and genus g. Each
 map of genus g arises in 2g ways, over all p from 1 to g, so a draw from all ways is uniform.
 
 **Maps of a genus.** Steps -1, 0 or 1 along the edges of a random map with one face label its
