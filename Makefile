@@ -139,4 +139,4 @@ oldest: $(VENV)/.created
 
 clean:
 	rm -rf $(VENV) .venv-oldest .pytest_cache .mypy_cache .ruff_cache .hypothesis .coverage torture-failures build dist
-	find topo_verify tests benchmarks -name __pycache__ -prune -exec rm -rf {} +
+	find topo_verify tests benchmarks research -name __pycache__ -prune -exec rm -rf {} +

@@ -124,7 +124,7 @@ def print_pages() -> None:
 
 def main() -> None:
     print(f"{'room':<30}{'files':>7}{'code':>9}{'imports':>9}{'docs':>9}{'words':>9}")
-    for top in ("topo_verify", "tests", "benchmarks"):
+    for top in ("topo_verify", "research", "tests", "benchmarks"):
         rooms: dict[str, list[int]] = defaultdict(lambda: [0] * 5)
         for path in sorted((ROOT / top).rglob("*.py")):
             parts = path.relative_to(ROOT).parts

@@ -51,7 +51,7 @@ ENTRIES = {
     "play": "play.PlayEntry",
     "certify": "certify.CertifyEntry certify.study.CertificateEntry",
     "tour": "tour.TourEntry",
-    "arena": "arena.LeagueEntry arena_game.game.GameValue arena_game.game.MapperCosts",
+    "arena": "arena.LeagueEntry",
     "header": "header.HeaderEntry",
     "reproduce": "reproduce.pts.FigurePoint",
 }
@@ -60,8 +60,6 @@ ENTRIES = {
 OCCASIONS = {
     "ProveListEntry": "with `--list`",
     "CertificateEntry": "with `--check`",
-    "GameValue": "with `--game`, of a game",
-    "MapperCosts": "with `--game`, of a mapper",
 }
 """When a command prints its second and third record."""
 

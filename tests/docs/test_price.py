@@ -25,7 +25,7 @@ MADE_BY = {
         (DATA / "README.md").read_text(encoding="utf-8"),
         re.MULTILINE,
     )
-    if (commands := re.findall(r"`(benchmarks/\S+ [^`]*--runs docs/data/[^`]*)`", cell))
+    if (commands := re.findall(r"`python (-m research\.\w+ [^`]*--runs docs/data/[^`]*)`", cell))
 }
 """The tables that are made of stored runs, each with its commands."""
 
@@ -52,11 +52,11 @@ def stored(table: str) -> list[Table]:
 def test_a_table_is_what_its_commands_print(table: str, tmp_path: Path) -> None:
     rows = set[tuple[str, ...]]()
     for command in MADE_BY[table]:
-        script, *words = shlex.split(command)
+        words = shlex.split(command)
         place = words.index("--runs") + 1
         runs, words[place] = ROOT / words[place], str(tmp_path / "runs.csv")
         shutil.copy(runs, words[place])
-        done = python(ROOT / script, *words, check=True)
+        done = python(*words, check=True, cwd=ROOT)
         rows |= {row for part in printed(done.stdout) for row in part}
         assert Path(words[place]).read_text() == runs.read_text(), "no run was missing"
     assert rows == {row for part in stored(table) for row in part}
@@ -108,7 +108,7 @@ def printed_ratio(lines: list[str], tmp_path: Path, *more: str) -> str:
     runs = tmp_path / "runs.csv"
     runs.write_text("\n".join(["family,seed,mapper,m,least,cost,ms", *lines]) + "\n")
     words = ["--families", "none", "--also", "king(2,2)", "--seeds", "3", "--runs", str(runs)]
-    done = python(ROOT / "benchmarks" / "price.py", *words, *more, check=True)
+    done = python("-m", "research.price", *words, *more, check=True, cwd=ROOT)
     return done.stdout.splitlines()[-1].split("|")[-2].strip()
 
 

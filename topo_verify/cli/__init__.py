@@ -122,9 +122,18 @@ def _has_working_folder() -> bool:
         return False
 
 
+FORMER = {
+    "arena --game": "in a checkout of the project, type `python -m research.game M`",
+}
+"""Commands and options that version 0.4 dropped, each with what to type now."""
+
+
 def _usage(error: click.ClickException) -> str:
     context = error.ctx if isinstance(error, click.UsageError) else None
     path = context.command_path if context else "topo-verify"
+    words = [path.removeprefix("topo-verify "), getattr(error, "option_name", "")]
+    if mend := FORMER.get(" ".join(words)):
+        return f"{path}: {words[1]} went with version 0.4: {mend}"
     # Click ends with a full stop or a question; here the sentence continues.
     objection = " ".join(error.format_message().split()).removesuffix(".")
     objection = objection.replace("'. Did you", "', did you").removesuffix("?")

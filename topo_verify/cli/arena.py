@@ -18,7 +18,6 @@ from topo_verify.campaign.work import processors
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli import arena_files as files
 from topo_verify.cli import options
-from topo_verify.cli.arena_game import game_of_catalogue
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import judged, named_world, target_title, unjudged
 from topo_verify.errors import InputError, plural
@@ -38,7 +37,6 @@ from topo_verify.studies.arena.suites import DEFAULT, SUITES, chosen_suites, own
     "arena basic,folding",
     "arena basic,folding my_mapper.py:explore --suite lattices,regular",
     "arena basic,folding --worlds 'drawn:30:king(6,6)' --worlds worlds/",
-    "arena --game 3",
     "arena all --cmd './mapper --fast' --name './mapper --fast=Team A' --seed 20261 --out league",
     reports=True,
 )
@@ -78,12 +76,6 @@ from topo_verify.studies.arena.suites import DEFAULT, SUITES, chosen_suites, own
     "--out", metavar="DIR", help="Write tables, plots and a page to DIR; resume from its runs."
 )
 @options.workers()
-@click.option(
-    "--game",
-    type=int,
-    metavar="M",
-    help="Instead: what the best robot pays in worlds of 1 to M edges.",
-)
 @options.limits
 def arena(
     output: Output,
@@ -99,7 +91,6 @@ def arena(
     seed: int,
     out: str | None,
     workers: int | None,
-    game: int | None,
     limits: Limits,
 ) -> int:
     """Rank mappers by what they pay for a map, as a multiple of the least cost of a proof (LB).
@@ -108,8 +99,6 @@ def arena(
     place, only its counterexample. Intervals are at 95 %; `behind` compares with the first of the
     table in the same worlds. The same call gives the same figures, except for time and memory.
     """
-    if game is not None:
-        return game_of_catalogue(output, game, [*texts, *named])
     own = [own_suite(worlds, seed)] if worlds else []
     if own and seed and own[0].exact:
         output.note("--seed draws nothing in --worlds without drawn: and generated:")

@@ -10,7 +10,7 @@ two copies of the world, joined crosswise at an edge on a cycle, are one.
 **No twin.** A world that looks like W covers W's quotient by alike darts with N sheets as W does,
 because the mark lies on one vertex. Only one such world exists if N = 1, if W has at most one
 cycle, or if N = 2 and the quotient has no cycle. Otherwise, up to 6 edges, one exchange makes a
-twin (`benchmarks/twins.py`); beyond, this is not proved. Without a marker only trees are
+twin (`research/twins.py`); beyond, this is not proved. Without a marker only trees are
 determined.
 """
 

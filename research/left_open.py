@@ -1,6 +1,6 @@
 """What the paper leaves open, and what it costs: policies, ways home, and how long records live.
 
-    .venv/bin/python benchmarks/left_open.py        # one to three minutes
+    .venv/bin/python -m research.left_open        # one to three minutes
 
 Means over 30 graphs of a family of the paper, and by how much one mapper costs more than another
 one, ± the standard error of the difference. Of each family two tables:
@@ -15,6 +15,7 @@ Of each run only the sizes of the map are checked; `topo-verify explore` judges 
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from math import sqrt
@@ -130,6 +131,10 @@ def records(worlds: Sequence[World]) -> Iterator[tuple[str, ...]]:
 
 
 def main() -> None:
+    ask = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    ask.parse_args()
     for family in FAMILIES:
         worlds = [resolve_world(f"family:{family.format(seed)}") for seed in range(GRAPHS)]
         for table in (policies, records):

@@ -9,9 +9,9 @@ from functools import cache
 import pytest
 
 import topo_verify as tv
-from tests.studies.game.plain import plain_value
+from research.game import values as gv
+from tests.research.game.plain import plain_value
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.studies.game import values as gv
 from topo_verify.world.rooted_map import World
 
 KNOWN = cache(gv.game_value)

@@ -20,14 +20,14 @@ from typing import Any, Literal
 
 import msgspec
 
+from research.game.drawn import DrawnWorld
+from research.game.folds import is_closed, is_single_of_vertices, is_single_planar
+from research.game.rules import ClassRules, GameEnding, ProofRules
+from research.game.search import Least, Rules, Solver
 from topo_verify.algorithms import NAMED
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import here
 from topo_verify.errors import InternalError
-from topo_verify.studies.game.drawn import DrawnWorld
-from topo_verify.studies.game.folds import is_closed, is_single_of_vertices, is_single_planar
-from topo_verify.studies.game.rules import ClassRules, GameEnding, ProofRules
-from topo_verify.studies.game.search import Least, Rules, Solver
 from topo_verify.world.enumeration.pruned import worlds
 from topo_verify.world.rooted_map import World
 
@@ -76,11 +76,11 @@ class CostsOfRobot(msgspec.Struct, frozen=True):
     mean_is_value: bool = True
 
 
-class GameValue(msgspec.Struct, frozen=True, kw_only=True, tag_field="of", tag="value"):
-    """The value of a game: an entry of `results`.
+class GameValue(msgspec.Struct, frozen=True, kw_only=True):
+    """The value of a game.
 
     Attributes:
-        game: the edges of each world.
+        edges: of each world.
         knows: what the robot is told.
         drawn: which of these worlds count.
         worlds: the number of worlds that count.
@@ -89,7 +89,7 @@ class GameValue(msgspec.Struct, frozen=True, kw_only=True, tag_field="of", tag="
         states: the number of states that were searched.
     """
 
-    game: int
+    edges: int
     knows: Knowledge
     drawn: DrawnClass
     worlds: int
@@ -98,18 +98,18 @@ class GameValue(msgspec.Struct, frozen=True, kw_only=True, tag_field="of", tag="
     states: int
 
 
-class MapperCosts(msgspec.Struct, frozen=True, kw_only=True, tag_field="of", tag="mapper"):
-    """A mapper in a game: an entry of `results`.
+class MapperCosts(msgspec.Struct, frozen=True, kw_only=True):
+    """A mapper in a game.
 
     Attributes:
-        game, drawn, worlds: as of a value.
+        edges, drawn, worlds: as of a value.
         knows: what the mapper assumes.
-        worst, mean: its costs; null if a claim fails.
-        value: of the best robots that know as much; null where it was not searched.
-        failing: the first world in which a claim fails, or null.
+        worst, mean: its costs; None if a claim fails.
+        value: of the best robots that know as much; None where it was not searched.
+        failing: the first world in which a claim fails, or None.
     """
 
-    game: int
+    edges: int
     mapper: str
     knows: Knowledge
     drawn: DrawnClass
@@ -142,7 +142,7 @@ def game_value(
     )
     least = [world.least_cost() for world in drawn_worlds(edges, drawn)]
     return GameValue(
-        game=edges,
+        edges=edges,
         knows=knows,
         drawn=drawn,
         worlds=len(least),
@@ -235,7 +235,7 @@ def mapper_costs(mapper: str, edges: int, values: Iterable[GameValue] = ()) -> M
             " holds"
         )
     return MapperCosts(
-        game=edges,
+        edges=edges,
         mapper=mapper,
         knows=knows,
         drawn=drawn,

@@ -5,8 +5,8 @@ belief that the place behind e is new. The oracle of column `p` settles e if tha
 believed with p or more. It never speaks where the belief is wrong, so this is about the most that
 acting on such beliefs could save.
 
-    .venv/bin/python benchmarks/belief.py --families 'lattice(10' 'king(10,10,holes'
-    .venv/bin/python benchmarks/belief.py --calibration --families 'lattice(10'
+    .venv/bin/python -m research.belief --families 'lattice(10' 'king(10,10,holes'
+    .venv/bin/python -m research.belief --calibration --families 'lattice(10'
 
 `--calibration` prints how often a place believed to be new was new.
 """
@@ -21,9 +21,8 @@ from math import prod
 from pathlib import Path
 from statistics import mean
 
-from ignorance import ToldHistory
-from price import FAMILIES, PATIENT, Job, Run, Store, drawn, head, ratio, require_right
-
+from research.ignorance import ToldHistory
+from research.price import FAMILIES, PATIENT, Job, Run, Store, drawn, head, ratio, require_right
 from topo_verify import World, explore
 from topo_verify.algorithms.chart import Survey
 from topo_verify.algorithms.folding import NodeDart
@@ -112,7 +111,9 @@ def calibration(families: list[str], seeds: int) -> None:
 
 
 def main() -> None:
-    ask = argparse.ArgumentParser(description="planner with an oracle for what it believes")
+    ask = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     ask.add_argument("--families", nargs="+", default=[""], help="those whose text begins so")
     ask.add_argument("--seeds", type=int, default=10, help="0 … N-1")
     ask.add_argument("--workers", type=int, default=2, help="processes")

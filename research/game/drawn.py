@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import NamedTuple
 
-from topo_verify.studies.game.folds import ABSENT, FoldCode, Sight, distances, vertices
+from research.game.folds import ABSENT, FoldCode, Sight, distances, vertices
 from topo_verify.world.enumeration.rank_order import Table
 from topo_verify.world.least_cost import BreadthFirstTree
 

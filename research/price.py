@@ -3,10 +3,10 @@
 `least` is the least cost of a proof with the map in hand. Other columns are a mapper's mean cost
 over the mean least cost, with the standard error of this ratio. A wrong map stops the script.
 
-    .venv/bin/python benchmarks/price.py
-    .venv/bin/python benchmarks/price.py --mappers homing,planner --families torus --seeds 5 --ms
-    .venv/bin/python benchmarks/price.py --mappers folding,homing --against folding --runs runs.csv
-    .venv/bin/python benchmarks/price.py --gap
+    .venv/bin/python -m research.price
+    .venv/bin/python -m research.price --mappers homing,planner --families torus --seeds 5 --ms
+    .venv/bin/python -m research.price --mappers folding,homing --against folding --runs runs.csv
+    .venv/bin/python -m research.price --gap
 
 `--against M` prints a second table of differences in the same worlds: cost minus the cost of M,
 over the mean least cost; and the mean cost as a multiple of that of M. `--runs FILE` keeps finished
@@ -158,7 +158,9 @@ def gaps(seeds: int) -> None:
 
 
 def asked() -> argparse.Namespace:
-    ask = argparse.ArgumentParser(description="mean cost / least cost, mappers x families")
+    ask = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     ask.add_argument("--mappers", default=MAPPERS, help="names, with commas")
     ask.add_argument("--families", nargs="+", default=[""], help="those whose text begins so")
     ask.add_argument("--also", nargs="+", default=[], help="families more, without their seed")

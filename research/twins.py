@@ -1,6 +1,6 @@
 """Which worlds an unlimited walk determines: marker with direction, without it, no marker.
 
-    .venv/bin/python benchmarks/twins.py 6 > docs/data/tables/twins.csv       # 20 s
+    .venv/bin/python -m research.twins 6 > docs/data/tables/twins.csv       # 20 s
 
 A row for each number of edges and genus, then the shares. With the direction every world is
 determined (docs/explanation/fold.md). For any other world a twin is made and walked beside it, or
@@ -9,6 +9,7 @@ the reason is known why there is none.
 
 from __future__ import annotations
 
+import argparse
 import sys
 from collections import Counter
 
@@ -18,7 +19,11 @@ from topo_verify.world.twins import find_twin, no_twin
 
 def main() -> None:
     """Print the table as CSV, and the smallest pairs of three classes to standard error."""
-    most = int(sys.argv[1])
+    ask = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    ask.add_argument("edges", type=int, help="worlds of 1 to this many edges")
+    most: int = ask.parse_args().edges
     smallest: dict[str, str] = {}
     shares = ["edges,worlds,with direction,undirected,no marker"]
     print("edges,genus,worlds,directed,undirected,no marker")

@@ -2,7 +2,7 @@ r"""The totals of large searches in one small table, kept in docs/data/totals.cs
 
     topo-verify search basic --edges 9 --engine compiled --keep-going --worst \
         --ledger basic9.ledger --format json > basic9.json
-    python benchmarks/totals.py basic9.json > docs/data/totals.csv
+    python -m research.totals basic9.json > docs/data/totals.csv
 
 A row is one algorithm in all worlds of one size: worlds, failing, undecided, the highest cost, the
 number of worlds with it, the first of them, the sum of costs. Of equal rows the first file counts.
@@ -10,6 +10,7 @@ number of worlds with it, the first of them, the sum of costs. Of equal rows the
 
 from __future__ import annotations
 
+import argparse
 import csv
 import json
 import sys
@@ -37,8 +38,12 @@ def rows(results: Iterable[dict[str, Any]]) -> Iterable[tuple[Any, ...]]:
 
 def main() -> None:
     row_of: dict[tuple[str, int], tuple[Any, ...]] = {}
-    for path in sys.argv[1:]:
-        for row in rows(json.loads(Path(path).read_text())["results"]):
+    ask = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    ask.add_argument("files", type=Path, nargs="+", help="JSON of `topo-verify search`")
+    for path in ask.parse_args().files:
+        for row in rows(json.loads(path.read_text())["results"]):
             row_of.setdefault((row[0], row[1]), row)
     table = csv.writer(sys.stdout, lineterminator="\n")
     table.writerow(HEAD)

@@ -24,10 +24,10 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import accumulate, count
 from typing import NamedTuple
 
+from research.game import folds as fd
+from research.game.drawn import DrawnWorld
+from research.game.search import GameChoice
 from topo_verify.errors import InternalError
-from topo_verify.studies.game import folds as fd
-from topo_verify.studies.game.drawn import DrawnWorld
-from topo_verify.studies.game.search import GameChoice
 
 
 class FoldState(NamedTuple):

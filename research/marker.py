@@ -1,6 +1,6 @@
 """Where to put the marker: how much a good place saves, and whether a rule of thumb predicts it.
 
-    .venv/bin/python benchmarks/marker.py        # a few minutes in two processes
+    .venv/bin/python -m research.marker        # a few minutes in two processes
 
 In each world the marker lies at every dart, and every run is judged. Costs are shares of the mean
 over all darts of the world; a row is the mean over a family, ± its standard error. A rule is judged
@@ -15,13 +15,15 @@ by the mean over the darts that fit it:
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from math import sqrt
 from statistics import mean, stdev
+from typing import Any
 
 import networkx as nx
-from scipy.stats import spearmanr
+import scipy.stats  # type: ignore[import-untyped]  # pyright: ignore[reportMissingTypeStubs]
 
 from topo_verify import World, examine
 from topo_verify.world.resolve import resolve_world
@@ -39,13 +41,17 @@ FAMILIES = (
     "random_genus(30,2,seed={})",
 )
 
+spearman: Any = scipy.stats.spearmanr  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+
 RULES = ("centre", "high degree", "dead end")
 
 
 def eccentricities(world: World) -> list[int]:
     graph = nx.Graph((world.vertex_of[a], world.vertex_of[b]) for a, b in world.edges)
-    far = nx.eccentricity(graph)
-    return [far[vertex] for vertex in range(len(world.vertices))]
+    return [
+        max(nx.single_source_shortest_path_length(graph, vertex).values())
+        for vertex in range(len(world.vertices))
+    ]
 
 
 def costs(world: World, algorithm: str) -> list[int]:
@@ -82,7 +88,7 @@ def measured(family: str, algorithm: str, seed: int) -> dict[str, float | None]:
     for name, values in (("r ecc.", far), ("r degree", degrees)):
         row = [values[vertex] for vertex in at]
         even = len(set(row)) == 1 or len(set(cost_at)) == 1
-        shares[name] = None if even else float(spearmanr(row, cost_at).statistic)
+        shares[name] = None if even else float(spearman(row, cost_at).statistic)
     return shares
 
 
@@ -113,6 +119,10 @@ def rows() -> Iterator[tuple[str, ...]]:
 
 
 def main() -> None:
+    ask = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    ask.parse_args()
     print("| family | algorithm | best | worst | centre | high degree | dead end |", end="")
     print(" r eccentricity | r degree |")
     print("| --- | --- |" + " ---: |" * 7)

@@ -12,8 +12,8 @@ and prove the rest. The columns are what it tells:
 A cell is the mean cost over the mean least cost of a proof, with the standard error of this ratio.
 A wrong map stops the script.
 
-    .venv/bin/python benchmarks/ignorance.py --families 'lattice(10' 'king(10,10,holes'
-    .venv/bin/python benchmarks/ignorance.py --mappers homing --seeds 4 --runs runs.csv
+    .venv/bin/python -m research.ignorance --families 'lattice(10' 'king(10,10,holes'
+    .venv/bin/python -m research.ignorance --mappers homing --seeds 4 --runs runs.csv
 
 S, e, h: as in algorithms/history.py; phi: dart of S -> the dart of the world that it is.
 """
@@ -29,8 +29,7 @@ from pathlib import Path
 from random import Random
 from statistics import mean
 
-from price import FAMILIES, PATIENT, Job, Run, Store, drawn, head, ratio, require_right
-
+from research.price import FAMILIES, PATIENT, Job, Run, Store, drawn, head, ratio, require_right
 from topo_verify import World, explore
 from topo_verify.algorithms.chart import Survey
 from topo_verify.algorithms.exploration import Refutation
@@ -125,7 +124,9 @@ def told(job: Job) -> Run:
 
 
 def main() -> None:
-    ask = argparse.ArgumentParser(description="mean cost / least cost with truthful oracles")
+    ask = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     ask.add_argument("--mappers", default="homing,planner", help="names, with commas")
     ask.add_argument("--families", nargs="+", default=[""], help="those whose text begins so")
     ask.add_argument("--seeds", type=int, default=10, help="0 … N-1 (torus: one world)")

@@ -1,6 +1,6 @@
 """What the advice of `certify` costs: followed from the start, beside `homing` and the least cost.
 
-    .venv/bin/python benchmarks/advice.py
+    .venv/bin/python -m research.advice
 
 25 random worlds of each family. For the column *after a stroll* the robot first takes 50 random
 moves, free of charge.
@@ -8,6 +8,7 @@ moves, free of charge.
 
 from __future__ import annotations
 
+import argparse
 from random import Random
 from statistics import mean
 
@@ -42,6 +43,10 @@ def followed(world: tv.World, stroll: int, random: Random) -> tuple[int, int]:
 
 
 def main() -> None:
+    ask = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    ask.parse_args()
     names = (
         "random_tree(20)",
         "random_planar(26)",

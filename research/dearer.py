@@ -1,7 +1,7 @@
 """In how many worlds a stronger algorithm costs more than a weaker one: every world up to N edges.
 
-    python benchmarks/dearer.py 6                 # every pair of the catalogue, by the reference
-    python benchmarks/dearer.py 8 --compiled      # the enhancements against what they enhance
+    python -m research.dearer 6                 # every pair of the catalogue, by the reference
+    python -m research.dearer 8 --compiled      # the enhancements against what they enhance
 
 Only costs are compared; `topo-verify search --compare A,B` also judges every run. `--compiled`
 needs the extra `fast`; it stops if one of claims 1 to 8 fails.
@@ -84,7 +84,9 @@ def by_engine(largest: int) -> Iterator[tuple[Pair, Row]]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("edges", type=int, nargs="?", default=5)
     parser.add_argument("--compiled", action="store_true", help="by the compiled engine")
     chosen = parser.parse_args()

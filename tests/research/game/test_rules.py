@@ -8,15 +8,15 @@ from random import Random
 import pytest
 
 import topo_verify as tv
+from research.game import folds
+from research.game.drawn import DrawnWorld
+from research.game.folds import is_closed, is_planar, is_single_of_vertices
+from research.game.rules import ClassRules, GameEnding, ProofRules
+from research.game.search import Solver
 from tests.helpers import worlds
 from topo_verify.checkers import Fold
 from topo_verify.errors import InternalError
 from topo_verify.robot.percept import Percept
-from topo_verify.studies.game import folds
-from topo_verify.studies.game.drawn import DrawnWorld
-from topo_verify.studies.game.folds import is_closed, is_planar, is_single_of_vertices
-from topo_verify.studies.game.rules import ClassRules, GameEnding, ProofRules
-from topo_verify.studies.game.search import Solver
 from topo_verify.world.rooted_map import World
 
 Bound = Callable[[DrawnWorld, folds.FoldCode, int], int]

@@ -1,0 +1,12 @@
+"""One script a finding of docs/findings.md: `python -m research.NAME --help` says what it prints.
+
+price       what mappers pay, as a ratio to the least cost
+ignorance   what a truthful oracle saves; belief: what confirming early would save
+marker      where to put the marker
+dearer      worlds in which a stronger algorithm costs more
+left_open   policies, ways home, records: what the paper leaves open
+twins       worlds that look alike without the marker's direction
+totals      the totals of large searches
+advice      what it costs to follow the advice of `certify`
+game        what the best possible robot pays
+"""
