@@ -18,7 +18,11 @@ from pathlib import Path
 
 import topo_verify
 
-sys.path.insert(0, str(Path(__file__).parent / "site"))
+sys.path[:0] = [str(Path(__file__).parent / "site"), str(Path(__file__).parent)]
+
+import reference  # noqa: E402  docs/reference.py
+
+reference.PAGE.write_text(reference.page(), encoding="utf-8")  # not in git: --help says the same
 
 project = "topo-verify"
 author = "the maintainers of topo-verify"
@@ -38,7 +42,7 @@ extensions = [
     "finding",
     "checked",
 ]
-exclude_patterns = ["site"]
+exclude_patterns = ["site", "reference/_commands.md"]
 
 # --- strictness: with -W a warning ends the build ----------------------------------------------
 

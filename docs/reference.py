@@ -1,8 +1,12 @@
-"""Writes docs/reference/commands.md, the page of all commands: python docs/reference.py.
+"""Writes what the code says of itself: python docs/reference.py.
 
-Options are those of click, fields those of msgspec. The sentence of a field stands in the docstring
-of its class, under Attributes, or here in COMMON. tests/docs/test_reference.py compares the stored
-page with what this file makes.
+    docs/reference/names.txt     every command, option and JSON field
+    docs/reference/python.txt    every public Python name with its signature and its first line
+
+Both stay in git, and tests/docs/test_reference.py compares them with what this file makes. What
+docs/reference/commands.md includes is made when the site is built. Options are those of
+click, fields those of msgspec. The sentence of a field stands in the docstring of its class, under
+Attributes, or here in COMMON.
 """
 
 from __future__ import annotations
@@ -22,15 +26,9 @@ from msgspec import inspect as types
 from topo_verify.cli import main
 from topo_verify.cli.options import aliases
 
-PAGE = Path(__file__).parent / "reference" / "commands.md"
+FOLDER = Path(__file__).parent / "reference"
 
-HEAD = """\
-# Commands
-
-Every command with its arguments, its options, and the fields of one entry of `results` in
-`--format json`. `python docs/reference.py` makes this page. [Promises](promises.md) says what
-scripts may rely on; [Results for scripts](../commands.md) explains what needs more than a line.
-"""
+PAGE, NAMES, PYTHON = (FOLDER / name for name in ("_commands.md", "names.txt", "python.txt"))
 
 ENTRIES = {
     "verify": "verify.Part",
@@ -158,7 +156,7 @@ def records(path: str) -> list[Any]:
 def page() -> str:
     """The whole page."""
     shared = _shared()
-    parts = [HEAD, "## Options that several commands share\n", _options(shared)]
+    parts = ["## Options that several commands share\n", _options(shared)]
     for path, command in COMMANDS.items():
         parts += _command(path, command, shared)
     parts.append("## Records\n\nParts of the entries above.\n")
@@ -169,6 +167,71 @@ def page() -> str:
             _fields(record),
         ]
     return "\n".join(parts).rstrip("\n") + "\n"
+
+
+def names() -> str:
+    """The names that scripts use: a line for each command and for each record."""
+    lines = ["# Commands with their options; the fields of an entry of `results`; those of records"]
+    for path, command in COMMANDS.items():
+        options = (name for option in _visible(command) for name in option.opts)
+        lines.append(f"{path}: {' '.join(options)}")
+    for path in COMMANDS:
+        lines += (f"{path} -> {_field_names(record)}" for record in records(path))
+    lines += (f"{record.cls.__name__} -> {_field_names(record)}" for record in _nested())
+    return "\n".join(lines) + "\n"
+
+
+def _field_names(record: Any) -> str:
+    return " ".join(field.encode_name for field in record.fields)
+
+
+MODULES = (
+    "topo_verify",
+    "topo_verify.world.families",
+    "topo_verify.strategies",
+    "topo_verify.robot.events",
+    "topo_verify.world.formats.nx",
+)
+"""What users import; a class is listed with its public methods."""
+
+
+def python_names() -> str:
+    """The public Python names, each with its signature and the first line of its docstring."""
+    lines = ["# Public names by module. `help(topo_verify.explore)` prints a whole docstring."]
+    for module_name in MODULES:
+        module = import_module(module_name)
+        public = getattr(module, "__all__", None) or [
+            name
+            for name, value in vars(module).items()
+            if getattr(value, "__module__", None) == module_name and not name.startswith("_")
+        ]
+        lines += ["", f"## {module_name}", ""]
+        for name in sorted(public):
+            lines += _python_entry(name, getattr(module, name))
+    return "\n".join(lines) + "\n"
+
+
+def _python_entry(name: str, value: Any) -> Iterator[str]:
+    """A name and its first line; those of a class's public methods and properties, indented."""
+    function = value.fget if isinstance(value, property) else getattr(value, "func", value)
+    function = getattr(function, "__func__", function)
+    if not inspect.isclass(function) and not inspect.isfunction(function):
+        return
+    yield name + (_signature(function) if function is value or hasattr(value, "__func__") else "")
+    yield f"    {inspect.cleandoc(function.__doc__ or '').partition(chr(10))[0]}".rstrip()
+    for member, inside in vars(value).items() if inspect.isclass(value) else ():
+        if not member.startswith("_"):
+            yield from (f"    {line}" for line in _python_entry(f".{member}", inside))
+
+
+def _signature(function: Any) -> str:
+    """The parameters and the result, without `self` and without quotes around annotations."""
+    try:
+        text = str(inspect.signature(function))
+    except (TypeError, ValueError):  # a class without __init__ of its own
+        return ""
+    text = re.sub(r"(: |-> )'([^']*)'", r"\1\2", text)
+    return re.sub(r"^\((self|cls)(, )?", "(", text)
 
 
 # ---------------------------------------------------------------- options
@@ -356,4 +419,5 @@ def _text(text: str) -> str:
 
 
 if __name__ == "__main__":
-    PAGE.write_text(page(), encoding="utf-8")
+    NAMES.write_text(names(), encoding="utf-8")
+    PYTHON.write_text(python_names(), encoding="utf-8")

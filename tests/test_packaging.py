@@ -155,7 +155,7 @@ def test_the_sdist_holds_tests_docs_and_examples(built: Built) -> None:
 
 def test_the_sdist_holds_every_page_and_no_leftovers(built: Built) -> None:
     names = built.sdist_names()
-    pages = {page.relative_to(ROOT).as_posix() for page in (ROOT / "docs").rglob("*.md")}
+    pages = {page.relative_to(ROOT).as_posix() for page in (ROOT / "docs").rglob("[!_]*.md")}
     assert pages <= names
     left = {"build", "dist", ".venv", "__pycache__", ".hypothesis", ".git"}
     assert not [name for name in names if left & set(name.split("/")) or name.endswith(".pyc")]

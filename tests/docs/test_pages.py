@@ -24,7 +24,6 @@ ELSEWHERE = {
     "baselines.md": "tests/cli/test_compare.py does it",
     "property-tests.md": "tests/examples/test_property_test.py does it",
     "pytest.md": "tests/examples/test_pytest_plugin.py does it",
-    "reference/commands.md": "lines of usage; tests/docs/test_reference.py",
     "semantics.md": "the specification has formulas and pseudo-code, and no command",
 }
 """Pages with steps that another test does, or that none can do."""
@@ -59,7 +58,7 @@ PROGRAM, PYTHON = ".venv/bin/topo-verify ", ".venv/bin/python "
 
 def pages() -> list[str]:
     """The pages with something to do, by their paths from docs/."""
-    paths = {path.relative_to(DOCS).as_posix(): path for path in DOCS.rglob("*.md")}
+    paths = {path.relative_to(DOCS).as_posix(): path for path in DOCS.rglob("[!_]*.md")}
     paths |= {f"../{name}.md": ROOT / f"{name}.md" for name in ("README", "CONTRIBUTING")}
     kinds = {"command", "python", "file", "lines"}
     return [
@@ -176,7 +175,7 @@ def test_nothing_is_left_out_for_a_page_that_does_not_say_it() -> None:
 def test_every_link_of_a_page_leads_somewhere_on_github_too() -> None:
     lost = [
         (page.name, target)
-        for page in [*DOCS.rglob("*.md"), ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
+        for page in [*DOCS.rglob("[!_]*.md"), ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
         for target in links_on(page.read_text(encoding="utf-8"))
         if "://" not in target and not (page.parent / target.partition("#")[0]).exists()
     ]

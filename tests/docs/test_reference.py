@@ -1,4 +1,4 @@
-"""docs/reference/commands.md, made by docs/reference.py: it is current, whole and true."""
+"""What docs/reference.py makes: names that are current, a page of commands that is true."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from msgspec import inspect as types
 
 from tests.docs.test_site import part
 from tests.pages import ROOT
-from topo_verify.cli import main
+from topo_verify.cli import FORMER, main
 
 MADE = part("reference.py")
-STORED = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
+PAGE: str = MADE.page()
 COMMANDS: dict[str, click.Command] = MADE.COMMANDS
 CLI = ROOT / "topo_verify" / "cli"
 
@@ -37,8 +37,23 @@ def tables(section: str) -> list[list[str]]:
     return [re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE) for table in found]
 
 
-def test_the_stored_page_is_the_one_that_is_made() -> None:
-    assert MADE.page() == STORED, "make it anew: python docs/reference.py"
+def test_the_names_in_git_are_those_of_the_code() -> None:
+    for file, made in ((MADE.NAMES, MADE.names()), (MADE.PYTHON, MADE.python_names())):
+        assert file.read_text(encoding="utf-8") == made, "make it anew: python docs/reference.py"
+
+
+def test_a_new_option_and_a_new_field_are_new_names(monkeypatch: pytest.MonkeyPatch) -> None:
+    tour, before = COMMANDS["tour"], set(MADE.names().split())
+    monkeypatch.setattr(tour, "params", [*tour.params, click.Option(["--colour"])])
+    record: Any = types.type_info(msgspec.defstruct("Entry", [("novel", int)]))
+    monkeypatch.setattr(MADE, "records", lambda path: [record] * (path == "tour"))
+    assert set(MADE.names().split()) >= {"--colour", "novel"} > before & {"--colour", "novel"}
+
+
+def test_what_went_stands_on_its_page() -> None:
+    page = (ROOT / "docs" / "howto" / "from-0.3-to-0.4.md").read_text(encoding="utf-8")
+    for spelling in FORMER:
+        assert f"`{spelling}" in page
 
 
 def missing(text: str) -> Iterator[str]:
@@ -68,11 +83,11 @@ def missing(text: str) -> Iterator[str]:
 
 
 def test_no_option_and_no_field_is_missing() -> None:
-    assert list(missing(STORED)) == []
+    assert list(missing(PAGE)) == []
 
 
 def test_a_missing_option_and_a_missing_field_are_seen() -> None:
-    lines = STORED.splitlines()
+    lines = PAGE.splitlines()
     gone = [line for line in lines if line.startswith(("| `--dask ", "| `least_cost`"))]
     assert len(gone) >= 3
     assert "search --dask" in missing("\n".join(line for line in lines if line not in gone))
@@ -86,7 +101,7 @@ def test_a_new_option_makes_another_page(monkeypatch: pytest.MonkeyPatch) -> Non
     tour = COMMANDS["tour"]
     option = click.Option(["--colour"], help="Paint it.")
     monkeypatch.setattr(tour, "params", [*tour.params, option])
-    assert list(missing(STORED)) == ["tour --colour"]
+    assert list(missing(PAGE)) == ["tour --colour"]
     assert "| `--colour TEXT` | Paint it. |" in MADE.page()
 
 
@@ -144,6 +159,6 @@ def test_an_entry_has_the_fields_of_the_page(
     done = CliRunner().invoke(main, [*line.split(), "--format", "json"])
     assert done.exit_code == 0, done.stderr
     path = next(path for path in COMMANDS if line.startswith(path))
-    documented = tables(sections(STORED)[path])
+    documented = tables(sections(PAGE)[path])
     for entry in json.loads(done.stdout)["results"]:
         assert list(entry) in documented

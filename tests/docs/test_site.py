@@ -41,7 +41,7 @@ def part(path: str) -> ModuleType:
 def test_every_page_stands_once_in_the_contents() -> None:
     parts = list(part("site/contents.py").parts((DOCS / "index.md").read_text()))
     entries = [page for _, pages in parts for _, page in pages]
-    pages = {page.relative_to(DOCS).with_suffix("").as_posix() for page in DOCS.rglob("*.md")}
+    pages = {page.relative_to(DOCS).with_suffix("").as_posix() for page in DOCS.rglob("[!_]*.md")}
     assert sorted(entries) == sorted(pages - {"index"})
 
 
@@ -252,7 +252,7 @@ def test_the_gallery_has_every_family_and_the_first_genera() -> None:
 def test_every_stored_picture_shows_its_world_and_stands_on_a_page() -> None:
     pictures = part("gallery.py").PICTURES
     stored = {path.stem: path.read_text() for path in (DOCS / "gallery").glob("*.svg")}
-    pages = "".join(page.read_text() for page in DOCS.rglob("*.md"))
+    pages = "".join(page.read_text() for page in DOCS.rglob("[!_]*.md"))
     assert stored.keys() == pictures.keys()
     for name, svg in stored.items():
         assert untruths(read(svg), resolve_world(pictures[name])) == [], name
