@@ -24,7 +24,6 @@ import click
 from msgspec import inspect as types
 
 from topo_verify.cli import main
-from topo_verify.cli.options import aliases
 
 FOLDER = Path(__file__).parent / "reference"
 
@@ -173,7 +172,7 @@ def names() -> str:
     """The names that scripts use: a line for each command and for each record."""
     lines = ["# Commands with their options; the fields of an entry of `results`; those of records"]
     for path, command in COMMANDS.items():
-        options = (name for option in _visible(command) for name in option.opts)
+        options = (name for option in _click_options(command) for name in option.opts)
         lines.append(f"{path}: {' '.join(options)}")
     for path in COMMANDS:
         lines += (f"{path} -> {_field_names(record)}" for record in records(path))
@@ -237,15 +236,13 @@ def _signature(function: Any) -> str:
 # ---------------------------------------------------------------- options
 
 
-def _visible(command: click.Command) -> list[click.Option]:
-    found = (one for one in command.params if isinstance(one, click.Option))
-    return [one for one in found if not one.hidden]
+def _click_options(command: click.Command) -> list[click.Option]:
+    return [one for one in command.params if isinstance(one, click.Option)]
 
 
 def _row(option: click.Option) -> tuple[str, str, str]:
     """The spelling, the meaning and the default of an option."""
-    first = [name for name in option.opts if name not in aliases(option)]
-    words = "/".join(first)
+    words = "/".join(option.opts)
     if not option.is_flag:
         words += f" {option.make_metavar(click.Context(main))}"
     meaning, _, default = (option.help or "").partition("  [default: ")
@@ -259,8 +256,6 @@ def _row(option: click.Option) -> tuple[str, str, str]:
         )
     if option.multiple and not re.search("repeated|several times", meaning):
         meaning += " May be repeated."
-    if aliases(option):
-        meaning += f" Alias: {', '.join(f'`{name}`' for name in aliases(option))}."
     return (
         f"`{words}`",
         meaning.strip(),
@@ -269,7 +264,9 @@ def _row(option: click.Option) -> tuple[str, str, str]:
 
 
 def _shared() -> list[tuple[str, str, str]]:
-    rows = Counter(_row(option) for command in COMMANDS.values() for option in _visible(command))
+    rows = Counter(
+        _row(option) for command in COMMANDS.values() for option in _click_options(command)
+    )
     return [row for row, number in rows.items() if number >= SHARED]
 
 
@@ -277,12 +274,6 @@ def _options(rows: Sequence[tuple[str, str, str]]) -> str:
     lines = ["| option | meaning | default |", "| --- | --- | --- |"]
     lines += [_line(row) for row in rows]
     return "\n".join(lines) + "\n"
-
-
-def _hidden(command: click.Command) -> Iterator[str]:
-    for option in command.params:
-        if isinstance(option, click.Option) and option.hidden:
-            yield f"`{'/'.join(option.opts)}` is an alias of {(option.help or '').rstrip('.')}."
 
 
 def _command(path: str, command: click.Command, shared: Sequence[object]) -> Iterator[str]:
@@ -294,11 +285,11 @@ def _command(path: str, command: click.Command, shared: Sequence[object]) -> Ite
     yield f"## {path}\n"
     yield f"    topo-verify {path} {usage}\n"
     yield _text(inspect.cleandoc(command.help or "")) + "\n"
-    rows = [_row(option) for option in _visible(command)]
+    rows = [_row(option) for option in _click_options(command)]
     if mine := [row for row in rows if row not in shared]:
         yield _options(mine)
     names = ", ".join(row[0].split()[0].strip("`").join("``") for row in rows if row in shared)
-    yield " ".join([f"Shared: {names}.", *_hidden(command)]) + "\n"
+    yield f"Shared: {names}.\n"
     for record in records(path):
         occasion = OCCASIONS.get(record.cls.__name__)
         yield f"Results{', ' + occasion if occasion else ''}:\n"

@@ -135,7 +135,7 @@ def test_the_command_of_the_wheel_works_on_its_own(built: Built, tmp_path: Path)
     site = tmp_path / "site"
     with ZipFile(built.wheel) as archive:
         archive.extractall(site)
-    for line in ("--help", "explore m2/8 --algorithm folding", "world draw m2/8 -o world.svg"):
+    for line in ("--help", "explore m2/8 --target folding", "world draw m2/8 -o world.svg"):
         code = f"from topo_verify.cli import main; main({line.split()!r})"
         done = run_python(code, path=site, cwd=tmp_path)
         assert done.returncode == 0, done.stderr

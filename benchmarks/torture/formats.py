@@ -152,7 +152,7 @@ def _readings(path: str) -> Sequence[Sequence[str]]:
         ("world", "show", path),
         ("world", "show", path, "--format", "markdown"),
         ("world", "convert", path, "--to", "json"),
-        ("explore", path, "--algorithm", "enhancement-i", *LIMITS),
+        ("explore", path, "--target", "enhancement-i", *LIMITS),
     ]
 
 

@@ -307,7 +307,7 @@ def test_an_entrant_that_cannot_be_loaded_is_last_and_the_others_are_ranked(
     Path("notes.txt").write_text("#!/no/such/interpreter\n")
     Path("notes.txt").chmod(0o755)
     wrong = "open.py:explore gone.py:explore mappers.py:gone,basick --cmd ./gone --cmd ./notes.txt"
-    line = f"arena basic --target folding {wrong} --suite triangle,small --workers 0 --out here"
+    line = f"arena basic folding {wrong} --suite triangle,small --workers 0 --out here"
     entries = [e for e in results(line, code=1)["results"] if e["suite"] == "small"]
     assert [entry["place"] for entry in entries] == [1, 2, *[None] * 6]
     why = {entry["mapper"]: entry["counterexample"] for entry in entries[2:]}

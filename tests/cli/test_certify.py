@@ -43,7 +43,7 @@ def test_an_incomplete_log_is_unknown_and_exits_3_with_its_two_worlds(
 
 
 def test_a_trace_of_explore_is_a_log(call: Call, results: Results) -> None:
-    call("explore m4/300 --algorithm folding --trace trace.jsonl")
+    call("explore m4/300 --target folding --trace trace.jsonl")
     (entry,) = results("certify trace.jsonl")["results"]
     assert entry["verdict"] == "PROVED"
     assert entry["decisions"]["entailed"] == entry["decisions"]["total"] > 0
@@ -193,7 +193,7 @@ def test_a_picture_shows_what_is_known_and_each_open_door_dotted(
 
 
 def test_a_map_that_does_not_fit_in_the_plane_is_remarked(call: Call, results: Results) -> None:
-    call("explore m2/8 --algorithm basic --trace torus.jsonl")  # two loops that cross
+    call("explore m2/8 --target basic --trace torus.jsonl")  # two loops that cross
     (entry,) = results("certify torus.jsonl")["results"]
     assert (entry["verdict"], entry["genus"]) == ("PROVED", 1)
     assert "does not fit in the plane (genus 1)" in call("certify torus.jsonl").stdout

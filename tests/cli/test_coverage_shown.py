@@ -30,7 +30,7 @@ def statuses(entry: dict[str, Any]) -> dict[str, str]:
 
 
 def test_a_run_judged_in_part_is_shown_as_such(results: Results, call: Call) -> None:
-    line = "explore nyc --algorithm mappers.py:curt --in-process"
+    line = "explore nyc --target mappers.py:curt --in-process"
     (entry,) = results(line)["results"]
     assert statuses(entry) == entry["claims"]
     assert entry["ok"]
@@ -81,7 +81,7 @@ def undecided(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize(
     "line",
     [
-        "explore m3/14 --algorithm basic",
+        "explore m3/14 --target basic",
         "replay m3/14 --target basic",
         "replay trace.jsonl",
         "search basic --edges 2 --workers 0",
@@ -101,7 +101,7 @@ def test_an_undecided_claim_leaves_the_command_incomplete(
 
 @pytest.mark.usefixtures("undecided")
 def test_an_undecided_claim_is_named(call: Call) -> None:
-    text = " ".join(call("explore m3/14 --algorithm basic").stdout.split())
+    text = " ".join(call("explore m3/14 --target basic").stdout.split())
     assert "9 of 10 hold, 1 undecided" in text
     assert "Neither proved nor refuted in m3/14: decisions-entailed" in text
 
@@ -120,7 +120,7 @@ def small(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize(
     "line",
     [
-        "explore m3/14 --algorithm basic",
+        "explore m3/14 --target basic",
         "replay m3/14 --target basic",
         "conform basic --worlds m3/14 --workers 0",
     ],
@@ -140,7 +140,7 @@ def test_what_is_not_asked_is_said_and_asked_with_strict(
 @pytest.mark.parametrize(
     "line",
     [
-        "explore m3/14 --algorithm mappers.py:guesses --in-process",
+        "explore m3/14 --target mappers.py:guesses --in-process",
         "conform mappers.py:guesses --worlds m3/14 --workers 0 --in-process",
     ],
 )

@@ -34,12 +34,12 @@ LEAVES = (
     ("line", "code"),
     [
         ("explore m3/14", 0),
-        ("explore m3/14 --algorithm mappers.py:guesses", 1),
+        ("explore m3/14 --target mappers.py:guesses", 1),
         ("explore m3/9999", 2),
         ("explore m3/14 --no-such-option", 2),
-        ("explore m3/14 --algorithm mappers.py:strolls --world-timeout 0.1", 3),
+        ("explore m3/14 --target mappers.py:strolls --world-timeout 0.1", 3),
         # 1 beats 3
-        ("explore m1/0 nyc --algorithm mappers.py:raises_or_strolls --world-timeout 1", 1),
+        ("explore m1/0 nyc --target mappers.py:raises_or_strolls --world-timeout 1", 1),
     ],
 )
 def test_each_exit_code_is_told_by_the_envelope_too(call: Call, line: str, code: int) -> None:
@@ -58,7 +58,7 @@ def test_our_bug_exits_70_and_says_how_to_report_it(
     call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(runs, "resolve_world", Mock(side_effect=KeyError("planted", 0)))
-    done = call("explore m3/14 --algorithm basic")
+    done = call("explore m3/14 --target basic")
     assert done.exit_code == 70
     assert done.stdout == ""
     assert done.stderr.count("\n") == 1
@@ -123,7 +123,7 @@ def test_version_names_the_program_and_its_version(call: Call) -> None:
 
 
 def test_what_a_mapper_prints_goes_to_stderr(program: Program) -> None:
-    done = program("explore m3/14 --algorithm mappers.py:nonsense --format json")
+    done = program("explore m3/14 --target mappers.py:nonsense --format json")
     json.loads(done.stdout)
     assert "must not stand among the results" in done.stderr
 
@@ -221,7 +221,7 @@ def test_what_the_machine_lacks_is_no_bug_of_ours(
     call: Call, monkeypatch: pytest.MonkeyPatch, error: Exception, code: int, words: str
 ) -> None:
     monkeypatch.setattr(runs, "resolve_world", Mock(side_effect=error))
-    done = call("explore m3/14 --algorithm basic")
+    done = call("explore m3/14 --target basic")
     assert done.exit_code == code, done.output
     assert words in done.stderr
     assert done.stderr.count("\n") == 1
@@ -245,7 +245,7 @@ def test_ctrl_c_and_sigterm_exit_3_and_print_what_is_done(folder: Path, by: sign
 def test_an_interrupted_explore_keeps_the_runs_that_are_done(
     folder: Path, by: signal.Signals
 ) -> None:
-    words = ("explore", "m1/0", "m2/5", "--algorithm", "mappers.py:starts_and_sleeps")
+    words = ("explore", "m1/0", "m2/5", "--target", "mappers.py:starts_and_sleeps")
     code, out, error = interrupted(folder, *words, "--move-timeout", "60", by=by)
     assert code == 3
     assert "m1/0" in out

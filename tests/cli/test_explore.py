@@ -17,7 +17,7 @@ from topo_verify.world.drawing import read_back
 
 
 def test_an_entry_tells_of_the_world_and_of_the_run(results: Results) -> None:
-    envelope = results("explore m3/14 --algorithm basic")
+    envelope = results("explore m3/14 --target basic")
     assert {"format", "version", "tool", "ok", "exit", "results", "timing"} <= envelope.keys()
     assert envelope["format"] == "topo-verify/explore"
     (entry,) = envelope["results"]
@@ -35,7 +35,7 @@ def test_without_algorithm_the_whole_catalogue_is_run(results: Results) -> None:
 
 
 def test_policies_reach_the_algorithms(results: Results) -> None:
-    line = "explore m5/17 --algorithm basic --pick last --order 'random(3)'"
+    line = "explore m5/17 --target basic --pick last --order 'random(3)'"
     (entry,) = results(line)["results"]
     assert entry["policies"] == {"pick": "last", "order": "random(3)"}
 
@@ -46,13 +46,13 @@ def test_a_world_is_called_by_its_name_its_id_or_its_file(results: Results) -> N
     bare = named.replace('"name":"m3/14",', "")
     Path("bare.json").write_text(bare)
     Path("named.json").write_text(named.replace("m3/14", "my town"))
-    line = "explore bare.json named.json - 'family:lattice(2,2)' --algorithm basic"
+    line = "explore bare.json named.json - 'family:lattice(2,2)' --target basic"
     names = [entry["world"] for entry in results(line, bare)["results"]]
     assert names == ["bare", "my town", "m3/14", "lattice(2,2)"]
 
 
 def test_a_marker_laid_elsewhere_makes_another_world(results: Results) -> None:
-    (entry,) = results("explore m3/14 --algorithm basic --marker 5")["results"]
+    (entry,) = results("explore m3/14 --target basic --marker 5")["results"]
     assert entry["world"] == World.from_id("m3/14").with_marker(5).id != "m3/14"
 
 
@@ -71,7 +71,7 @@ def test_a_marker_laid_elsewhere_makes_another_world(results: Results) -> None:
 def test_a_faulty_mapper_is_found_and_its_line_shows_it_again(
     results: Results, call: Call, mapper: str, options: str, words: str
 ) -> None:
-    line = f"explore m2/3 --marker 2 --algorithm mappers.py:{mapper} {options}"
+    line = f"explore m2/3 --marker 2 --target mappers.py:{mapper} {options}"
     envelope = results(line, code=1)
     (entry,) = envelope["results"]
     assert not entry["ok"]
@@ -88,7 +88,7 @@ def test_a_faulty_mapper_is_found_and_its_line_shows_it_again(
 def test_a_mapper_that_moves_on_when_time_is_up_is_not_decided(
     results: Results, call: Call
 ) -> None:
-    line = "explore nyc --algorithm mappers.py:strolls --world-timeout 0.2"
+    line = "explore nyc --target mappers.py:strolls --world-timeout 0.2"
     (entry,) = results(line, code=3)["results"]
     assert (entry["ok"], entry["findings"], entry["isomorphic"]) == (False, [], False)
     assert entry["stopped"].startswith(
@@ -120,7 +120,7 @@ def test_a_mapper_whose_process_was_killed_is_run_again_as_in_a_search(
 
 
 def test_what_a_mapper_does_not_declare_is_not_called_ok(results: Results, call: Call) -> None:
-    line = "explore m3/14 --algorithm mappers.py:silent"
+    line = "explore m3/14 --target mappers.py:silent"
     (entry,) = results(line)["results"]
     assert sorted(entry["claims"].values()) == ["not-declared"] * 5 + ["ok"] * 5
     assert entry["policies"] == {"pick": None, "order": None}
@@ -137,7 +137,7 @@ def test_what_a_mapper_does_not_declare_is_not_called_ok(results: Results, call:
 
 def test_a_small_world_from_stdin_is_found_again_by_its_id(results: Results) -> None:
     world = World.from_id("m3/14").to_json()
-    line = "explore - --algorithm mappers.py:guesses --marker 5"
+    line = "explore - --target mappers.py:guesses --marker 5"
     (entry,) = results(line, world, code=1)["results"]
     moved = World.from_id("m3/14").with_marker(5)
     again = entry["findings"][0]["replay"]
@@ -148,7 +148,7 @@ def test_a_large_world_from_stdin_is_kept_in_a_file_for_the_line(
     results: Results, call: Call, folder: Path
 ) -> None:
     world = families.lattice(12, 12)
-    line = "explore - --algorithm mappers.py:guesses"
+    line = "explore - --target mappers.py:guesses"
     before = set(folder.iterdir())
     first, second = (results(line, world.to_json(), code=1)["results"][0] for _ in "12")
     assert first == second  # and one file, for it is the same world
@@ -160,7 +160,7 @@ def test_a_large_world_from_stdin_is_kept_in_a_file_for_the_line(
 
 
 def test_a_world_is_never_kept_over_another_file(results: Results, folder: Path) -> None:
-    line, text = "explore - --algorithm mappers.py:guesses", families.lattice(12, 12).to_json()
+    line, text = "explore - --target mappers.py:guesses", families.lattice(12, 12).to_json()
     before = set(folder.iterdir())
     results(line, text, code=1)
     (kept,) = set(folder.iterdir()) - before
@@ -175,14 +175,14 @@ def test_a_world_that_cannot_be_saved_is_an_error(
 ) -> None:
     denied = PermissionError(13, "Permission denied")
     monkeypatch.setattr(Path, "open", Mock(side_effect=denied))
-    done = call("explore - --algorithm mappers.py:guesses", families.lattice(12, 12).to_json())
+    done = call("explore - --target mappers.py:guesses", families.lattice(12, 12).to_json())
     assert done.exit_code == 2
     assert "cannot be saved" in done.stderr
 
 
 def test_a_file_that_looks_like_an_option_gets_a_line_that_works(call: Call, folder: Path) -> None:
     World.from_id("m3/14").save(folder / "-w.json")
-    text = call("explore --algorithm mappers.py:guesses -- -w.json").stdout
+    text = call("explore --target mappers.py:guesses -- -w.json").stdout
     assert "again: topo-verify replay ./-w.json --target mappers.py:guesses\n" in text
     assert call("replay ./-w.json --target mappers.py:guesses").exit_code == 1
 
@@ -193,7 +193,7 @@ def test_a_file_that_looks_like_an_option_gets_a_line_that_works(call: Call, fol
 def test_the_trace_of_a_run_is_written_and_judged_again(
     call: Call, results: Results, folder: Path
 ) -> None:
-    call("explore m5/17 --algorithm enhancement-ii --trace run.jsonl")
+    call("explore m5/17 --target enhancement-ii --trace run.jsonl")
     lines = [json.loads(line) for line in (folder / "run.jsonl").read_text().splitlines()]
     assert (lines[0]["type"], lines[0]["world"], lines[-1]["type"]) == ("start", "m5/17", "finish")
     (entry,) = results("replay run.jsonl")["results"]
@@ -209,7 +209,7 @@ def test_one_world_gets_a_table_of_algorithms(call: Call) -> None:
 
 
 def test_one_algorithm_gets_a_table_of_worlds(call: Call) -> None:
-    lines = call("explore nyc m3/14 m5/17 --algorithm basic").stdout.splitlines()
+    lines = call("explore nyc m3/14 m5/17 --target basic").stdout.splitlines()
     assert lines[0] == "basic"
     assert [line.split()[0] for line in lines[1:]] == ["world", "nyc_osmnx", "m3/14", "m5/17"]
 
@@ -218,7 +218,7 @@ def test_replay_lines_are_split_by_a_shell_as_they_were_meant(
     results: Results, folder: Path
 ) -> None:
     (folder / "my town's.json").write_text(World.from_id("m3/14").to_json())
-    line = """explore "my town's.json" --algorithm mappers.py:guesses"""
+    line = """explore "my town's.json" --target mappers.py:guesses"""
     (entry,) = results(line, code=1)["results"]
     words = shlex.split(entry["findings"][0]["replay"])
     assert words == ["topo-verify", "replay", "my town's.json", "--target", "mappers.py:guesses"]
@@ -240,38 +240,38 @@ def test_the_animation_in_the_docs_is_remade_byte_for_byte(call: Call) -> None:
 
 def test_an_animation_is_of_one_short_run(refused: Refused) -> None:
     refused(
-        "explore m3/14 --algorithm basic,folding --svg run.svg",
+        "explore m3/14 --target basic,folding --svg run.svg",
         "--svg run.svg: expected one run, got 2",
     )
     refused(
-        "explore nyc --algorithm basic --svg run.svg",
+        "explore nyc --target basic --svg run.svg",
         "1468 moves; an animated SVG shows at most 500 events",
     )
     assert not Path("run.svg").exists()
 
 
 def test_the_walk_of_the_first_failing_run_is_shown(call: Call) -> None:
-    text = call("explore m1/0 m1/1 m2/5 --algorithm mappers.py:guesses").stdout
+    text = call("explore m1/0 m1/1 m2/5 --target mappers.py:guesses").stdout
     _, _, walk = text.partition("The walk of mappers.py:guesses in m1/1:")
     assert "!! map-isomorphic" in walk
     assert walk.endswith("  again: topo-verify replay m1/1 --target mappers.py:guesses\n")
-    assert "The walk of" not in call("explore m1/0 --algorithm mappers.py:guesses").stdout
+    assert "The walk of" not in call("explore m1/0 --target mappers.py:guesses").stdout
 
 
 def test_choices_are_told_one_by_one(call: Call) -> None:
-    told = call("explore m2/8 --algorithm folding+planar --choices 0 --format json")
+    told = call("explore m2/8 --target folding+planar --choices 0 --format json")
     assert told.exit_code == 1
     (entry,) = json.loads(told.stdout)["results"]
     line = "topo-verify explore m2/8 --target folding+planar --choices 0"
     assert {finding["replay"] for finding in entry["findings"]} == {line}
-    assert call("explore m2/8 --algorithm basic --choices 0,1").exit_code == 0
+    assert call("explore m2/8 --target basic --choices 0,1").exit_code == 0
 
 
 # ---------------------------------------------------------------- --marker all
 
 
 def test_each_dart_has_the_entry_that_it_has_alone(results: Results) -> None:
-    entries = results("explore m4/100 --marker all --algorithm basic,folding")["results"]
+    entries = results("explore m4/100 --marker all --target basic,folding")["results"]
     assert [e["marker"] for e in entries] == [*range(8), *range(8)]
     world = World.from_id("m4/100")
     for entry in entries:
@@ -282,15 +282,15 @@ def test_each_dart_has_the_entry_that_it_has_alone(results: Results) -> None:
 
 
 def test_places_that_look_the_same_are_named_and_cost_the_same(results: Results) -> None:
-    entries = results("explore 'family:cube()' --marker all --algorithm basic")["results"]
+    entries = results("explore 'family:cube()' --marker all --target basic")["results"]
     assert [e["same_as"] for e in entries] == [None, *[0] * 23]
     assert len({e["cost"] for e in entries}) == 1
-    entries = results("explore 'family:path(3)' --marker all --algorithm basic")["results"]
+    entries = results("explore 'family:path(3)' --marker all --target basic")["results"]
     assert [e["same_as"] for e in entries] == [None, None, 1, 0]
 
 
 def test_a_table_names_the_best_and_the_worst_place(call: Call, results: Results) -> None:
-    line = "explore m5/17 --marker all --algorithm basic"
+    line = "explore m5/17 --marker all --target basic"
     costs = [e["cost"] for e in results(line)["results"]]
     text = call(line).stdout
     assert "the marker at each of 10 darts, 10 of them" in text
@@ -305,7 +305,7 @@ def test_a_table_names_the_best_and_the_worst_place(call: Call, results: Results
 def test_a_faulty_mapper_is_found_at_the_marker_where_it_fails(
     results: Results, call: Call
 ) -> None:
-    line = "explore m2/5 --marker all --algorithm mappers.py:ignores_direction --in-process"
+    line = "explore m2/5 --marker all --target mappers.py:ignores_direction --in-process"
     entries = results(line, code=1)["results"]
     bad = [entry for entry in entries if entry["findings"]]
     assert bad
@@ -315,7 +315,7 @@ def test_a_faulty_mapper_is_found_at_the_marker_where_it_fails(
 
 
 def test_the_heat_map_is_a_true_drawing_and_has_a_colour_a_dart(call: Call) -> None:
-    line = "explore m5/17 --marker all --algorithm basic --svg heat.svg"
+    line = "explore m5/17 --marker all --target basic --svg heat.svg"
     assert call(line).exit_code == 0
     svg = Path("heat.svg").read_text()
     assert read_back.untruths(read_back.read(svg), World.from_id("m5/17")) == []
@@ -325,7 +325,7 @@ def test_the_heat_map_is_a_true_drawing_and_has_a_colour_a_dart(call: Call) -> N
 
 
 def test_there_is_no_heat_map_of_runs_that_fail(call: Call) -> None:
-    line = "explore m2/5 --marker all --algorithm mappers.py:ignores_direction --in-process"
+    line = "explore m2/5 --marker all --target mappers.py:ignores_direction --in-process"
     done = call(f"{line} --svg heat.svg")
     assert done.exit_code == 1
     assert "--svg heat.svg: not written, since not every run delivered a true map" in done.stderr

@@ -55,7 +55,7 @@ def rude(folder: Path) -> Path:
 
 
 LINES = {
-    "explore": "explore m2/5 --algorithm rude.py:{}",
+    "explore": "explore m2/5 --target rude.py:{}",
     "replay": "replay m2/5 --target rude.py:{}",
     "search": "search rude.py:{} --edges 1 --workers 0",
     "conform": "conform rude.py:{} --worlds m2/5 --workers 0",
@@ -84,13 +84,13 @@ def test_an_exception_of_any_kind_is_a_finding_with_its_line(results: Results, l
 
 @pytest.mark.usefixtures("rude")
 def test_a_mapper_that_interrupts_itself_interrupts_nobody_else(results: Results) -> None:
-    (entry,) = results("explore m2/5 --algorithm rude.py:interrupts", code=1)["results"]
+    (entry,) = results("explore m2/5 --target rude.py:interrupts", code=1)["results"]
     assert "the mapper raised KeyboardInterrupt (rude.py, line " in entry["stopped"]
 
 
 @pytest.mark.usefixtures("rude")
 def test_a_report_says_that_the_mapper_shared_a_process(call: Call, results: Results) -> None:
-    line = "explore m2/5 --algorithm rude.py:explore"
+    line = "explore m2/5 --target rude.py:explore"
     assert results(line)["in_process"] is False
     assert results(f"{line} --in-process")["in_process"] is True
     assert "In process: a mapper of your own could see what judges it." in (
@@ -101,9 +101,9 @@ def test_a_report_says_that_the_mapper_shared_a_process(call: Call, results: Res
 
 @pytest.mark.usefixtures("rude")
 def test_a_trace_with_fewer_moves_than_were_made_is_a_finding(results: Results) -> None:
-    line = "explore m2/5 --algorithm rude.py:forgets --in-process"
+    line = "explore m2/5 --target rude.py:forgets --in-process"
     (entry,) = results(line, code=1)["results"]
-    (honest,) = results("explore m2/5 --algorithm basic")["results"]
+    (honest,) = results("explore m2/5 --target basic")["results"]
     assert entry["cost"] == honest["cost"]
     assert entry["claims"]["cost-honest"] == "failed"
     messages = [found["message"] for found in entry["findings"]]

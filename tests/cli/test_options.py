@@ -13,8 +13,8 @@ from tests.cli.conftest import Call, Refused, Results
 from topo_verify.cli import main
 
 REPEATABLE = {
-    "explore": {"--algorithm", "--target"},
-    "play": {"--algorithm", "--target", "--name"},
+    "explore": {"--target"},
+    "play": {"--target", "--name"},
     "search": {"--class", "--depends"},
     "world count": {"--class"},
     "world list": {"--class"},
@@ -70,7 +70,6 @@ def test_an_option_of_one_value_is_refused_when_it_is_given_twice(
     "line",
     [
         "conform --cmd bad --cmd good",
-        "search --target guesses --target basic --edges 1",
         "search basic --edges 3 --edges 1",
         "search basic --edges 1 --quick --workers 0 --workers=0",
         "world draw m2/0 -ofirst.svg -o second.svg",
@@ -100,21 +99,21 @@ def test_help_is_shown_whatever_stands_beside_it(line: str, call: Call) -> None:
 
 def test_every_algorithm_counts(results: Results) -> None:
     """The right one, named last, does not hide the wrong one."""
-    line = "explore m2/5 --algorithm mappers.py:guesses --algorithm basic --target folding"
+    line = "explore m2/5 --target mappers.py:guesses --target basic --target folding"
     entries = results(line, code=1)["results"]
     assert [(one["algorithm"], one["ok"]) for one in entries] == [
         ("mappers.py:guesses", False),
         ("basic", True),
         ("folding", True),
     ]
-    (page,) = results("play m2/5 --algorithm basic --algorithm folding")["results"]
+    (page,) = results("play m2/5 --target basic --target folding")["results"]
     assert page["algorithms"] == ["basic", "folding"]
 
 
 @pytest.mark.parametrize(
     ("line", "targets"),
     [
-        ("explore m2/5 --algorithm mappers.py:right,basic", ["mappers.py:right", "basic"]),
+        ("explore m2/5 --target mappers.py:right,basic", ["mappers.py:right", "basic"]),
         ("search mappers.py:right,basic --edges 1", ["mappers.py:right", "basic"]),
         ("search 'basic, mappers.py:right' --edges 1", ["basic", "mappers.py:right"]),
         ("arena mappers.py:right,basic --suite tiny", ["mappers.py:right", "basic"]),
@@ -137,11 +136,11 @@ def test_each_mapper_of_a_list_is_tried_by_conform(results: Results) -> None:
 
 def test_a_file_may_have_a_comma_in_its_name(call: Call, folder: Any) -> None:
     (folder / "a,b.py").write_text("from mappers import right\n")
-    assert call("explore m2/5 --algorithm a,b.py:right").exit_code == 0
+    assert call("explore m2/5 --target a,b.py:right").exit_code == 0
 
 
 def test_a_wrong_file_in_a_list_is_named(refused: Refused) -> None:
-    refused("explore m2/5 --algorithm basic,gone.py:f", "there is no file 'gone.py'")
+    refused("explore m2/5 --target basic,gone.py:f", "there is no file 'gone.py'")
 
 
 @pytest.mark.parametrize("classes", [("planar", "simple"), ("simple", "planar"), ("any", "simple")])

@@ -268,9 +268,9 @@ def test_a_refutation_outranks_the_interrupt(
 @pytest.mark.parametrize(
     "line",
     [
-        "explore m2/5 --algorithm basic,folding",
+        "explore m2/5 --target basic,folding",
         "record basic --worlds 'edges<=2' --out c.gz",
-        "play m2/5 --algorithm basic,folding",
+        "play m2/5 --target basic,folding",
         "reproduce --figure 6 --quick --graphs 1 --workers 1",
     ],
 )

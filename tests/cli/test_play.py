@@ -35,7 +35,7 @@ def test_an_entry_has_the_promised_fields(results: Results) -> None:
 
 
 def test_several_algorithms_are_in_one_page(call: Call) -> None:
-    done = call("play 'family:lattice(2,2)' --algorithm basic,folding")
+    done = call("play 'family:lattice(2,2)' --target basic,folding")
     assert done.exit_code == 0
     assert "player.html: basic, folding in lattice(2,2)" in done.stdout
     assert [run["name"] for run in recorded("player.html")["runs"]] == ["basic", "folding"]
@@ -49,10 +49,10 @@ def test_findings_are_counted_and_the_exit_code_stays_0(results: Results) -> Non
 
 
 def test_explore_writes_the_page_of_all_its_runs(call: Call) -> None:
-    done = call("explore m3/14 --algorithm basic,enhancement-i --player runs.html")
+    done = call("explore m3/14 --target basic,enhancement-i --player runs.html")
     assert done.exit_code == 0
     assert len(recorded("runs.html")["runs"]) == 2
-    same = call("play m3/14 --algorithm basic,enhancement-i -o played.html")
+    same = call("play m3/14 --target basic,enhancement-i -o played.html")
     assert same.exit_code == 0
     assert read("runs.html") == read("played.html")
 

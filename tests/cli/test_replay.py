@@ -24,7 +24,7 @@ from topo_verify.robot.limits import BudgetExceeded
 @pytest.fixture
 def trace(call: Call, folder: Path) -> Path:
     """The trace of `basic` in m5/17."""
-    call("explore m5/17 --algorithm basic --trace basic.jsonl")
+    call("explore m5/17 --target basic --trace basic.jsonl")
     return folder / "basic.jsonl"
 
 
@@ -80,7 +80,7 @@ def test_the_trace_of_a_large_world_needs_the_world(
     call: Call, results: Results, folder: Path
 ) -> None:
     families.lattice(12, 12).save(folder / "large.json")
-    call("explore large.json --algorithm basic --trace large.jsonl --marker 9")
+    call("explore large.json --target basic --trace large.jsonl --marker 9")
     assert "name it with --world" in call("replay large.jsonl").stderr
     assert results("replay large.jsonl --world large.json --marker 9")["results"][0]["ok"]
     other = call("replay large.jsonl --world large.json --marker 10")
@@ -201,7 +201,7 @@ def test_a_log_need_not_prove_its_map_but_fit_the_world(call: Call, results: Res
 def test_a_trace_keeps_why_the_run_ended_without_a_map(
     call: Call, results: Results, folder: Path
 ) -> None:
-    call("explore m3/8 --algorithm mappers.py:walks --trace walks.jsonl")
+    call("explore m3/8 --target mappers.py:walks --trace walks.jsonl")
     line = json.loads((folder / "walks.jsonl").read_text().splitlines()[0])
     assert line["stopped"] == str(BudgetExceeded(36))
     (entry,) = results("replay walks.jsonl", code=1)["results"]

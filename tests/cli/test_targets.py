@@ -1,14 +1,11 @@
-"""TARGET on the command line: an argument or --target, and what a wrong one is told."""
+"""TARGET on the command line, and what a wrong one is told."""
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 from click.shell_completion import ShellComplete
-from click.testing import Result
 
 from tests.cli.conftest import Call, Refused
 from topo_verify.cli import main
@@ -28,30 +25,16 @@ def baseline(call: Call) -> None:
     assert call("record basic --worlds m2/3 --out b.gz").exit_code == 0
 
 
-def untimed(done: Result) -> dict[str, Any]:
-    assert done.exit_code == 0, done.output
-    envelope: dict[str, Any] = json.loads(done.stdout)
-    del envelope["timing"]
-    return envelope
+@pytest.mark.parametrize(
+    "line", [*(line.format("--target basic") for line in LINES.values()), "arena --target basic"]
+)
+def test_a_target_that_is_an_argument_is_no_option(line: str, refused: Refused) -> None:
+    refused(line, "TARGET is an argument here: type it without --target\n")
 
 
-@pytest.mark.usefixtures("baseline", "proved_once")
-@pytest.mark.parametrize("name", LINES)
-def test_an_argument_and_the_option_are_the_same(name: str, call: Call) -> None:
-    line = f"{LINES[name]} --format json"
-    assert untimed(call(line.format("basic"))) == untimed(call(line.format("--target basic")))
-
-
-def test_the_hidden_alias_of_target_works(call: Call) -> None:
-    one, other = (call(f"explore m2/3 {word} basic") for word in ("--algorithm", "--target"))
-    assert one.exit_code == other.exit_code == 0
-    assert one.stdout == other.stdout
-
-
-@pytest.mark.usefixtures("baseline")
-@pytest.mark.parametrize("line", [line.format("basic --target folding") for line in LINES.values()])
-def test_two_targets_get_one_sentence(line: str, refused: Refused) -> None:
-    refused(line, "expected one TARGET, got 'basic' and --target folding; leave one out\n")
+@pytest.mark.parametrize("line", ["explore m2/3", "play m2/3"])
+def test_the_former_name_of_target_is_answered(line: str, refused: Refused) -> None:
+    refused(f"{line} --algorithm basic", "--algorithm went with version 0.4: type --target\n")
 
 
 @pytest.mark.usefixtures("baseline")
@@ -59,7 +42,6 @@ def test_two_targets_get_one_sentence(line: str, refused: Refused) -> None:
     "line", [*(line.format("basic --cmd ./x") for line in LINES.values()), "explore m2/3 --cmd ''"]
 )
 def test_a_program_is_a_target_as_well(line: str, call: Call) -> None:
-    assert call(line.replace("basic", "--target basic")).exit_code == 2
     assert call(line).exit_code == 2
 
 
@@ -154,12 +136,11 @@ NAMING = [
     f"{command} '{NO_UTF8}:explore' {options}"
     for command, options in {
         "search": "--edges 2 --workers 0",
-        "search --target": "--edges 2 --workers 1",
         "verify": "--quick",
         "conform": "--worlds edges<=1 --workers 1",
         "record": "--worlds edges<=1 --out base.gz",
         "arena": "--suite tiny --workers 0 --out league",
-        "explore m2/5 --algorithm": "--format json",
+        "explore m2/5 --target": "--format json",
         "replay m2/5 --target": "--in-process",
     }.items()
 ]
@@ -206,8 +187,8 @@ def test_a_world_whose_name_is_not_utf8_is_bad_input(
     [
         ("search basic --edges 1 --workers 0 --ledger l.db", 2),
         ("search module:explore --edges 1 --workers 0", 2),
-        ("explore m1/0 --algorithm {}/mappers.py:raises_or_strolls", 1),
-        ("explore m1/0 --algorithm {}/mappers.py:raises_or_strolls --in-process", 1),
+        ("explore m1/0 --target {}/mappers.py:raises_or_strolls", 1),
+        ("explore m1/0 --target {}/mappers.py:raises_or_strolls --in-process", 1),
     ],
 )
 def test_a_working_folder_that_was_removed_is_one_sentence_or_no_matter(

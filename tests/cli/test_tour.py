@@ -87,7 +87,7 @@ def test_a_map_that_is_open_exits_3_with_a_way_on_that_proves_it(results: Result
 def test_the_events_of_a_mapper_are_left_out_of_the_log_that_goes_on(
     call: Call, results: Results, folder: Path
 ) -> None:
-    call("explore m3/40 --algorithm basic --trace basic.jsonl")
+    call("explore m3/40 --target basic --trace basic.jsonl")
     events = (folder / "basic.jsonl").read_bytes().splitlines(keepends=True)
     (folder / "begun.jsonl").write_bytes(b"".join(events[:5]))
     results("tour m3/40 --against begun.jsonl -o on.jsonl", code=3)

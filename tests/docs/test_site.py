@@ -145,7 +145,7 @@ def test_a_folder_of_this_machine_is_seen(tmp_path: Path) -> None:
     "command",
     [
         "topo-verify replay m1/0 --target basic --player right.html",  # no counterexample
-        "topo-verify play m1/0 -o FILE --algorithm basic",  # the page does not stand last
+        "topo-verify play m1/0 -o FILE --target basic",  # the page does not stand last
         "topo-verify play m9/x -o wrong.html",
     ],
 )

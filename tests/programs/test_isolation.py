@@ -71,7 +71,7 @@ def explore(robot):
 @pytest.mark.skipif(not Path("/proc/self/cmdline").exists(), reason="no /proc here")
 def test_no_world_stands_on_the_command_line_that_a_mapper_can_read(tmp_path: Path) -> None:
     (tmp_path / "looks.py").write_text(LOOKS)
-    line = "explore m3/14 --algorithm looks.py:explore --format json"
+    line = "explore m3/14 --target looks.py:explore --format json"
     done = ran("-m", "topo_verify", *line.split(), cwd=tmp_path)
     assert done.returncode == 1, done.stderr
     assert "LookupError: [b'" in done.stdout

@@ -124,16 +124,19 @@ def _has_working_folder() -> bool:
 
 FORMER = {
     "arena --game": "in a checkout of the project, type `python -m research.game M`",
+    "--algorithm": "type --target",
+    "--target": "TARGET is an argument here: type it without --target",
 }
-"""Commands and options that version 0.4 dropped, each with what to type now."""
+"""Options that version 0.4 dropped, of one command or of all, each with what to type now."""
 
 
 def _usage(error: click.ClickException) -> str:
     context = error.ctx if isinstance(error, click.UsageError) else None
     path = context.command_path if context else "topo-verify"
-    words = [path.removeprefix("topo-verify "), getattr(error, "option_name", "")]
-    if mend := FORMER.get(" ".join(words)):
-        return f"{path}: {words[1]} went with version 0.4: {mend}"
+    option = getattr(error, "option_name", "")
+    command = path.removeprefix("topo-verify ")
+    if mend := FORMER.get(f"{command} {option}") or FORMER.get(option):
+        return f"{path}: {option} went with version 0.4: {mend}"
     # Click ends with a full stop or a question; here the sentence continues.
     objection = " ".join(error.format_message().split()).removesuffix(".")
     objection = objection.replace("'. Did you", "', did you").removesuffix("?")

@@ -42,9 +42,6 @@ from topo_verify.studies.arena.suites import DEFAULT, SUITES, chosen_suites, own
 )
 @click.argument("texts", nargs=-1, metavar="[TARGET]...")
 @click.option(
-    "--target", "named", multiple=True, metavar="TARGET", hidden=True, help="the argument TARGET"
-)
-@click.option(
     "--cmd",
     "commands",
     multiple=True,
@@ -81,7 +78,6 @@ def arena(
     output: Output,
     *,
     texts: tuple[str, ...],
-    named: tuple[str, ...],
     commands: tuple[str, ...],
     libraries: tuple[str, ...],
     titles: tuple[str, ...],
@@ -103,7 +99,7 @@ def arena(
     if own and seed and own[0].exact:
         output.note("--seed draws nothing in --worlds without drawn: and generated:")
     suites = (*own, *(chosen_suites(suite or DEFAULT) if suite or not own else ()))
-    asked = _asked(texts, named, commands, libraries)
+    asked = _asked(texts, commands, libraries)
     folder = None if out is None else options.make_folder(out, "--out")
     if folder is not None:
         watch()  # before a mapper is loaded
@@ -151,10 +147,8 @@ def arena(
     )
 
 
-def _asked(
-    texts: Sequence[str], named: Sequence[str], commands: Sequence[str], libraries: Sequence[str]
-) -> list[str]:
-    asked = [*texts, *named, *(PREFIX + command for command in commands)]
+def _asked(texts: Sequence[str], commands: Sequence[str], libraries: Sequence[str]) -> list[str]:
+    asked = [*texts, *(PREFIX + command for command in commands)]
     asked += [LIBRARY + library for library in libraries]
     if not asked:
         raise InputError("name the TARGETs that take part, or programs with --cmd 'program args'")

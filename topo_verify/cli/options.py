@@ -19,7 +19,6 @@ from typing import Any
 
 import click
 from click.core import ParameterSource
-from click.shell_completion import CompletionItem
 
 from topo_verify.campaign.backend import MapperCampaign
 from topo_verify.campaign.campaign import close
@@ -69,28 +68,6 @@ class OnceCommand(click.Command):
                     got = f"{', '.join(rest)} and {last}"
                 leave = "leave one out" if times == 2 else "leave out all but one"
                 ctx.fail(f"expected {name} at most once, got {got}: {leave}")
-
-    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
-        """Completions without hidden aliases."""
-        hidden = {name for option in self.get_params(ctx) for name in aliases(option)}
-        return [
-            item for item in super().shell_complete(ctx, incomplete) if item.value not in hidden
-        ]
-
-
-class AliasedOption(click.Option):
-    """An option with hidden aliases: all spellings but the first."""
-
-    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
-        """The line in --help."""
-        first = copy(self)
-        first.opts = self.opts[:1]
-        return super(AliasedOption, first).get_help_record(ctx)
-
-
-def aliases(option: click.Parameter) -> Sequence[str]:
-    """The hidden spellings of an option."""
-    return option.opts[1:] if isinstance(option, AliasedOption) else ()
 
 
 def command(
@@ -344,10 +321,7 @@ def given() -> list[str]:
     ]
 
 
-_ARGUMENT = (
-    click.argument("target", required=False, metavar="[TARGET]"),
-    click.option("--target", "named", metavar="TARGET", hidden=True, help="the argument TARGET"),
-)
+_ARGUMENT = click.argument("target", required=False, metavar="[TARGET]")
 
 _PROGRAM = (
     click.option(
@@ -376,13 +350,11 @@ def mappers(
         default: the TARGET if none is given.
         required: without a default, a TARGET must be given.
         meaning: the help of the option --target; empty: TARGET is an argument.
-        several: --target may be repeated, and has the hidden alias --algorithm.
+        several: --target may be repeated.
         with_policies: add --pick and --order.
     """
     option = click.option(
-        *("--target", "--algorithm") if several else ("--target",),
-        "target",
-        cls=AliasedOption,
+        "--target",
         multiple=several,
         metavar="TARGET",
         help=f"{meaning}  [default: {default}]",
@@ -396,21 +368,15 @@ def mappers(
             cmd: str | None,
             library: str | None,
             in_process: bool,
-            named: str | None = None,
             **kwargs: Any,
         ) -> int:
             texts = list(target) if isinstance(target, tuple) else []
             if isinstance(target, str):
                 texts.append(target)
-            if texts and named is not None:
-                raise InputError(
-                    f"expected one TARGET, got {target!r} and --target {named}; leave one out"
-                )
             if cmd is not None and library is not None:
                 raise InputError(
                     f"expected one TARGET, got --cmd {cmd} and --library {library}; leave one out"
                 )
-            texts += [] if named is None else [named]
             command = cmd if library is None else LIBRARY + library
             if required or texts or command is not None:
                 texts[:1] = [target_text(texts[0] if texts else None, command, default)]
@@ -418,7 +384,7 @@ def mappers(
             how = {name: kwargs.pop(name) for name in names}
             return run(*args, mappers=Mappers(tuple(texts), in_process, **how), **kwargs)
 
-        added = [*([option] if meaning else _ARGUMENT), *_PROGRAM]
+        added = [option if meaning else _ARGUMENT, *_PROGRAM]
         command = policies(wrapper) if with_policies else wrapper
         for add in reversed(added):
             command = add(command)
