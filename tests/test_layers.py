@@ -72,6 +72,12 @@ LATE = {
 }
 """The exceptions: an object is asked for its picture or its text, and the player makes them."""
 
+CONVENIENCES = {
+    *("World.load", "World.from_json", "World.to_json", "World.save", "World.draw"),
+    *("World.least_cost", "World.proof_tour", "World.twin", "World._repr_html_"),
+}
+"""Methods of `World` for people who type, each a late import of the function that does it."""
+
 MADE_OF = {
     "strategies": {"hypothesis"},
     "proofs": {"z3"},

@@ -87,19 +87,20 @@ _MODULES = {
     "studies.log_file": ("read_log",),
     "studies.log_report": ("Certificate", "certify"),
     "campaign.run": ("Exploration", "explore"),
-    "world": ("families",),
     "world.enumeration.classes": ("WorldClass",),
     "world.enumeration.pruned": ("worlds",),
     "world.resolve": ("resolve_world",),
     "world.rooted_map": ("World",),
 }
 
+_PACKAGES = {"families": "topo_verify.world.families", "strategies": "topo_verify.strategies"}
+
 _HOME = {name: f"topo_verify.{module}" for module, names in _MODULES.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:
-    if name == "strategies":
-        return import_module("topo_verify.strategies")
+    if name in _PACKAGES:
+        return import_module(_PACKAGES[name])
     if name not in _HOME:
         raise AttributeError(f"module 'topo_verify' has no attribute {name!r}")
     if "hypothesis" in sys.modules:

@@ -36,6 +36,7 @@ from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import OPTIONS
 from topo_verify.robot.events import Event, MapData, Move, Policies
 from topo_verify.robot.limits import Limits
+from topo_verify.world import io
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
@@ -482,7 +483,7 @@ def _with_run_in_witness(
     """The finding, with the mapper's run in the witness world that it names, if any."""
     if finding.claim != "map-entailed" or finding.witness is None or run.mapper is None:
         return finding
-    witness = World.from_text(finding.witness)
+    witness = io.from_text(finding.witness)
     if witness.is_isomorphic(run.world):  # the wrong map is another finding
         return finding
     there = explore(witness, Target(run.algorithm, run.mapper), limits=run.limits)

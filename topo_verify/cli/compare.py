@@ -31,7 +31,7 @@ from topo_verify.studies.baseline.compare import (
 )
 from topo_verify.studies.baseline.compare import compare as join
 from topo_verify.studies.baseline.record import baseline_runs
-from topo_verify.world.rooted_map import World
+from topo_verify.world import io
 
 TITLES: dict[ChangeKind, str] = {
     "wrong": "a claim fails",
@@ -113,7 +113,7 @@ def _run_again(output: Output, then: file.Baseline, target: Target, changes: Com
     texts = {entry.called: entry.world for entry in then.entries}
     for change in changes.examples:
         if change.kind == "wrong" or change.beyond:
-            run = explore(World.from_text(texts[change.world]), target, limits=then.header.limits)
+            run = explore(io.from_text(texts[change.world]), target, limits=then.header.limits)
             report = judge(run, where=change.world)
             exhibit = exhibit_of(report)
             if exhibit is not None:

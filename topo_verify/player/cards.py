@@ -9,6 +9,7 @@ from topo_verify.checkers.findings import Finding, Judgement, Status
 from topo_verify.errors import LINE, InputError, map_size, shown
 from topo_verify.player import walk
 from topo_verify.player.scenes import Playback
+from topo_verify.world import io
 from topo_verify.world.rooted_map import World
 
 MOST_DRAWN = 80
@@ -129,6 +130,6 @@ def _again(command: str) -> Iterator[str]:
 
 def _named(text: str | None) -> World | None:
     try:
-        return World.from_text(text) if text else None
+        return io.from_text(text) if text else None
     except InputError:
         return None

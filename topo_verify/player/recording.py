@@ -34,6 +34,7 @@ from topo_verify.player.remarks import remarks
 from topo_verify.player.scenes import Moment, Playback
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
+from topo_verify.world import io
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
@@ -213,7 +214,7 @@ def _finding(
 ) -> dict[str, Any]:
     text = finding.witness
     if text is not None and text not in places and len(places) < MOST_WITNESSES:
-        witness = World.from_text(text)
+        witness = io.from_text(text)
         if len(witness.edges) <= WIDEST_WITNESS:
             places[text] = len(worlds)
             worlds.append(pictured(witness))

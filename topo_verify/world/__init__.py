@@ -3,7 +3,6 @@
 `rooted_map.py` and `enumeration/` are trusted.
 """
 
-from topo_verify.world import families, io
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
@@ -13,7 +12,4 @@ from topo_verify.world.rooted_map import World
 # enumeration/, families/, formats/, drawing/ (imported late: loads numpy)
 # io.py            reads and writes files; resolve.py: WORLD on a command line
 
-World.formats = io
-setattr(World, "_repr_html_", io.notebook)  # noqa: B010  the class knows no picture
-
-__all__ = ["World", "families", "rank_order"]
+__all__ = ["World", "rank_order"]

@@ -17,7 +17,7 @@ import os
 from html import escape
 from os import PathLike
 from pathlib import Path
-from typing import Literal, TypeVar
+from typing import TypeVar
 
 from topo_verify.errors import InputError, shown
 from topo_verify.world.rooted_map import World
@@ -93,6 +93,11 @@ def decode(cls: type[W], text: str | bytes) -> W:
     return world_json.decode(cls, text)
 
 
+def from_text(text: str) -> World:
+    """The world with this `World.text`: an id, or world JSON."""
+    return World.from_json(text) if text.startswith("{") else World.from_id(text)
+
+
 def encode(world: World) -> str:
     """World JSON on one line."""
     from topo_verify.world.formats import world_json
@@ -154,10 +159,3 @@ def draw(
     if kind is not None and path is not None:
         files.write(path, document(world, layout, kind, doors=doors, darts=darts))
     return to_svg(world, layout, doors=doors, darts=darts)
-
-
-def twin(world: World, model: Literal["undirected", "none"]) -> World | None:
-    """Another world that looks the same without the marker's direction: `World.twin`."""
-    from topo_verify.world.twins import find_twin
-
-    return find_twin(world, model)[0]

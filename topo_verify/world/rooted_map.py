@@ -14,34 +14,21 @@ Source: docs/semantics.md, section 1; S. K. Lando and A. K. Zvonkin, "Graphs on 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import InitVar, dataclass, field, replace
 from functools import cached_property
 from os import PathLike
-from typing import Any, ClassVar, Literal, Protocol, Self, TypeVar
+from typing import Any, Literal, Self
 
 from topo_verify.errors import map_size
 from topo_verify.world import validation
 from topo_verify.world.enumeration import rank_order
-from topo_verify.world.least_cost import least_cost, proof_tour
-
-W = TypeVar("W", bound="World")
 
 Dart = int
 """One of the numbers 0 … 2m-1."""
 
 Code = tuple[tuple[int, ...], tuple[Dart, ...]]
 """Degrees and `alpha` in the breadth-first numbering from the root."""
-
-
-class _Formats(Protocol):
-    draw: Callable[..., str]
-
-    def load(self, cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -> W: ...
-    def decode(self, cls: type[W], text: str | bytes) -> W: ...
-    def encode(self, world: World) -> str: ...
-    def save(self, world: World, path: str | PathLike[str]) -> None: ...
-    def twin(self, world: World, model: Literal["undirected", "none"]) -> World | None: ...
 
 
 @dataclass(frozen=True, eq=False, repr=False)  # cached_property needs `__dict__`
@@ -58,9 +45,6 @@ class World:
     Raises:
         InputError: the arguments do not make one connected map with a marker; names the dart.
     """
-
-    # set in `world/__init__.py`: importing io.py here would close a circle
-    formats: ClassVar[_Formats]
 
     alpha: tuple[Dart, ...]
     sigma: tuple[Dart, ...]
@@ -128,14 +112,19 @@ class World:
 
     @classmethod
     def from_code(cls, code: Code, *, name: str = "", rank: int | None = None) -> Self:
-        """The world with this code, or with any table whose vertices own consecutive darts."""
+        """The world with this code, or with any table whose vertices own consecutive darts.
+
+        Args:
+            rank: its place in the order of ids, not checked. A wrong one acquits no map: no claim
+                reads the id, and a world made of a table that is some map's code is that map.
+        """
         degrees, alpha = code
         sigma: list[Dart] = []
         for degree in degrees:
             first = len(sigma)
             sigma += [*range(first + 1, first + degree), *[first] * (degree > 0)]
         world = cls(alpha, tuple(sigma), 0 if alpha else None, name=name)
-        if rank is not None:  # an enumeration lists this canonical code at this rank
+        if rank is not None:
             vars(world).update(code=code, id=f"m{len(alpha) // 2}/{rank}")
         return world
 
@@ -147,30 +136,6 @@ class World:
             InputError: the text is no id, or its rank does not exist.
         """
         return cls.from_code(rank_order.unrank(*rank_order.id_parts(str(text))), name=text)
-
-    @classmethod
-    def load(cls, path: str | PathLike[str], *, graph: int | None = None) -> Self:
-        """The world in a file of any format.
-
-        Args:
-            graph: index of the graph in a file of planar_code; default: the only one.
-        Raises:
-            InputError: the file cannot be read, or holds no world.
-        """
-        return cls.formats.load(cls, path, graph=graph)
-
-    @classmethod
-    def from_json(cls, text: str | bytes) -> Self:
-        """The world in this world JSON; raises as `load`."""
-        return cls.formats.decode(cls, text)
-
-    def to_json(self) -> str:
-        """World JSON on one line."""
-        return self.formats.encode(self)
-
-    def save(self, path: str | PathLike[str]) -> None:
-        """Write the file, whole or not at all; its name says the format, as for `load`."""
-        self.formats.save(self, path)
 
     @cached_property
     def vertices(self) -> tuple[tuple[Dart, ...], ...]:
@@ -251,14 +216,6 @@ class World:
         m, n = len(self.edges), len(self.vertices)
         return m * (n + (2 * m - 1) * 2 * (n - 1))
 
-    def least_cost(self) -> int:
-        """The fewest edge traversals of a walk that proves this map."""
-        return least_cost(self.code)
-
-    def proof_tour(self) -> tuple[int, ...]:
-        """The doors of a cheapest walk from the marker that proves this map."""
-        return proof_tour(self.code)
-
     @cached_property
     def discovery(self) -> tuple[tuple[Dart, ...], tuple[int, ...]]:
         """Darts in breadth-first order from the root, and the degrees of the vertices met."""
@@ -298,16 +255,6 @@ class World:
         """The id; None above 200 edges."""
         return self.id if len(self.edges) <= rank_order.MAX_ID_EDGES else None
 
-    @classmethod
-    def from_text(cls, text: str) -> Self:
-        """The world of this `text`."""
-        return cls.from_json(text) if text.startswith("{") else cls.from_id(text)
-
-    @property
-    def text(self) -> str:
-        """The id; the JSON of a world too large for an id."""
-        return self.known_id or self.to_json()
-
     def is_isomorphic(self, other: World) -> bool:
         """Whether a bijection of darts keeps alpha, sigma and root."""
         return self.code == other.code
@@ -332,17 +279,11 @@ class World:
 
     def renumbered(self, numbers: Sequence[Dart]) -> Self:
         """The same world with dart d called numbers[d], a permutation."""
-        alpha, sigma = [0] * len(self.alpha), [0] * len(self.sigma)
-        for dart, number in enumerate(numbers):
-            alpha[number] = numbers[self.alpha[dart]]
-            sigma[number] = numbers[self.sigma[dart]]
-        return replace(
-            self,
-            alpha=tuple(alpha),
-            sigma=tuple(sigma),
-            root=None if self.root is None else numbers[self.root],
-            starts=tuple(numbers[rotation[0]] for rotation in self.vertices if rotation),
-        )
+        rows = [[numbers[dart] for dart in row] for row in self.vertices]
+        pairs = [(numbers[a], numbers[b]) for a, b in self.edges]
+        root = None if self.root is None else numbers[self.root]
+        other = World.from_rotations(rows, pairs, root)
+        return replace(self, alpha=other.alpha, sigma=other.sigma, root=root, starts=other.starts)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, World):
@@ -362,6 +303,55 @@ class World:
         size = f"{map_size(len(self.vertices), len(self.edges))}, genus {self.genus}"
         return f"<World {self.name!r}: {size}>" if self.name else f"<World: {size}>"
 
+    @classmethod
+    def load(cls, path: str | PathLike[str], *, graph: int | None = None) -> Self:
+        """The world in a file of any format.
+
+        Args:
+            graph: index of the graph in a file of planar_code; default: the only one.
+        Raises:
+            InputError: the file cannot be read, or holds no world.
+        """
+        from topo_verify.world import io
+
+        return io.load(cls, path, graph=graph)
+
+    @classmethod
+    def from_json(cls, text: str | bytes) -> Self:
+        """The world in this world JSON; raises as `load`."""
+        from topo_verify.world import io
+
+        return io.decode(cls, text)
+
+    def to_json(self) -> str:
+        """World JSON on one line."""
+        from topo_verify.world import io
+
+        return io.encode(self)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the file, whole or not at all; its name says the format, as for `load`."""
+        from topo_verify.world import io
+
+        io.save(self, path)
+
+    @property
+    def text(self) -> str:
+        """The id; the JSON of a world too large for an id."""
+        return self.known_id or self.to_json()
+
+    def least_cost(self) -> int:
+        """The fewest edge traversals of a walk that proves this map."""
+        from topo_verify.world import least_cost
+
+        return least_cost.least_cost(self.code)
+
+    def proof_tour(self) -> tuple[int, ...]:
+        """The doors of a cheapest walk from the marker that proves this map."""
+        from topo_verify.world import least_cost
+
+        return least_cost.proof_tour(self.code)
+
     def draw(self, path: str | PathLike[str] | None = None, **marks: bool) -> str:
         """The picture as SVG, with the true order of the darts at every vertex.
 
@@ -371,14 +361,23 @@ class World:
         Raises:
             InputError: the file cannot be written, or the renderer is missing.
         """
-        return self.formats.draw(self, path, **marks)
+        from topo_verify.world import io
+
+        return io.draw(self, path, **marks)
 
     def twin(self, model: Literal["undirected", "none"] = "undirected") -> World | None:
         """Another world that looks the same to a robot that sees less of the marker, or None.
 
         It sees whether the marker is here, not its direction (`undirected`), or nothing of it.
         """
-        return self.formats.twin(self, model)
+        from topo_verify.world import twins
+
+        return twins.find_twin(self, model)[0]
+
+    def _repr_html_(self) -> str:
+        from topo_verify.world import io
+
+        return io.notebook(self)
 
     def _repr_pretty_(self, printer: Any, _: bool) -> None:  # noqa: FBT001  asked by Hypothesis
         printer.text(f"tv.World.from_id({self.id!r})" if self.known_id else repr(self))

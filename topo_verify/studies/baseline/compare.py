@@ -33,6 +33,7 @@ from topo_verify.robot.events import Policies
 from topo_verify.studies.baseline.file import Baseline, BaselineEntry, world_of
 from topo_verify.studies.baseline.record import entry_of, replay_command
 from topo_verify.studies.corpus import NETWORKS
+from topo_verify.world import io
 from topo_verify.world.rooted_map import World
 
 ChangeKind = Literal[
@@ -202,7 +203,7 @@ def compare(
     changes: list[Change] = []
     classes: dict[_Class, list[Change]] = defaultdict(list)
     for entry, row in zip_longest(baseline.entries, rows):
-        world = World.from_text(entry.world)
+        world = io.from_text(entry.world)
         replay = replay_command(target, _argument(entry), baseline.header.limits)
         changes.append(_change(entry, world, row, Fraction(tolerance), replay))
         for world_class in _classes(world):

@@ -25,6 +25,7 @@ from topo_verify.errors import InputError, shown
 from topo_verify.programs.protocol import dialect
 from topo_verify.robot.events import Policies
 from topo_verify.robot.limits import Limits
+from topo_verify.world import io
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
@@ -166,7 +167,7 @@ def decode(data: bytes, *, name: str = "baseline") -> Baseline:
 def world_of(entry: BaselineEntry, *, name: str, line: int) -> World:
     """The world of the entry at this line; InputError if its text names none."""
     try:
-        return World.from_text(entry.world)
+        return io.from_text(entry.world)
     except InputError as error:
         raise InputError(f"{name}, line {line}: {error}; record a new baseline") from error
 
