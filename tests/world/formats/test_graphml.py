@@ -108,7 +108,7 @@ def test_keys_have_defaults_and_may_be_for_all() -> None:
         (b'target="12" id="1"', b'target="99" id="1"', "edge '11 99 1': expected the ids"),
         (b'target="12" id="1"', b'id="1"', "edge '11 1': expected the ids of two nodes"),
         (b"LINESTRING (-73.0 40.0", b"LINESTRING (-73.0", "edge '11 12 0', geometry has a point"),
-        (b"LINESTRING (-73.0 40.0", b"POINT (", "edge '11 12 0', geometry is 'POINT"),
+        (b"LINESTRING (-73.0 40.0", b"POINT (", "edge '11 12 0', geometry is a POINT"),
         (b"</graph>", b"</graph><graph/>", "holds several graphs"),
         (b"</node>", b"<graph/></node>", "has a <graph> within its graph"),
         (b"<node", b"<hyperedge/><node", "has a <hyperedge> within its graph"),

@@ -40,11 +40,14 @@ def test_world_json_says_how_a_file_of_node_link_json_is_called() -> None:
         ("]}", "]", "is not valid JSON"),
         (TEXT, "", "is empty"),
         (TEXT, "[]", "node-link JSON: Expected `object`, got `array`.*; a world has a 'graph'"),
-        ('"graph":{', '"graphs":{', "missing required field `graph`"),
+        ('"graph":{', '"graphs":{', "its nodes have a 'rotation', and the graph has no 'fo"),
         ('"marker":0', '"marker":true', r"`int \| null`, got `bool` - at `\$.graph.marker`"),
         ('"marker":0', '"marker":0,"marker":1', "has the field 'marker' twice"),
         ('"id":0', '"id":1', "two nodes have one id: give each a distinct id"),
-        ('"id":0', '"id":null', r"`\$.nodes\[0\].id`"),
+        ('"id":0', '"id":{}', "node 0, id is an object, expected an id"),
+        ('"source":0', '"source":[{}]', "edge 0 is an object, expected an id"),
+        ('"id":0', '"id":' + "[" * 9999 + "]" * 9999, "nested too deeply|not valid JSON"),
+        ('"id":0', '"id":' + "[" * 400 + "]" * 400, "edge 0 has the end 0"),
         ('"target":1', '"target":"1"', "edge 0 has the end '1', expected the id of a node"),
         ('"source":0', '"source":9', "edge 0 has the end 9, expected the id of a node"),
         ('"darts":[0,1]', '"darts":[0,1,2]', r"`array` of length 2.* - at `\$.edges\[0\].darts`"),
@@ -59,6 +62,17 @@ def test_what_is_wrong_is_named_with_its_place(old: str, new: str, sentence: str
         node_link.decode(World, text)
     assert str(refusal.value).startswith("node-link JSON")
     assert str(refusal.value).isprintable()
+
+
+@pytest.mark.parametrize("ids", [(0.5, 1.5), ([0, 0], [0, 1]), (None, True), ([[1, 2], "a"], [])])
+def test_a_node_has_any_id_but_an_object(ids: tuple[Any, Any]) -> None:
+    data = json.loads(TEXT)
+    named = dict(enumerate((*ids, "two")))
+    for node in data["nodes"]:
+        node["id"] = named[node["id"]]
+    for edge in data["edges"]:
+        edge |= {end: named[edge[end]] for end in ("source", "target")}
+    assert node_link.decode(World, json.dumps(data)) == World.from_id("m4/41")
 
 
 def test_other_fields_are_ignored_whatever_they_hold() -> None:

@@ -14,7 +14,12 @@ from hypothesis import strategies as st
 from tests.world.formats.worlds import simple_planar, world_or_sentence
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
-from topo_verify.world.formats.nx import from_planar_embedding, from_positions, to_planar_embedding
+from topo_verify.world.formats.nx import (
+    from_networkx,
+    from_planar_embedding,
+    from_positions,
+    to_planar_embedding,
+)
 from topo_verify.world.resolve import resolve_world
 
 NX: Any = nx
@@ -89,6 +94,9 @@ def test_an_embedding_that_is_broken_is_refused() -> None:
     toroidal.set_data({0: [1, 2, 3], 1: [0, 2, 3], 2: [0, 1, 3], 3: [0, 1, 2]})
     for embedding, sentence in [
         (half, "the planar embedding is broken"),
+        (None, "expected a networkx.PlanarEmbedding, got None; networkx.check_planarity"),
+        (NX.path_graph(2), "expected a networkx.PlanarEmbedding, got <networkx"),
+        (NX.check_planarity(NX.path_graph(2)), r"PlanarEmbedding, got \(True"),
         (toroidal, "the planar embedding is broken"),
         (two, "the planar embedding: the world is not connected"),
         (NX.PlanarEmbedding(), "'vertices' is empty"),
@@ -259,8 +267,8 @@ def test_carriageways_with_courses_of_their_own_are_two_edges() -> None:
 @pytest.mark.parametrize(
     ("position", "sentence"),
     [
-        (None, "the position of node 'b' is missing"),
-        ("1,2", "the position of node 'b' is '1,2', expected x and y in a row"),
+        (None, "node 'b' has no 'x'"),
+        ("1;2", "node 'b', pos has a point of 1 coordinates"),
         (7, "is 7, expected x and y"),
         ((1,), "has a point of 1 coordinates"),
         ((1, 2, 3, 4), "has a point of 4 coordinates"),
@@ -281,15 +289,14 @@ def test_a_position_that_is_none_is_refused(position: Any, sentence: str) -> Non
 def test_a_node_without_position_is_refused() -> None:
     graph: nx.Graph[str] = nx.Graph([("a", "b")])
     graph.nodes["a"]["x"] = 0
-    with pytest.raises(InputError, match="the position of node 'a' is missing"):
+    with pytest.raises(InputError, match="node 'a' has no 'y'"):
         from_positions(graph)
 
 
 @pytest.mark.parametrize(
     ("geometry", "sentence"),
     [
-        ("", "is '', expected a line as LINESTRING"),
-        ("POINT (0 0)", r"is 'POINT \(0 0\)', expected a line"),
+        ("POINT (0 0)", "is a POINT, expected a line"),
         ("LINESTRING EMPTY", "expected a line"),
         ("LINESTRING (0 0, 1)", "has a point of 1 coordinates"),
         ("LINESTRING (0 0, 1 x)", "is 'x', expected a number"),
@@ -305,6 +312,13 @@ def test_a_geometry_that_is_none_is_refused(geometry: object, sentence: str) -> 
     with pytest.raises(InputError, match=sentence) as refusal:
         from_positions(star((1, 0), geometry=geometry))
     assert str(refusal.value).isprintable()
+
+
+@pytest.mark.parametrize("graph", [None, {}, [("a", "b")], "town.graphml"])
+@pytest.mark.parametrize("read", [from_positions, from_networkx])
+def test_what_is_no_graph_is_refused(read: Any, graph: Any) -> None:
+    with pytest.raises(InputError, match="expected a graph of NetworkX, got"):
+        read(graph)
 
 
 def test_a_drawing_that_is_no_world_is_refused() -> None:

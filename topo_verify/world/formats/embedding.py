@@ -9,25 +9,23 @@ Source: docs/formats.md, "Drawings".
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cmp_to_key
 from itertools import pairwise
 from math import dist
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
-from topo_verify.errors import InputError, shown
+from topo_verify.errors import InputError, plural, shown
+from topo_verify.world.formats.flaws import MOST, Flaws
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
 
 Point = tuple[float, float]
 
-FARTHEST = 1e12
-"""The largest coordinate: products must not overflow."""
-
+Tell = Callable[[str], None]
+"""Is told a sentence about what was read."""
 
 MOST_EDGES = 500_000
 
@@ -62,27 +60,41 @@ def as_world(
     cls: type[W],
     places: Sequence[DrawnVertex],
     ways: Sequence[DrawnEdge],
+    flaws: Flaws,
     *,
-    source: str,
     name: str = "",
     marker: DrawnEnd | None = None,
+    largest_part: Tell | None = None,
 ) -> W:
     """The world of the drawing; by default the marker is the first dart of the first place.
 
+    Args:
+        flaws: what the reader found; refused together with what is found here.
+        largest_part: keep only the largest part, and tell this function what is left out.
     Raises:
         InputError: equal directions, a way of one point, a place without a way, several parts.
     """
-    if not places:
-        raise InputError(f"{source} has no vertex: a world has one at least")
+    if not places and not flaws:
+        raise InputError(f"{flaws.source} has no vertex: a world has one at least")
+    if largest_part is not None and not flaws:
+        places, ways = _largest_part(places, ways, flaws.source, largest_part)
+    drawn: list[DrawnEdge] = []
+    courses: list[tuple[Point, ...]] = []
+    for way in ways:
+        with flaws:
+            courses.append(_course(way, places))
+            drawn.append(way)
+    kept, same = _merged(drawn, courses)
+    rotations: list[list[DrawnEnd]] = []
+    for place, row in zip(places, _exits(places, drawn, courses, kept), strict=True):
+        with flaws:
+            rotations.append(_clockwise(place, row, drawn))
+    _require_connected(places, ways, flaws)
+    flaws.refuse()
+    dart = {end: n for n, end in enumerate(end for row in rotations for end in row)}
+    if marker and marker.way in same:
+        marker = DrawnEnd(same[marker.way], 1 - marker.side)
     try:
-        courses = [_course(way, places) for way in ways]
-        kept, same = _merged(ways, courses)
-        exits = _exits(places, ways, courses, kept)
-        rotations = [_clockwise(place, row, ways) for place, row in zip(places, exits, strict=True)]
-        _require_connected(places, [ways[number] for number in kept])
-        dart = {end: n for n, end in enumerate(end for row in rotations for end in row)}
-        if marker and marker.way in same:
-            marker = DrawnEnd(same[marker.way], 1 - marker.side)
         return cls.from_rotations(
             [[dart[end] for end in row] for row in rotations],
             [(dart[DrawnEnd(way, 0)], dart[DrawnEnd(way, 1)]) for way in kept],
@@ -92,7 +104,7 @@ def as_world(
             positions=tuple(place.at for place in places),
         )
     except InputError as error:
-        raise InputError(f"{source}: {error}") from error
+        raise InputError(f"{flaws.source}: {error}") from error
 
 
 def _course(way: DrawnEdge, places: Sequence[DrawnVertex]) -> tuple[Point, ...]:
@@ -161,33 +173,73 @@ def _exits(
         way, course = ways[number], courses[number]
         exits[way.start].append(_LeavingEnd(DrawnEnd(number, 0), course[0], course[1]))
         exits[way.end].append(_LeavingEnd(DrawnEnd(number, 1), course[-1], course[-2]))
-    for place, row in zip(places, exits, strict=True):
-        if not row and len(places) > 1:
-            raise InputError(
-                f"vertex '{shown(place.name)}' has no edge, so the world is not connected:"
-                " leave the vertex out"
-            )
     return exits
 
 
-def _require_connected(places: Sequence[DrawnVertex], ways: Sequence[DrawnEdge]) -> None:
+def _parts(places: Sequence[DrawnVertex], ways: Sequence[DrawnEdge]) -> list[list[int]]:
+    """The vertices of each connected part, the part with the most vertices first."""
     beside: list[list[int]] = [[] for _ in places]
     for way in ways:
         beside[way.start].append(way.end)
         beside[way.end].append(way.start)
-    reached = {0: None}
-    queue = [0]
-    for at in queue:
-        fresh = dict.fromkeys(other for other in beside[at] if other not in reached)
-        reached |= fresh
-        queue += fresh
-    for number, place in enumerate(places):
-        if number not in reached:
+    parts: list[list[int]] = []
+    reached: set[int] = set()
+    for first in range(len(places)):
+        if first not in reached:
+            reached.add(first)
+            part = [first]
+            for at in part:
+                fresh = [*dict.fromkeys(other for other in beside[at] if other not in reached)]
+                reached.update(fresh)
+                part += fresh
+            parts.append(part)
+    return sorted(parts, key=len, reverse=True)
+
+
+def _require_connected(
+    places: Sequence[DrawnVertex], ways: Sequence[DrawnEdge], flaws: Flaws
+) -> None:
+    """Add vertices without an edge to the flaws, and, if there are no others, that of parts."""
+    parts = _parts(places, ways)
+    mend = "leave it out, or keep the largest part (`world convert FILE --largest-part`)"
+    for part in parts[1:]:
+        if len(part) == 1 and part[0] not in flaws.touched:
+            with flaws:
+                raise InputError(
+                    f"vertex '{shown(places[part[0]].name)}' has no edge, so the world is not"
+                    f" connected: {mend}"
+                )
+    if len(parts) > 1 and not flaws:
+        first, other = (shown(places[part[0]].name) for part in parts[:2])
+        with flaws:
             raise InputError(
-                f"the world is not connected: no way leads from vertex"
-                f" '{shown(places[0].name)}' to vertex '{shown(place.name)}'; keep one"
-                f" of the parts ({len(queue)} of {len(places)} vertices are in the first)"
+                f"the world is not connected: no way leads from vertex '{first}' to vertex"
+                f" '{other}' ({len(parts[0])} of {len(places)} vertices are in the largest of"
+                f" {len(parts)} parts): {mend}"
             )
+
+
+def _largest_part(
+    places: Sequence[DrawnVertex], ways: Sequence[DrawnEdge], source: str, tell: Tell
+) -> tuple[Sequence[DrawnVertex], Sequence[DrawnEdge]]:
+    """The part with the most vertices, the first of several; what is left out is told."""
+    largest, *others = _parts(places, ways)
+    if not others:
+        return places, ways
+    number = {old: new for new, old in enumerate(sorted(largest))}
+    kept = [
+        way._replace(start=number[way.start], end=number[way.end])
+        for way in ways
+        if way.start in number
+    ]
+    names = [f"'{shown(places[vertex].name, limit=60)}'" for part in others for vertex in part]
+    listed = ", ".join([*names[:MOST], *["…"][: len(names) > MOST]])
+    tell(
+        f"{source}: the largest part is kept, {len(largest):,} of {len(places):,} vertices and"
+        f" {len(kept):,} of {len(ways):,} edges; left out:"
+        f" {plural(len(others), 'part')} with {listed}"
+    )
+    return [places[old] for old in number], kept
 
 
 def _clockwise(
@@ -227,48 +279,3 @@ def require_size(name: str, *, vertices: int, edges: int, points: int) -> None:
             f" {MOST_POINTS:,} points in all polylines, and it has more: give a part of it, or"
             " simplify the polylines"
         )
-
-
-def number(value: Any, subject: str, most: float = FARTHEST) -> float:
-    """The value as a coordinate, at most `most` either way."""
-    with suppress(TypeError, ValueError, OverflowError):
-        coordinate = float(value)
-        if abs(coordinate) <= most:
-            return coordinate + 0.0  # not -0.0
-    # long integers cannot be printed
-    got = "an integer" if isinstance(value, int) else repr(value)
-    raise InputError(
-        f"{subject} is {shown(got, limit=60)}, expected a number of at most {most:.0e} in size"
-    )
-
-
-def line(text: str, subject: str) -> tuple[Point, ...]:
-    """The points of well-known text, `LINESTRING (0 0, 1 2)`, without heights."""
-    match = re.fullmatch(r"\s*LINESTRING\s*(?:Z\s*)?\(([^()]*)\)\s*", text, re.IGNORECASE)
-    if not match:
-        raise InputError(
-            f"{subject} is '{shown(text, limit=60)}', expected a line as LINESTRING (0 0, 1 2)"
-        )
-    # a list of texts would take ten times the memory
-    return points((part.split() for part in _parts(match[1])), subject)
-
-
-def _parts(text: str) -> Iterator[str]:
-    begin = 0
-    while (comma := text.find(",", begin)) >= 0:
-        yield text[begin:comma]
-        begin = comma + 1
-    yield text[begin:]
-
-
-def points(rows: Iterable[Sequence[object]], subject: str) -> tuple[Point, ...]:
-    """The points of a polyline, without heights."""
-    return tuple(_point(row, subject) for row in rows)
-
-
-def _point(row: Sequence[object], subject: str) -> Point:
-    if len(row) not in {2, 3}:
-        raise InputError(
-            f"{subject} has a point of {len(row)} coordinates, expected x and y: give it both"
-        )
-    return number(row[0], subject), number(row[1], subject)

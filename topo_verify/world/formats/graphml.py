@@ -3,6 +3,11 @@
 A graph whose data `format` is `topo-verify/graph` carries its rotation (rotated.py). Any other
 graph is a **drawing** (embedding.py): nodes with `x` and `y`, edges perhaps with a `geometry`.
 
+Why not `networkx.read_graphml`? It expands entities, and builds the whole tree before it can refuse
+anything. It keeps the last of two nodes, data or edges with one id, adds a node where an edge ends
+at an unknown one, ignores nested graphs, and cannot read an undirected edge in a directed graph.
+Each of these would be another world in silence.
+
 Source: docs/formats.md; U. Brandes and others, "GraphML Progress Report", Graph Drawing 2001.
 """
 
@@ -14,22 +19,31 @@ from io import BytesIO
 from typing import Any, NamedTuple, TypeVar, cast
 
 from topo_verify.errors import InputError, shown
-from topo_verify.world.formats import embedding, markup, rotated
-from topo_verify.world.formats.embedding import DrawnEdge, DrawnVertex, Point
+from topo_verify.world.formats import drawn_graph, embedding, markup, rotated
+from topo_verify.world.formats.embedding import Tell
+from topo_verify.world.formats.flaws import Flaws
 from topo_verify.world.formats.rotated import RotatedEdge, RotatedVertex
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
 
 _WANTED = {
-    "graph": ("format", "version", "marker", "name", "source", "licence"),
-    "node": ("x", "y", "rotation", "name"),
-    "edge": ("geometry", "darts"),
+    "graph": {"format", "version", "marker", "name", "source", "licence"},
+    "node": {"rotation", "name", *drawn_graph.PLACES, *drawn_graph.NOT_READ},
+    "edge": {"darts"},
 }
+"""The data that is kept; of an edge whatever holds points, too."""
 
 
-def decode(cls: type[W], data: bytes, *, name: str = "GraphML", stem: str = "") -> W:
-    """The world in the bytes."""
+def decode(
+    cls: type[W],
+    data: bytes,
+    *,
+    name: str = "GraphML",
+    stem: str = "",
+    largest_part: Tell | None = None,
+) -> W:
+    """The world in the bytes; `largest_part` as for `embedding.as_world`."""
     reader = _Reader(name)
     markup.read(data, name=name, start=reader.start, end=reader.end)
     if not reader.is_graphml:
@@ -37,26 +51,21 @@ def decode(cls: type[W], data: bytes, *, name: str = "GraphML", stem: str = "") 
             f"{name}: expected GraphML, whose first element is <graphml>: name a file of that kind"
         )
     if "format" in reader.about:
+        reader.flaws.refuse()
         return _rotated(cls, reader, stem)
-    places = [
-        DrawnVertex(key, _at(node, reader.what("node", key))) for key, node in reader.nodes.items()
-    ]
-    ways = [
-        DrawnEdge(start, end, edge.course, edge.directed, edge.name)
-        for edge, start, end in reader.joined()
-    ]
-    return embedding.as_world(cls, places, ways, source=name, name=stem)
-
-
-def _at(node: Mapping[str, str], subject: str) -> Point:
-    missing = [axis for axis in ("x", "y") if axis not in node]
-    if missing:
-        raise InputError(
-            f"{subject} has no '{missing[0]}': the rotation comes from positions, so each"
-            " node has its x and y as data"
-        )
-    x, y = (embedding.number(node[axis], f"{subject}, {axis}") for axis in ("x", "y"))
-    return x, y
+    rotated.require_no_rotation(reader.nodes.values(), source=name)
+    edges = (
+        drawn_graph.GraphEdge(edge.source, edge.target, edge.data, edge.directed, edge.name)
+        for edge in reader.edges
+    )
+    return drawn_graph.as_world(
+        cls,
+        reader.nodes,
+        edges,
+        reader.flaws,
+        name=stem,
+        largest_part=largest_part,
+    )
 
 
 def _rotated(cls: type[W], reader: _Reader, stem: str) -> W:
@@ -73,9 +82,10 @@ def _rotated(cls: type[W], reader: _Reader, stem: str) -> W:
     edges: list[RotatedEdge] = []
     for edge, start, end in reader.joined():
         subject = reader.what("edge", edge.name)
-        if edge.darts is None:
+        if "darts" not in edge.data:
             raise InputError(f"{subject} has no 'darts': give it the two darts of its ends")
-        edges.append(RotatedEdge(start, end, rotated.darts_in(edge.darts, f"{subject}, darts")))
+        darts = rotated.darts_in(edge.data["darts"], f"{subject}, darts")
+        edges.append(RotatedEdge(start, end, darts))
     marker = rotated.darts_in(graph.get("marker", ""), f"{name}: the marker")
     if len(marker) > 1:
         raise InputError(f"{name}: the marker has {len(marker)} darts: give it one")
@@ -96,8 +106,7 @@ class _Edge(NamedTuple):
     target: str | None
     id: str | None
     directed: bool
-    course: tuple[Point, ...] = ()
-    darts: str | None = None
+    data: Mapping[str, str]
 
     @property
     def name(self) -> str:
@@ -116,6 +125,7 @@ class _Reader:
         self.about: dict[str, str] = {}
         self.nodes: dict[str, dict[str, str]] = {}
         self.edges: list[_Edge] = []
+        self.flaws = Flaws(name)
         self.points = 0
         self.attributes: dict[str, str] = {}
         self.element: dict[str, str] = {}
@@ -137,6 +147,8 @@ class _Reader:
                 self.data_key = attributes.get("key", "")
             case (*_, "graph" | "hyperedge"):
                 raise InputError(f"{self.name} has a <{path[-1]}> within its graph: leave it out")
+            case ("graphml", "graph", "node" | "edge", "data", *_, inner):
+                self._inner(inner, attributes)
             case _:
                 pass
 
@@ -144,7 +156,9 @@ class _Reader:
         match path:
             case ("graphml", "key", "default"):
                 for kind in _WANTED:
-                    if (name := self.keys.get((kind, self.data_key))) is not None:
+                    if (name := self.keys.get((kind, self.data_key))) is not None and (
+                        self._is_wanted(kind, name, text)
+                    ):
                         self.defaults[kind][name] = text
             case ("graphml", "graph", "data"):
                 self._data("graph", self.about, text)
@@ -159,31 +173,45 @@ class _Reader:
 
     def _key(self, attributes: Mapping[str, str]) -> None:
         self.data_key = attributes.get("id", "")
-        for kind, wanted in _WANTED.items():
-            name = attributes.get("attr.name", "")
-            if attributes.get("for", "all") in {kind, "all"} and name in wanted:
-                self.keys[kind, self.data_key] = name
+        for kind in _WANTED:
+            if attributes.get("for", "all") in {kind, "all"}:
+                self.keys[kind, self.data_key] = attributes.get("attr.name", "")
+
+    def _is_wanted(self, kind: str, name: str, text: str) -> bool:
+        return name in _WANTED[kind] or (kind == "edge" and drawn_graph.is_drawn(name, text))
 
     def _data(self, kind: str, element: dict[str, str], text: str) -> None:
-        name = self.keys.get((kind, self.data_key))
-        if name is not None:
+        name = self.keys.get((kind, self.data_key)) or f"data {self.data_key}"
+        if not self._is_wanted(kind, name, text):
+            return
+        with self.flaws:
             if name in element:
                 subject = f"{self.name}: the graph" if kind == "graph" else self._open(kind)
                 raise InputError(f"{subject} has '{name}' twice: leave one of the two out")
             element[name] = text
 
+    def _inner(self, inner: str, attributes: Mapping[str, str]) -> None:
+        """An element within the data, as yEd writes them; the place of a label draws nothing."""
+        has_place = {"x", "y"} <= {key.lower() for key in attributes} or "Location" in attributes
+        is_shifted = any(attributes.get(key, "").strip("-0.") for key in ("sx", "sy", "tx", "ty"))
+        if is_shifted or (has_place and not inner.endswith("Label")):
+            self.element[drawn_graph.ELEMENT.format(inner)] = "x y"
+
     def _node(self) -> None:
-        name = self.attributes.get("id")
-        if name is None or name in self.nodes:
-            why = "has no id" if name is None else "stands there twice"
-            raise InputError(f"{self._open('node')} {why}: each node needs a distinct id")
-        self.nodes[name] = {**self.defaults["node"], **self.element}
+        with self.flaws:
+            name = self.attributes.get("id")
+            if name is None or name in self.nodes:
+                why = "has no id" if name is None else "stands there twice"
+                raise InputError(f"{self._open('node')} {why}: each node needs a distinct id")
+            self.nodes[name] = {**self.defaults["node"], **self.element}
         self._require_size(len(self.edges))
 
     def _edge(self) -> None:
         given, data = self.attributes, {**self.defaults["edge"], **self.element}
-        text = data.get("geometry", "").strip()
-        self.points += text.count(",")
+        for name in given.keys() - {"id", "source", "target", "directed"}:
+            if drawn_graph.is_drawn(name, given[name]):
+                data[drawn_graph.ELEMENT.format(f"edge {name}")] = given[name]
+        self.points += data.get("geometry", "").count(",") + len(data.get("bends", "").split()) // 2
         self._require_size(len(self.edges) + 1)
         own = given.get("directed")
         self.edges.append(
@@ -192,8 +220,7 @@ class _Reader:
                 given.get("target"),
                 given.get("id"),
                 bool(self.directed) if own is None else own == "true",
-                embedding.line(text, f"{self._open('edge')}, geometry") if text else (),
-                data.get("darts"),
+                data,
             )
         )
 

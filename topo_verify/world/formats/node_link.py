@@ -6,18 +6,27 @@
      "edges": [{"darts": [0, 1], "source": 0, "target": 1, "key": 0}]}
 
 `links`, the former name of `edges`, is read as well. Other fields are ignored; repeated ones are
-refused.
+refused. A graph without `format` is a **drawing** (drawn_graph.py). An id is any value but an
+object; a list is a tuple of NetworkX.
+
+Why not `networkx.node_link_graph`? It keeps the last of two nodes or edges with one id or key, adds
+a node where an edge ends at an unknown one, numbers nodes without id, and takes no nested lists as
+ids. Each of these would be another world in silence.
 """
 
 from __future__ import annotations
 
-from typing import Annotated, Any, TypeVar
+from collections.abc import Mapping
+from typing import Annotated, Any, TypeVar, cast
 
 import msgspec
 from msgspec import UNSET, Meta, UnsetType
 
 from topo_verify.errors import InputError, shown
-from topo_verify.world.formats import rotated, world_json
+from topo_verify.world.formats import drawn_graph, rotated, world_json
+from topo_verify.world.formats.drawn_graph import GraphEdge
+from topo_verify.world.formats.embedding import Tell
+from topo_verify.world.formats.flaws import Flaws
 from topo_verify.world.formats.rotated import RotatedEdge, RotatedVertex
 from topo_verify.world.rooted_map import World
 
@@ -25,7 +34,7 @@ W = TypeVar("W", bound=World)
 
 _SAFE = 2**53
 _FileDart = Annotated[int, Meta(ge=-_SAFE, le=_SAFE)]
-_Id = int | str
+_Id = Any
 
 
 class _Graph(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -65,57 +74,41 @@ class _NodeLink(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class _Header(msgspec.Struct):
-    graph: dict[str, Any]
+    graph: dict[str, Any] = {}
 
 
-def decode(cls: type[W], text: str | bytes, *, name: str = "node-link JSON", stem: str = "") -> W:
-    """The world in the text."""
-    data = _parse(text, name)
-    number = {node.id: place for place, node in enumerate(data.nodes)}
-    if len(number) < len(data.nodes):
-        raise InputError(f"{name}: two nodes have one id: give each a distinct id")
-    vertices = [
-        RotatedVertex(
-            str(node.id),
-            node.rotation,
-            node.name,
-            rotated.point(node.x, node.y, f"{name}: node '{shown(str(node.id), limit=60)}'"),
-        )
-        for node in data.nodes
-    ]
-    edges = data.edges or data.links or ()
-    for place, edge in enumerate(edges):
-        for end in (edge.source, edge.target):
-            if end not in number:
-                raise InputError(
-                    f"{name}: edge {place} has the end {shown(repr(end), limit=60)}, expected the"
-                    " id of a node"
-                )
-    return rotated.as_world(
-        cls,
-        vertices,
-        [RotatedEdge(number[edge.source], number[edge.target], edge.darts) for edge in edges],
-        data.graph.marker,
-        source=name,
-        about={
-            "name": data.graph.name or stem,
-            "source": data.graph.source,
-            "licence": data.graph.licence,
-        },
-    )
+class _Drawing(msgspec.Struct, frozen=True, kw_only=True):
+    directed: bool = False
+    nodes: tuple[dict[str, Any], ...]
+    edges: tuple[dict[str, Any], ...] | UnsetType = UNSET
+    links: tuple[dict[str, Any], ...] | UnsetType = UNSET
 
 
-def _parse(text: str | bytes, name: str) -> _NodeLink:
+def decode(
+    cls: type[W],
+    text: str | bytes,
+    *,
+    name: str = "node-link JSON",
+    stem: str = "",
+    largest_part: Tell | None = None,
+) -> W:
+    """The world in the text; `largest_part` as for `embedding.as_world`."""
     text = world_json.utf8_text(text, name)
     try:
-        header = msgspec.json.decode(text, type=_Header).graph
-        rotated.require_version(header.get("format"), header.get("version"), source=name)
-        data = msgspec.json.decode(text, type=_NodeLink)
+        graph = msgspec.json.decode(text, type=_Header).graph
+        if "format" in graph:
+            rotated.require_version(graph["format"], graph.get("version"), source=name)
+            data = msgspec.json.decode(text, type=_NodeLink)
+            world_json.require_single_keys(text, name)
+            return _rotated(cls, data, name, stem)
+        drawing = msgspec.json.decode(text, type=_Drawing)
         world_json.require_single_keys(text, name)
+        return _drawn(cls, drawing, name, stem, largest_part)
     except msgspec.ValidationError as error:
         raise InputError(
             f"{name}: {shown(str(error))}; a world has a 'graph' with its 'marker', 'nodes' with"
-            " 'id' and 'rotation', 'edges' with 'source', 'target' and 'darts'"
+            " 'id' and 'rotation', 'edges' with 'source', 'target' and 'darts'; a drawing 'nodes'"
+            " with 'id', 'x' and 'y', and 'edges' with 'source' and 'target'"
         ) from error
     except msgspec.DecodeError as error:
         raise InputError(
@@ -125,7 +118,81 @@ def _parse(text: str | bytes, name: str) -> _NodeLink:
         raise InputError(
             f"{name}: expected a graph, got lists that are nested too deeply: leave them out"
         ) from error
-    return data
+
+
+def _drawn(cls: type[W], data: _Drawing, name: str, stem: str, largest_part: Tell | None) -> W:
+    flaws = Flaws(name)
+    rotated.require_no_rotation(data.nodes, source=name)
+    nodes: dict[Any, dict[str, Any]] = {}
+    for place, node in enumerate(data.nodes):
+        with flaws:
+            key = _key(node, "id", f"{name}: node {place}")
+            if key in nodes:
+                raise InputError(
+                    f"{name}: node {shown(repr(key), limit=60)} stands there twice: each node needs"
+                    " a distinct id"
+                )
+            nodes[key] = node
+    edges: list[GraphEdge] = []
+    for place, edge in enumerate(data.edges or data.links or ()):
+        with flaws:
+            ends = [_key(edge, side, f"{name}: edge {place}") for side in ("source", "target")]
+            key = [edge["key"]] if "key" in edge else []
+            edges.append(GraphEdge(*ends, edge, data.directed, (*ends, *key)))
+    return drawn_graph.as_world(cls, nodes, edges, flaws, name=stem, largest_part=largest_part)
+
+
+def _key(fields: Mapping[str, Any], field: str, subject: str) -> Any:
+    if field not in fields:
+        raise InputError(f"{subject} has no {field!r}: give it the id of a node")
+    return _hashable(fields[field], f"{subject}, {field}")
+
+
+def _hashable(value: Any, subject: str) -> Any:
+    """The id, a list of it as a tuple."""
+    if isinstance(value, list):
+        return tuple(_hashable(part, subject) for part in cast("list[Any]", value))
+    if isinstance(value, dict):
+        raise InputError(
+            f"{subject} is an object, expected an id: a number, a text, true, false, null, or a"
+            " list of these"
+        )
+    return value
+
+
+def _rotated(cls: type[W], data: _NodeLink, name: str, stem: str) -> W:
+    number: dict[Any, int] = {}
+    vertices: list[RotatedVertex] = []
+    for place, node in enumerate(data.nodes):
+        key = _hashable(node.id, f"{name}: node {place}, id")
+        number.setdefault(key, place)
+        subject = f"{name}: node '{shown(str(key), limit=60)}'"
+        at = rotated.point(node.x, node.y, subject)
+        vertices.append(RotatedVertex(str(key), node.rotation, node.name, at))
+    if len(number) < len(data.nodes):
+        raise InputError(f"{name}: two nodes have one id: give each a distinct id")
+    edges: list[RotatedEdge] = []
+    for place, edge in enumerate(data.edges or data.links or ()):
+        ends = [_hashable(end, f"{name}: edge {place}") for end in (edge.source, edge.target)]
+        for end in ends:
+            if end not in number:
+                raise InputError(
+                    f"{name}: edge {place} has the end {shown(repr(end), limit=60)}, expected the"
+                    " id of a node"
+                )
+        edges.append(RotatedEdge(number[ends[0]], number[ends[1]], edge.darts))
+    return rotated.as_world(
+        cls,
+        vertices,
+        edges,
+        data.graph.marker,
+        source=name,
+        about={
+            "name": data.graph.name or stem,
+            "source": data.graph.source,
+            "licence": data.graph.licence,
+        },
+    )
 
 
 def encode(world: World) -> str:

@@ -10,12 +10,13 @@ its edge: it lies at a and points to b; in a multigraph a key may follow.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 from topo_verify.errors import InputError, shown
-from topo_verify.world.formats import embedding, rotated
-from topo_verify.world.formats.embedding import DrawnEdge, DrawnEnd, DrawnVertex, Point
+from topo_verify.world.formats import drawn_graph, rotated
+from topo_verify.world.formats.embedding import DrawnEnd
+from topo_verify.world.formats.flaws import Flaws
 from topo_verify.world.formats.planar_code import require_simple_and_planar
 from topo_verify.world.formats.rotated import RotatedEdge, RotatedVertex
 from topo_verify.world.rooted_map import World
@@ -46,6 +47,7 @@ def from_networkx(graph: nx.Graph[Any]) -> World:
     Raises:
         InputError: attributes are missing or make no world.
     """
+    _require_graph(graph)
     given = cast("Any", graph)
     if "format" in given.graph:
         rotated.require_version(
@@ -94,6 +96,13 @@ def from_planar_embedding(
     import networkx as nx
 
     source = "the planar embedding"
+    if not isinstance(embedding, nx.PlanarEmbedding):
+        raise InputError(
+            f"{source}: expected a networkx.PlanarEmbedding, got"
+            f" {shown(repr(cast('object', embedding)), limit=60)}; networkx.check_planarity(graph)"
+            " returns whether the graph is planar, and its embedding, or None if it is not; a graph"
+            " with positions is read by from_positions"
+        )
     given = cast("Any", embedding)
     try:
         given.check_structure()
@@ -150,60 +159,45 @@ def from_positions(
 
     Args:
         graph: its edges may have a `geometry`: a list of (x, y), a text such as LINESTRING (0 0, 1
-            2), or an object with `coords`; default: straight.
-        positions: (x, y) of each node; default: the nodes' own attributes, `x` and `y` or `pos`.
+            2), GeoJSON, or an object of shapely; or `bends`, the points between their ends in a
+            row; default: straight.
+        positions: (x, y) of each node; default: the nodes' own attributes, `pos`, `x` and `y`,
+            a point as `geometry`, or `lon` and `lat`.
         marker: (node, neighbour) or (node, neighbour, key).
     Raises:
         InputError: positions or geometry are malformed, two edges leave a node at one angle, the
             graph is empty or not connected, or the marker names no edge or several.
     """
+    _require_graph(graph)
     given = cast("Any", graph)
-    nodes: dict[Any, int] = {node: number for number, node in enumerate(given)}
-    places = [DrawnVertex(str(node), _at(given.nodes[node], node, positions)) for node in nodes]
     labels = list(given.edges(keys=True)) if given.is_multigraph() else list(given.edges())
-    ways = [
-        DrawnEdge(
-            *(nodes[label[0]], nodes[label[1]]),
-            course=_geometry(given, label),
-            directed=given.is_directed(),
-            name=repr(label),
+    edges = (
+        drawn_graph.GraphEdge(
+            *label[:2], given.edges[label], directed=given.is_directed(), label=label
         )
         for label in labels
-    ]
-    end = None if marker is None else _marked(marker, labels)
-    return embedding.as_world(World, places, ways, source="the graph", name=name, marker=end)
+    )
+    nodes = given.nodes
+    if positions is not None:
+        nodes = {node: {"pos": positions.get(node)} for node in given}
+    return drawn_graph.as_world(
+        World,
+        nodes,
+        edges,
+        Flaws("the graph"),
+        name=name,
+        marker=None if marker is None else _marked(marker, labels),
+    )
 
 
-def _at(attributes: Mapping[str, Any], node: Any, positions: Mapping[Any, Any] | None) -> Point:
-    subject = f"the graph: the position of node {shown(repr(node), limit=60)}"
-    position: Any = attributes.get("pos") if positions is None else positions.get(node)
-    if position is None and positions is None and "x" in attributes and "y" in attributes:
-        position = attributes["x"], attributes["y"]
-    if position is None:
+def _require_graph(graph: object) -> None:
+    import networkx as nx
+
+    if not isinstance(graph, nx.Graph):
         raise InputError(
-            f"{subject} is missing: the rotation comes from positions; give each node x and y,"
-            " or pos, or hand a mapping to `positions`"
+            f"the graph: expected a graph of NetworkX, got"
+            f" {shown(repr(graph), limit=60)}; World.load reads a file"
         )
-    (point,) = embedding.points([_row(position, subject)], subject)
-    return point
-
-
-def _geometry(graph: Any, label: tuple[Any, ...]) -> Sequence[Point]:
-    subject = f"the graph: the geometry of edge {shown(repr(label), limit=60)}"
-    value = graph.edges[label].get("geometry")
-    if value is None:
-        return ()
-    if isinstance(value, str):
-        return embedding.line(value, subject)
-    rows = _row(getattr(value, "coords", value), subject)
-    return embedding.points([_row(row, subject) for row in rows], subject)
-
-
-def _row(value: Any, subject: str) -> list[Any]:
-    if isinstance(value, str | bytes | Mapping) or not isinstance(value, Iterable):
-        text = shown(repr(cast("Any", value)), limit=60)
-        raise InputError(f"{subject} is {text}, expected x and y in a row, or such rows")
-    return list(cast("Any", value))
 
 
 def _marked(marker: MarkerEnds, labels: Sequence[tuple[Any, ...]]) -> DrawnEnd:

@@ -8,12 +8,12 @@ from __future__ import annotations
 import re
 import sys
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Final, NamedTuple, TypeVar
 
 from topo_verify.errors import InputError, shown
 from topo_verify.world import validation
-from topo_verify.world.formats import embedding
+from topo_verify.world.formats import geometry
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
@@ -108,7 +108,7 @@ def point(x: object, y: object, subject: str) -> tuple[float, float] | None:
     if x is None or y is None:
         raise InputError(f"{subject} has one of x and y: give it both, or none")
     most = sys.float_info.max
-    return embedding.number(x, f"{subject}, x", most), embedding.number(y, f"{subject}, y", most)
+    return geometry.number(x, f"{subject}, x", most), geometry.number(y, f"{subject}, y", most)
 
 
 def attributes(world: World) -> dict[str, Any]:
@@ -148,6 +148,15 @@ def require_version(kind: object, version: object, *, source: str) -> None:
         raise InputError(
             f"{source}: expected 'version' {VERSION} of {FORMAT}, got {_quoted(version)}: if it is"
             " newer, update topo-verify"
+        )
+
+
+def require_no_rotation(nodes: Iterable[Mapping[str, Any]], *, source: str) -> None:
+    """Refuse a graph without `format` whose nodes have a rotation: it would be overlooked."""
+    if any("rotation" in node for node in nodes):
+        raise InputError(
+            f"{source}: its nodes have a 'rotation', and the graph has no 'format': give the graph"
+            f" the 'format' {FORMAT!r} and 'version' {VERSION}, or leave the rotations out"
         )
 
 

@@ -14,8 +14,9 @@ import re
 from typing import TypeVar
 
 from topo_verify.errors import InputError, shown
-from topo_verify.world.formats import embedding, markup
+from topo_verify.world.formats import embedding, geometry, markup
 from topo_verify.world.formats.embedding import DrawnEdge, DrawnVertex
+from topo_verify.world.formats.flaws import Flaws
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
@@ -48,8 +49,7 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
                 points += attributes.get("shape", "").count(",")
             else:
                 x, y = (
-                    embedding.number(attributes.get(axis, ""), f"{subject}, {axis}")
-                    for axis in "xy"
+                    geometry.number(attributes.get(axis, ""), f"{subject}, {axis}") for axis in "xy"
                 )
                 places[key] = DrawnVertex(key, (x, y))
             embedding.require_size(name, vertices=len(places), edges=len(edges), points=points)
@@ -59,7 +59,7 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
 
     markup.read(data, name=name, start=start, end=end)
     ways = _ways(places, edges, name)
-    return embedding.as_world(cls, list(places.values()), ways, source=name, name=stem)
+    return embedding.as_world(cls, list(places.values()), ways, Flaws(name), name=stem)
 
 
 def _ways(
@@ -72,10 +72,10 @@ def _ways(
         start, end = (number.get(attributes.get(side, "")) for side in ("from", "to"))
         if start is None or end is None:
             raise InputError(f"{subject}: expected the ids of two junctions as 'from' and 'to'")
-        # lazily, as embedding.line
+        # lazily, as geometry.line
         shape = re.finditer(r"\S+", attributes.get("shape", ""))
         rows = (point[0].split(",") for point in shape)
-        course = embedding.points(rows, f"{subject}, shape")
+        course = geometry.points(rows, f"{subject}, shape")
         other = ways.get(key[1:] if key.startswith("-") else f"-{key}")
         if other is None or (other.start, other.end) != (end, start):
             ways[key] = DrawnEdge(start, end, course, directed=True, name=key)
