@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
@@ -160,6 +163,48 @@ def test_convert_says_how_a_file_is_called_that_can_be_read_again(call: Call) ->
     assert done.stderr == "topo-verify: w.json: to read it again, let its name end in .nx.json\n"
     assert call("world convert m4/41 --to nx-json -o w.json --quiet").stderr == ""
     assert "a name that ends in .nx.json" in call("world show w.json").stderr
+
+
+@pytest.mark.parametrize(
+    ("to", "locale"),
+    [
+        ("json", {"PYTHONIOENCODING": "latin-1"}),
+        ("nx-json", {"PYTHONIOENCODING": "utf-16"}),
+        ("graphml", {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}),
+    ],
+)
+def test_data_on_stdout_is_utf8_whatever_the_locale(
+    folder: Path, to: str, locale: dict[str, str]
+) -> None:
+    world = World.from_rotations([[0], [1]], [[0, 1]], 0, vertex_names=("Köln", "Łódź"))
+    world.save(folder / "w.json")
+    environment = {**os.environ, **locale}
+
+    def output(*words: str) -> bytes:
+        command = [sys.executable, "-m", "topo_verify", "world", *words]
+        return subprocess.run(
+            command, cwd=folder, env=environment, capture_output=True, check=True
+        ).stdout
+
+    name = f"v.{to}".replace("nx-json", "nx.json")
+    (folder / name).write_bytes(output("convert", "w.json", "--to", to))
+    assert World.load(folder / name).vertex_names == world.vertex_names
+    (entry,) = json.loads(output("convert", name, "--format", "json").decode())["results"]
+    assert World.from_json(entry["text"]).vertex_names == world.vertex_names
+    assert "Köln" in output("draw", name, "--doors").decode()
+
+
+def test_convert_keeps_the_largest_part_and_says_what_it_leaves_out(
+    call: Call, folder: Path, refused: Refused
+) -> None:
+    nodes = [{"id": name, "x": x, "y": 0} for x, name in enumerate("abcde")]
+    edges = [{"source": a, "target": b} for a, b in ("ab", "cd", "de")]
+    (folder / "two.nx.json").write_text(json.dumps({"nodes": nodes, "edges": edges}))
+    refused("world convert two.nx.json", "--largest-part")
+    done = call("world convert two.nx.json --largest-part -o one.json")
+    assert (done.exit_code, "'a', 'b'" in done.stderr) == (0, True)
+    assert World.load(folder / "one.json").vertex_names == ("c", "d", "e")
+    assert call("world convert two.nx.json --largest-part --quiet").stderr == ""
 
 
 @pytest.mark.parametrize(

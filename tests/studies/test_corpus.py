@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 from pathlib import Path
 
 import pytest
@@ -91,6 +92,15 @@ def test_all_graphs_of_a_file_of_planar_code_are_worlds(tmp_path: Path) -> None:
     assert [at.world.name for at in corpus] == ["both-0", "both-1"]
     assert all(World.load(both, graph=k) == at.world for k, at in enumerate(corpus))
     assert all(at.replay_arguments == ("--worlds", at.name) for at in corpus)
+
+
+def test_files_are_worlds_under_any_name_and_packed(tmp_path: Path) -> None:
+    path = planar_code.encode(World.from_id("m1/0"))
+    both = tmp_path / "both.pl"
+    both.write_bytes(path + path)
+    (tmp_path / "packed.pc.gz").write_bytes(gzip.compress(path))
+    names = [at.name for at in corpus_from([str(both), str(tmp_path)])]
+    assert names == [f"{both}:0", f"{both}:1", str(tmp_path / "packed.pc.gz")]
 
 
 def test_any_world_may_stand_among_worlds() -> None:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import gzip
 from codecs import BOM_UTF8
+from io import BytesIO
 from pathlib import Path
 
 import pytest
 
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
-from topo_verify.world.formats import files, planar_code
+from topo_verify.world.formats import files, node_link, planar_code
 from topo_verify.world.resolve import resolve_world
 
 NET = (
@@ -30,6 +32,7 @@ FILES = {
     "W.PC": planar_code.encode(families.path(2)),
     "w.graphml": GRAPHML.encode(),
     "w.net.xml": NET.encode(),
+    "w.nx.json": node_link.encode(families.path(2)).encode(),
 }
 
 
@@ -77,12 +80,35 @@ def test_a_file_is_read_as_its_name_says(name: str, tmp_path: Path) -> None:
     assert world.name in {"w", "W", "path(2)"}
 
 
+@pytest.mark.parametrize("ending", ["", ".gz", ".GZ"])
+@pytest.mark.parametrize("name", FILES)
+def test_a_file_of_every_format_may_be_packed(name: str, ending: str, tmp_path: Path) -> None:
+    plain, packed = tmp_path / name, tmp_path / f"packed-{name}{ending}"
+    plain.write_bytes(FILES[name])
+    packed.write_bytes(gzip.compress(FILES[name]))
+    assert World.load(packed) == World.load(plain) == resolve_world(str(packed))
+    assert World.load(packed).name.removeprefix("packed-") == World.load(plain).name
+    assert resolve_world("-", stdin=BytesIO(gzip.compress(FILES["w.json"]))) == families.path(2)
+
+
+@pytest.mark.parametrize("name", ["k4.pl", "k4.json", "k4", "k4.graphml", "k4.net.xml", "k4.gz"])
+def test_planar_code_is_read_under_any_name(name: str, tmp_path: Path) -> None:
+    data = planar_code.encode(families.tetrahedron())
+    (tmp_path / name).write_bytes(data)
+    assert World.load(tmp_path / name).code == families.tetrahedron().code
+    assert resolve_world("-", stdin=BytesIO(data)).code == families.tetrahedron().code
+    (tmp_path / name).write_bytes(data + data)
+    assert World.load(tmp_path / name, graph=1).code == families.tetrahedron().code
+    assert resolve_world(f"{tmp_path / name}:1").code == families.tetrahedron().code
+
+
 class Town(World):
     """A subclass is read as itself."""
 
 
 @pytest.mark.parametrize("name", ["w.json", "w", "w.graphml", "w.net.xml"])
 def test_a_file_of_one_world_has_no_graphs_to_choose_from(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_bytes(FILES[name])
     with pytest.raises(InputError, match=r"graph=0 is for planar_code \(.pc, .plc\)"):
         World.load(tmp_path / name, graph=0)
 

@@ -268,7 +268,7 @@ class Output:
         if self.style == "pretty":
             self._pretty(blocks)
             return
-        with _reader(self.stdout) as out:
+        with _reader(self.stdout, "utf-8") as out:
             if self.style == "json":
                 envelope = {
                     "format": f"topo-verify/{command}",
@@ -285,14 +285,18 @@ class Output:
                 out.write(markdown(blocks))
 
     def _pretty(self, blocks: Iterable[Block]) -> None:
-        with _reader(self.stdout) as out:
+        blocks = tuple(blocks)
+        is_data = any(isinstance(block, Raw) for block in blocks)
+        with _reader(self.stdout, "utf-8" if is_data else None) as out:
             pretty(blocks, out)
 
 
 @contextmanager
-def _reader(out: IO[str]) -> Generator[IO[str]]:
+def _reader(out: IO[str], encoding: str | None = None) -> Generator[IO[str]]:
+    """Standard output, in this encoding; by default in the locale's."""
     if (reconfigure := getattr(out, "reconfigure", None)) is not None:
-        reconfigure(errors="backslashreplace")  # an encoding without one of our letters
+        # for an encoding without one of our letters
+        reconfigure(encoding=encoding, errors="backslashreplace")
     try:
         yield out
         out.flush()  # at Python's exit a failure could not be reported

@@ -154,12 +154,15 @@ def replay(
 
 def _bytes(subject: str) -> bytes | None:
     if subject == "-":
-        return files.read_stream(files.standard_input(), name="standard input")
+        name = "standard input"
+        return files.unpacked(files.read_stream(files.standard_input(), name=name), name)
     try:
         there = Path(subject).is_file()
     except (OSError, ValueError):  # no possible file name
         there = False
-    return files.read(subject) if there else None
+    data = files.read(subject) if there else None
+    # a mapper may be packed otherwise, as a .pyz
+    return files.unpacked(data, subject) if data and data.startswith(files.GZIP) else data
 
 
 def _is_trace(data: bytes) -> bool:

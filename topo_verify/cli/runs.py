@@ -67,9 +67,19 @@ class NamedWorld:
         return () if self.marker is None or self.text == "-" else ("--marker", str(self.marker))
 
 
-def named_world(text: str, marker: int | None = None, stdin: bytes | None = None) -> NamedWorld:
-    """The world that the user names; `stdin` is standard input, if already read."""
-    world = resolve_world(text, stdin=None if stdin is None else BytesIO(stdin))
+def named_world(
+    text: str,
+    marker: int | None = None,
+    stdin: bytes | None = None,
+    largest_part: Callable[[str], None] | None = None,
+) -> NamedWorld:
+    """The world that the user names; `stdin` is standard input, if already read.
+
+    Args:
+        largest_part: keep only the largest part of a drawing, and tell this function the rest.
+    """
+    stream = None if stdin is None else BytesIO(stdin)
+    world = resolve_world(text, stdin=stream, largest_part=largest_part)
     if marker is not None:
         named_by_id = world.name == text
         try:

@@ -215,13 +215,27 @@ class ConvertEntry(msgspec.Struct, frozen=True):
 @click.option(
     "-o", "file", default="-", metavar="FILE", help="Write to FILE.  [default: standard output]"
 )
+@click.option(
+    "--largest-part",
+    is_flag=True,
+    help="Of a drawing in several parts keep the one with the most vertices, and say what is left"
+    " out.",
+)
 @options.marker
-def convert(output: Output, *, world: str, to: str | None, file: str, marker: int | None) -> int:
+def convert(
+    output: Output,
+    *,
+    world: str,
+    to: str | None,
+    file: str,
+    marker: int | None,
+    largest_part: bool,
+) -> int:
     """Write a world in another format."""
 
     def converted() -> Iterator[Result[ConvertEntry]]:
         kind = to or ("json" if file == "-" else written_format(file))
-        at = named_world(world, marker)
+        at = named_world(world, marker, largest_part=output.note if largest_part else None)
         content = None if file != "-" else encoded(at.world, kind)
         if content is None:
             save(at.world, file, kind)

@@ -25,8 +25,9 @@ from pathlib import Path
 import msgspec
 
 from topo_verify.errors import InputError, is_utf8, shown
+from topo_verify.world import io
 from topo_verify.world.enumeration import rank_order
-from topo_verify.world.formats import planar_code
+from topo_verify.world.formats import files, planar_code
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
@@ -297,8 +298,7 @@ def _folder(text: str) -> CorpusPart:
 
 def _file(name: str, group: str) -> list[Named]:
     """The world of this name; of a file of planar_code with several graphs, all of them."""
-    is_planar_code = name.lower().endswith((".pc", ".plc")) and Path(name).is_file()
-    worlds = [*planar_code.worlds(name)] if is_planar_code else []
+    worlds = [*planar_code.worlds(name)] if _is_planar_code(name) else []
     if len(worlds) < 2:
         return [_by_name(name, group)]
     _require_utf8(name)
@@ -306,12 +306,20 @@ def _file(name: str, group: str) -> list[Named]:
     return [Named(n, w, group, ("--worlds", n)) for n, w in zip(names, worlds, strict=True)]
 
 
+def _is_planar_code(name: str) -> bool:
+    if not Path(name).is_file():
+        return False
+    if io.format_of_name(name) == "planar_code":
+        return True
+    return files.unpacked(files.read(name), name).startswith(io.PLANAR_CODE)
+
+
 def _world_files(folder: Path) -> Iterable[str]:
     try:
         return [
             str(path)
             for path in folder.iterdir()
-            if path.is_file() and path.name.lower().endswith(SUFFIXES)
+            if path.is_file() and files.unpacked_name(path.name).lower().endswith(SUFFIXES)
         ]
     except OSError as error:
         raise InputError(f"cannot read the folder {shown(folder)}: {error.strerror}") from error

@@ -7,6 +7,9 @@
 | `.net.xml` | a road network of SUMO |
 | `.nx.json` | NetworkX's node-link JSON |
 | anything else | world JSON; written to `.json`, and to a name without an ending |
+
+A file that begins with the head of planar_code is planar_code, whatever its name. A file may be
+packed by gzip; behind each ending `.gz` may follow.
 """
 
 # Formats are imported late: parsers load slowly.
@@ -17,12 +20,19 @@ import os
 from html import escape
 from os import PathLike
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from topo_verify.errors import InputError, shown
+from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
+if TYPE_CHECKING:
+    from topo_verify.world.formats.embedding import Tell
+
 W = TypeVar("W", bound=World)
+
+PLANAR_CODE = b">>planar_code"
+"""How a file of planar_code begins, unless its head is left out."""
 
 _ENDINGS = {
     ".pc": "planar_code",
@@ -38,7 +48,7 @@ WRITTEN = {"json": ".json", "planar_code": ".pc", "graphml": ".graphml", "nx-jso
 
 def format_of_name(path: str | PathLike[str]) -> str:
     """The format that the file's name stands for. InputError: it is a picture's."""
-    name = os.fspath(path).lower()
+    name = files.unpacked_name(path).lower()
     if name.endswith((".svg", ".png", ".pdf")):
         raise InputError(
             f"{shown(path)}: expected a name for data, as w.json, got one for a picture; those are"
@@ -61,27 +71,55 @@ def written_format(path: str | PathLike[str]) -> str:
     return kind
 
 
-def load(cls: type[W], path: str | PathLike[str], *, graph: int | None = None) -> W:
-    """The world in the file; `World.load` documents the arguments."""
-    from topo_verify.world.formats import files, graphml, node_link, planar_code, sumo, world_json
+def load(
+    cls: type[W],
+    path: str | PathLike[str],
+    *,
+    graph: int | None = None,
+    largest_part: Tell | None = None,
+) -> W:
+    """The world in the file; `World.load` documents the arguments.
+
+    Args:
+        largest_part: keep only the largest part of a drawing, and tell this function the rest.
+    """
+    from topo_verify.world.formats import other
 
     kind, name = format_of_name(path), shown(path)
-    if graph is not None and kind != "planar_code":
+    data = files.unpacked(files.read(path), name)
+    if not data.startswith(PLANAR_CODE):
+        other.refuse(path, data, kind)
+    stem = files.stem(path).removesuffix({"sumo": ".net", "nx-json": ".nx"}.get(kind, ""))
+    return decoded(cls, data, kind, name=name, stem=stem, graph=graph, largest_part=largest_part)
+
+
+def decoded(
+    cls: type[W],
+    data: bytes,
+    kind: str,
+    *,
+    name: str,
+    stem: str = "",
+    graph: int | None = None,
+    largest_part: Tell | None = None,
+) -> W:
+    """The world in the bytes, which are of this kind, or planar_code with its head."""
+    from topo_verify.world.formats import graphml, node_link, planar_code, sumo, world_json
+
+    if kind == "planar_code" or data.startswith(PLANAR_CODE):
+        return planar_code.decode(cls, data, name=name, stem=stem, graph=graph)
+    if graph is not None:
         raise InputError(
             f"{name}: graph={graph} is for planar_code (.pc, .plc); the other formats"
             " hold one world a file: leave it out"
         )
-    data = files.read(path)
-    stem = files.stem(path).removesuffix({"sumo": ".net", "nx-json": ".nx"}.get(kind, ""))
     match kind:
-        case "planar_code":
-            return planar_code.decode(cls, data, name=name, stem=stem, graph=graph)
         case "graphml":
-            return graphml.decode(cls, data, name=name, stem=stem)
+            return graphml.decode(cls, data, name=name, stem=stem, largest_part=largest_part)
         case "sumo":
-            return sumo.decode(cls, data, name=name, stem=stem)
+            return sumo.decode(cls, data, name=name, stem=stem, largest_part=largest_part)
         case "nx-json":
-            return node_link.decode(cls, data, name=name, stem=stem)
+            return node_link.decode(cls, data, name=name, stem=stem, largest_part=largest_part)
         case _:
             return world_json.decode(cls, data, name=name, stem=stem)
 
@@ -112,8 +150,6 @@ def save(world: World, path: str | PathLike[str], kind: str | None = None) -> No
         InputError: the file cannot be written, the world has no such format, or no format
             is written by this name.
     """
-    from topo_verify.world.formats import files
-
     content = encoded(world, kind or written_format(path))
     files.write(path, content + "\n" if isinstance(content, str) else content)
 
@@ -152,7 +188,6 @@ def draw(
 ) -> str:
     """The picture as SVG; `World.draw` documents the arguments."""
     from topo_verify.world.drawing import document, format_of, lay_out, to_svg
-    from topo_verify.world.formats import files
 
     kind = None if path is None else format_of(os.fspath(path))
     layout = lay_out(world)

@@ -13,12 +13,16 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
-from typing import IO, TypeVar, cast
+from typing import IO, TYPE_CHECKING, TypeVar, cast
 
 from topo_verify.errors import InputError, close_name, shown
+from topo_verify.world import io
 from topo_verify.world.families import FAMILIES
 from topo_verify.world.formats import files, world_json
 from topo_verify.world.rooted_map import World
+
+if TYPE_CHECKING:
+    from topo_verify.world.formats.embedding import Tell
 
 T = TypeVar("T")
 
@@ -124,15 +128,20 @@ _NUMBERED = re.compile(r"(.+):([0-9]{1,9})")
 _FAMILY = CallSyntax("family of worlds", "family:", "family:lattice(3,4,seed=7)")
 
 
-def resolve_world(text: str, *, stdin: IO[bytes] | None = None) -> World:
+def resolve_world(
+    text: str, *, stdin: IO[bytes] | None = None, largest_part: Tell | None = None
+) -> World:
     """The world that the text names; `-` reads `stdin`.
 
+    Args:
+        largest_part: as for `io.load`.
     Raises:
         InputError: there is no such world, or it cannot be read.
     """
     if text == "-":
         stream, name = stdin or files.standard_input(), "standard input"
-        return world_json.decode(World, files.read_stream(stream, name=name), name=name)
+        data = files.unpacked(files.read_stream(stream, name=name), name)
+        return io.decoded(World, data, "json", name=name)
     if text == "nyc":
         file = resources.files("topo_verify.world") / "data" / "nyc_osmnx.json"
         return world_json.decode(World, file.read_bytes(), name="the street network of the package")
@@ -149,7 +158,7 @@ def resolve_world(text: str, *, stdin: IO[bytes] | None = None) -> World:
             " (family:lattice(10,10,holes=0.2,seed=7)), nyc (the street network of the package) or"
             " - (world JSON on standard input)"
         )
-    return World.load(text)
+    return io.load(World, text, largest_part=largest_part)
 
 
 def _exists(path: str) -> bool:

@@ -208,7 +208,7 @@ def test_the_bends_of_ogdf_are_read() -> None:
 @pytest.mark.parametrize(
     ("data", "name"),
     [
-        ('<data key="d9"><y:Path sx="0" sy="0"><y:Point x="150" y="9"/></y:Path></data>', "<Point>"),
+        ('<data key="d9"><y:Path sx="0"><y:Point x="150" y="9"/></y:Path></data>', "<Point>"),
         ('<data key="d9"><y:Path sx="0.0" sy="-7.5" tx="0.0" ty="0"/></data>', "<Path>"),
         ('<data key="d9"><x:List xmlns:x="x"><y:Bend Location="150,-20"/></x:List></data>',
          "<Bend>"),

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import bz2
+import gzip
 import io
+import lzma
 import os
 import stat
+from contextlib import suppress
 from io import BytesIO
 from pathlib import Path
 from typing import Any
 from unittest.mock import Mock
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import files
@@ -80,6 +86,70 @@ def test_a_stream_without_an_end_is_not_read_to_the_end(monkeypatch: pytest.Monk
     monkeypatch.setattr(files, "LIMIT", 2**20)
     with pytest.raises(InputError, match="the pipe is larger than 1 MiB"):
         files.read_stream(Endless(), name="the pipe")
+
+
+# ---------------------------------------------------------------- packed files
+
+
+@pytest.mark.parametrize("name", ["text", "text.gz", "text.json"])
+def test_what_gzip_packed_is_unpacked_whatever_its_name(tmp_path: Path, name: str) -> None:
+    file = tmp_path / name
+    file.write_bytes(gzip.compress(b"one\n") + gzip.compress(b"two\n"))  # joined files are one
+    assert files.unpacked(files.read(file), "it") == b"one\ntwo\n"
+    with files.opened(file) as stream:
+        assert list(files.lines(stream, name="it")) == [b"one\n", b"two\n"]
+    assert files.stem(file) == "text"
+
+
+def test_a_file_may_be_named_gz_and_not_be_packed(tmp_path: Path) -> None:
+    (tmp_path / "text.gz").write_bytes(b"one\n")
+    assert files.unpacked(files.read(tmp_path / "text.gz"), "it") == b"one\n"
+
+
+PACKED = gzip.compress(bytes(range(256)) * 40)
+
+
+@pytest.mark.parametrize(
+    ("data", "sentence"),
+    [
+        (PACKED[:-1], "packed by gzip, and damaged: .*; pack it again"),
+        (PACKED[:2], "packed by gzip, and damaged"),
+        (PACKED[:100] + b"\0" + PACKED[101:], "packed by gzip, and damaged"),
+        (PACKED + b"tail", "packed by gzip, and damaged"),
+        (gzip.compress(PACKED), "packed by gzip, once more: unpack it"),
+        (gzip.compress(bytes(2**20 + 1)), "it, unpacked, is larger than 1 MiB"),
+        (gzip.compress(bytes(2**26)), "it, unpacked, is larger than 1 MiB"),
+        (bz2.compress(b"text"), "packed by bzip2: unpack it; .gz is read as well"),
+        (lzma.compress(b"text"), "packed by xz"),
+        (b"PK\3\4", "packed as zip"),
+    ],
+)
+def test_what_cannot_be_unpacked_is_refused(
+    data: bytes, sentence: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(files, "LIMIT", 2**20)
+    with pytest.raises(InputError, match=sentence):
+        files.unpacked(data, "it")
+    with pytest.raises(InputError, match=sentence):
+        list(files.lines(BytesIO(data), name="it"))
+
+
+def test_a_packed_file_up_to_the_limit_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(files, "LIMIT", 2**20)
+    packed = gzip.compress(bytes(2**20))
+    assert files.unpacked(packed, "it") == bytes(2**20)
+
+
+@given(st.binary(max_size=200))
+def test_any_bytes_of_gzip_are_unpacked_or_refused(data: bytes) -> None:
+    with suppress(InputError):
+        files.unpacked(PACKED[:10] + data, "it")
+
+
+def test_no_text_is_written_packed(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"no text is written packed: leave \.gz out"):
+        files.write(tmp_path / "world.json.gz", "text")
+    assert list(tmp_path.iterdir()) == []
 
 
 # ---------------------------------------------------------------- writing

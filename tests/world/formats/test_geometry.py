@@ -109,7 +109,8 @@ def test_collections_may_be_nested_deeply() -> None:
 @pytest.mark.parametrize(
     "value",
     ["POINT (1 2)", "SRID=4326;POINT Z (1 2 3)", geojson("Point", [1, 2]),
-     shape("Point", (1, 2, 3)), SimpleNamespace(coords=[(1, 2)]), [1, 2], (1, 2, 3), np.array([1, 2])],
+     shape("Point", (1, 2, 3)), SimpleNamespace(coords=[(1, 2)]), [1, 2], (1, 2, 3),
+     np.array([1, 2])],
 )  # fmt: skip
 def test_a_point_is_read_in_every_notation(value: Any) -> None:
     assert geometry.geometry_point(value, "it") == (1, 2)

@@ -1,11 +1,17 @@
-"""Reads files up to a limit and writes them whole or not at all. Failures raise `InputError`."""
+"""Reads files up to a limit and writes them whole or not at all. Failures raise `InputError`.
+
+Texts that gzip packed are unpacked, whatever their name, and none is written packed.
+"""
 
 from __future__ import annotations
 
+import gzip
 import os
 import sys
+import zlib
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
+from io import BytesIO
 from os import PathLike
 from pathlib import Path
 from secrets import token_hex
@@ -15,6 +21,20 @@ from topo_verify.errors import InputError, shown
 
 LIMIT = 64 * 2**20
 """Bytes: twice a world of a million darts with positions."""
+
+
+GZIP = b"\x1f\x8b"
+"""How a file begins that gzip packed."""
+
+_PACKED = {
+    GZIP: "by gzip, once more",
+    b"PK\x03\x04": "as zip",
+    b"BZh": "by bzip2",
+    b"\xfd7zXZ\0": "by xz",
+    b"(\xb5/\xfd": "by zstd",
+    b"7z\xbc\xaf": "as 7z",
+}
+"""How a packed file begins, and what packed it."""
 
 
 def read(path: str | PathLike[str]) -> bytes:
@@ -46,10 +66,16 @@ def standard_input() -> IO[bytes]:
 
 def lines(stream: IO[bytes], *, name: str) -> Iterator[bytes]:
     """The lines of a stream of any length, each of at most `LIMIT` bytes."""
-    while line := stream.readline(LIMIT + 1):
+    line = stream.readline(LIMIT + 1)
+    if line.startswith(tuple(_PACKED)):
+        packed = line + stream.read(LIMIT + 1)
+        stream = BytesIO(unpacked(read_stream(BytesIO(packed), name=name), name))
+        line = stream.readline()
+    while line:
         if len(line) > LIMIT:
             raise InputError(too_large(f"a line of {name}"))
         yield line
+        line = stream.readline(LIMIT + 1)
 
 
 def read_stream(stream: IO[bytes], *, name: str) -> bytes:
@@ -58,6 +84,30 @@ def read_stream(stream: IO[bytes], *, name: str) -> bytes:
     if len(data) > LIMIT:
         raise InputError(too_large(name))
     return data
+
+
+def unpacked(data: bytes, name: str) -> bytes:
+    """The bytes without gzip, at most `LIMIT`; refuses what another program packed."""
+    if data.startswith(GZIP):
+        try:
+            with gzip.GzipFile(fileobj=BytesIO(data)) as file:
+                data = file.read(LIMIT + 1)
+        except (OSError, EOFError, zlib.error) as error:
+            raise InputError(
+                f"{name} is packed by gzip, and damaged: {error}; pack it again"
+            ) from error
+        if len(data) > LIMIT:
+            raise InputError(too_large(f"{name}, unpacked,"))
+    for start, how in _PACKED.items():
+        if data.startswith(start):
+            raise InputError(f"{name} is packed {how}: unpack it; .gz is read as well")
+    return data
+
+
+def unpacked_name(path: str | PathLike[str]) -> str:
+    """The file's name without an ending `.gz`."""
+    name = os.fspath(path)
+    return name[:-3] if name.lower().endswith(".gz") else name
 
 
 def too_large(name: str) -> str:
@@ -74,6 +124,8 @@ def write(path: str | PathLike[str], text: str | bytes) -> None:
     A complete temporary file in the same folder replaces the old one. Links are followed,
     permissions kept; a pipe or a terminal is written to directly.
     """
+    if isinstance(text, str) and unpacked_name(path) != os.fspath(path):
+        raise InputError(f"{shown(path)}: no text is written packed: leave .gz out, then pack it")
     try:
         data = text.encode() if isinstance(text, str) else text
         target = Path(os.path.realpath(path))
@@ -104,8 +156,8 @@ def _replace(target: Path, data: bytes) -> None:
 
 
 def stem(path: str | PathLike[str]) -> str:
-    """The file's name without its ending."""
-    return os.fsencode(Path(path).stem).decode("utf-8", "replace")
+    """The file's name without its ending, and without `.gz`."""
+    return os.fsencode(Path(unpacked_name(path)).stem).decode("utf-8", "replace")
 
 
 def _reason(error: OSError | ValueError) -> str:

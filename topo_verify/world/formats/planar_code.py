@@ -1,12 +1,15 @@
-"""planar_code: the binary format of plantri, for simple planar worlds, many to a file.
+"""planar_code: the binary format of plantri, for simple worlds, many to a file.
 
     >>planar_code<<  3  2 3 0  1 3 0  1 2 0       (a triangle; a number is a byte)
 
 After the optional head come the graphs: the number of vertices, then for each vertex its neighbours
 in clockwise order, from 1, and a zero. With more than 255 vertices a graph begins with a zero byte
-and has numbers of two bytes, the high byte first unless the head is `>>planar_code le<<`.
+and has numbers of two bytes, the high byte first unless the head is `>>planar_code le<<`. Files may
+be joined: a head may stand before each graph, and lines may end behind one.
 
-What this does not show: that the writer meant clockwise; a mirror image is a valid file.
+Rotations of any genus are read, as surftri and multi_genus write them; planar ones are written,
+since other programs expect no others. What this does not show: that the writer meant clockwise; a
+mirror image is a valid file.
 
 Source: docs/formats.md; G. Brinkmann and B. D. McKay, plantri-guide.txt; the guide of CaGe and
     `planarg` of nauty 2.8 (head, byte order).
@@ -29,6 +32,9 @@ W = TypeVar("W", bound=World)
 MAX_VERTICES = 2**16 - 1
 
 _HEAD = re.compile(rb">>planar_code(?: ?(le|be))? ?<<")
+
+_BETWEEN = re.compile(rb"[\r\n]*+(?:(?=>>)|\Z)")
+"""Ends of lines, which would else be the beginning of a graph of 10 or 13 vertices."""
 
 
 def decode(
@@ -68,7 +74,7 @@ def decode(
 def worlds(path: str | PathLike[str]) -> Iterator[World]:
     """The worlds of a file of planar_code, in its order; raises as `World.load`."""
     name, stem = shown(path), files.stem(path)
-    for number, rows in enumerate(_graphs(files.read(path), name)):
+    for number, rows in enumerate(_graphs(files.unpacked(files.read(path), name), name)):
         yield _world(World, rows, f"{name}, graph {number}", f"{stem}-{number}")
 
 
@@ -112,15 +118,21 @@ def require_simple_and_planar(world: World, subject: str) -> None:
 
 
 def _graphs(data: bytes, name: str) -> Iterator[list[Sequence[int]]]:
-    head = _HEAD.match(data)
-    if data.startswith(b">>") and head is None:
-        raise InputError(
-            f"{name} does not begin like planar_code: its head is"
-            f" '{shown(data[:20].decode('latin-1'))}', expected '>>planar_code<<'"
-        )
-    little = head is not None and head[1] == b"le"
-    at, number = head.end() if head else 0, 0
-    while at < len(data):
+    little = False
+    at = number = 0
+    while True:
+        if number and (between := _BETWEEN.match(data, at)):
+            at = between.end()
+        if data.startswith(b">>", at):
+            head = _HEAD.match(data, at)
+            if head is None:
+                raise InputError(
+                    f"{name}: expected the head '>>planar_code<<' at byte {at}, got"
+                    f" '{shown(data[at : at + 20].decode('latin-1'))}'"
+                )
+            little, at = head[1] == b"le", head.end()
+        if at >= len(data):
+            return
         rows, at = _graph(data, at, f"{name}, graph {number}", little=little)
         yield rows
         number += 1
@@ -184,15 +196,9 @@ def _world(cls: type[W], rows: list[Sequence[int]], name: str, title: str) -> W:
             )
     edges = [(dart, dart_of[b, a]) for (a, b), dart in dart_of.items() if a < b]
     try:
-        world = cls.from_rotations(rotations, edges, 0 if dart_of else None, name=title)
+        return cls.from_rotations(rotations, edges, 0 if dart_of else None, name=title)
     except InputError as error:
         raise InputError(f"{name}: {error}") from error
-    if not world.is_planar:
-        raise InputError(
-            f"{name}: these rotations are a map of genus {world.genus}, and planar_code holds"
-            " planar ones: are the neighbours in clockwise order?"
-        )
-    return world
 
 
 def _require_neighbour(vertex: int, other: int, size: int, name: str) -> None:

@@ -15,18 +15,41 @@ from typing import TypeVar
 
 from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import embedding, geometry, markup
-from topo_verify.world.formats.embedding import DrawnEdge, DrawnVertex
+from topo_verify.world.formats.embedding import DrawnEdge, DrawnVertex, Tell
 from topo_verify.world.formats.flaws import Flaws
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
 
 
-def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str = "") -> W:
-    """The world in the bytes."""
-    places: dict[str, DrawnVertex] = {}
+def decode(
+    cls: type[W],
+    data: bytes,
+    *,
+    name: str = "SUMO network",
+    stem: str = "",
+    largest_part: Tell | None = None,
+) -> W:
+    """The world in the bytes; `largest_part` as for `embedding.as_world`."""
+    flaws = Flaws(name)
+    places: dict[str, DrawnVertex | None] = {}
     edges: dict[str, dict[str, str]] = {}
     points = 0
+
+    def take(kind: str, attributes: dict[str, str]) -> None:
+        key = attributes.get("id", "")
+        subject = f"{name}: {kind} '{shown(key, limit=60)}'"
+        if not key or key in (places if kind == "junction" else edges):
+            why = "stands there twice" if key else "has no id"
+            raise InputError(f"{subject} {why}: each needs a distinct id")
+        if key.startswith(":"):
+            return
+        if kind == "edge":
+            edges[key] = attributes
+            return
+        places[key] = None  # known, if not where it lies
+        x, y = (geometry.number(attributes.get(axis, ""), f"{subject}, {axis}") for axis in "xy")
+        places[key] = DrawnVertex(key, (x, y))
 
     def start(path: tuple[str, ...], attributes: dict[str, str]) -> None:
         nonlocal points
@@ -36,47 +59,46 @@ def decode(cls: type[W], data: bytes, *, name: str = "SUMO network", stem: str =
                 " that kind"
             )
         if path[1:] in {("junction",), ("edge",)}:
-            known = places if path[1] == "junction" else edges
-            key = attributes.get("id", "")
-            subject = f"{name}: {path[1]} '{shown(key, limit=60)}'"
-            if not key or key in known:
-                why = "stands there twice" if key else "has no id"
-                raise InputError(f"{subject} {why}: each needs a distinct id")
-            if key.startswith(":"):
-                return
-            if path[1] == "edge":
-                edges[key] = attributes
-                points += attributes.get("shape", "").count(",")
-            else:
-                x, y = (
-                    geometry.number(attributes.get(axis, ""), f"{subject}, {axis}") for axis in "xy"
-                )
-                places[key] = DrawnVertex(key, (x, y))
+            with flaws:
+                take(path[1], attributes)
+            points += attributes.get("shape", "").count(",") if path[1] == "edge" else 0
             embedding.require_size(name, vertices=len(places), edges=len(edges), points=points)
 
     def end(_path: tuple[str, ...], _text: str) -> None:
         """SUMO's texts are attributes."""
 
     markup.read(data, name=name, start=start, end=end)
-    ways = _ways(places, edges, name)
-    return embedding.as_world(cls, list(places.values()), ways, Flaws(name), name=stem)
-
-
-def _ways(
-    places: dict[str, DrawnVertex], edges: dict[str, dict[str, str]], name: str
-) -> list[DrawnEdge]:
-    number = {key: place for place, key in enumerate(places)}
+    drawn = [place for place in places.values() if place is not None]
+    number = {place.name: at for at, place in enumerate(drawn)}
     ways: dict[str, DrawnEdge] = {}
     for key, attributes in edges.items():
-        subject = f"{name}: edge '{shown(key, limit=60)}'"
-        start, end = (number.get(attributes.get(side, "")) for side in ("from", "to"))
-        if start is None or end is None:
-            raise InputError(f"{subject}: expected the ids of two junctions as 'from' and 'to'")
-        # lazily, as geometry.line
-        shape = re.finditer(r"\S+", attributes.get("shape", ""))
-        rows = (point[0].split(",") for point in shape)
-        course = geometry.points(rows, f"{subject}, shape")
-        other = ways.get(key[1:] if key.startswith("-") else f"-{key}")
-        if other is None or (other.start, other.end) != (end, start):
-            ways[key] = DrawnEdge(start, end, course, directed=True, name=key)
-    return list(ways.values())
+        ends = [attributes.get(side, "") for side in ("from", "to")]
+        with flaws:
+            if not places.keys() >= {*ends}:
+                raise InputError(
+                    f"{name}: edge '{shown(key, limit=60)}': expected the ids of two junctions as"
+                    " 'from' and 'to'"
+                )
+            if number.keys() >= {*ends}:
+                _add(ways, key, attributes, (number[ends[0]], number[ends[1]]), name)
+                continue
+        flaws.touched |= {number[end] for end in ends if end in number}
+    return embedding.as_world(
+        cls, drawn, list(ways.values()), flaws, name=stem, largest_part=largest_part
+    )
+
+
+def _add(
+    ways: dict[str, DrawnEdge],
+    key: str,
+    attributes: dict[str, str],
+    ends: tuple[int, int],
+    name: str,
+) -> None:
+    # lazily, as geometry.line
+    shape = re.finditer(r"\S+", attributes.get("shape", ""))
+    rows = (point[0].split(",") for point in shape)
+    course = geometry.points(rows, f"{name}: edge '{shown(key, limit=60)}', shape")
+    other = ways.get(key[1:] if key.startswith("-") else f"-{key}")
+    if other is None or (other.start, other.end) != ends[::-1]:
+        ways[key] = DrawnEdge(*ends, course, directed=True, name=key)
