@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import tracemalloc
 from pathlib import Path
 
@@ -63,6 +64,21 @@ def test_standard_input_is_a_log(results: Results) -> None:
         "door,degree,marker\nNaN,2,0.0\n0.0,2,None\n1.0,2,1.0\n",
         "\ufeffTime; Marker;Degree;Door\r\n;0;2;\r\n\r\n7;;2; 0\r\n8;1;2;1\r\n",
         'marker\tdoor\tdegree\n0\t\t2\n\t0\t"2"\n1\t1\t2',
+        "sep=;\ndoor;degree;marker\n;2;0\n0;2;\n1;2;1\n",
+        "\ufeffsep=;\r\ndoor;degree;marker\r\n;2;0\r\n0;2;\r\n1;2;1\r\n",
+        '"sep=,"\n"door","degree","marker"\n"","2","0"\n"0","2",""\n"1","2","1"\n',
+        "SEP=|\ndoor|degree|marker|a,b;c\n|2|0|\n0|2||\n1|2|1|\n",
+        "sep=\t\ndoor\tdegree\tmarker\n\t2\t0\n0\t2\t\n1\t2\t1\n",
+        "door,degree,marker\n,2.00,0.00\n0.00,2.00,\n1.00,2.00,1.00\n",
+        "door;degree;marker\n;2,0;0,00\n0,0;2,0;\n1,0;2,0;1,0\n",
+        'door,degree,marker\n,"2,0",0\n0,2,\n1,2,1\n',
+        "door,degree,marker\nnan,2.000e+00,0.000e+00\n0e0,2E0,nan\n1.,2.,1.0e+0\n",
+        "door,degree,marker\n<NA>,2,0\n0,2,<NA>\n1,2,1\n",
+        "door,degree,marker\n#N/A,2,0\n0,2,N/A\n1,2,1\n",
+        "door,degree,marker\n\\N,2,0\n0,2,NULL\n1,2,1\n",
+        "door,degree,marker\nNone,+2,0\n0,2,NaT\n1,2,1\n",
+        "\n \n;;\ndoor;degree;marker\n;2;0\n;;\n0;2;\n \n1;2;1\n\n",
+        "door,degree,marker\r,2,0\r0,2,\r1,2,1\r",
     ],
 )
 def test_a_csv_table_is_a_log(results: Results, table: str) -> None:
@@ -118,11 +134,49 @@ def test_a_csv_table_is_a_log(results: Results, table: str) -> None:
             "row 1: expected the columns door, degree, marker",
         ),
         ("\ufeff".encode("utf-16"), "t.csv: expected text in UTF-8, got UTF-16"),
+        (
+            "sep=;\ndoor,degree,marker\n",
+            "t.csv, row 2: expected the columns door, degree, marker, got no 'door'",
+        ),
+        ("sep=;\nsep=;\n", "row 2: expected the columns"),
+        ("sep=;\n", "t.csv: expected a row with the percept at the start"),
+        ("door,degree,marker\n,2.5,0\n", "row 2: expected a whole number from 0 to 1000000 as deg"),
+        ("door;degree;marker\n;1,000;0\n", "row 2: expected a whole number"),
+        ("door,degree,marker\n,1_0,0\n", "row 2: expected a whole number"),
+        ("door,degree,marker\n,1e99,0\n", "row 2: expected a whole number"),
+        ("door,degree,marker\n,inf,0\n", "row 2: expected a whole number"),
+        ("door,degree,marker\n,<NA>,0\n", "row 2: expected a whole number"),
+        ("door,degree,marker\n,-2,0\n", "row 2: expected a whole number"),
+        (
+            "door,degree,marker\n-1,2,0\n",
+            "expected no door: the robot starts, got '-1'; leave it em",
+        ),
+        ("door,degree,marker\n-1.00,2,0\n", "the robot starts, got '-1.00'; leave it empty"),
+        ("door,degree,marker\n,2,0\n0,2,-1\n", "got '-1'; leave it empty where no marker is seen"),
+        ("door,degree,marker\n,2,0\n0,2,-1.0\n", "got '-1.0'; leave it empty where no marker"),
+        (gzip.compress(b"door,degree,marker\n,2,0\n")[:-9], "t.csv is packed by gzip, and damaged"),
     ],
 )
 def test_an_error_in_a_table_names_the_row(refused: Refused, table: str | bytes, why: str) -> None:
     Path("t.csv").write_bytes(table if isinstance(table, bytes) else table.encode())
     refused("certify t.csv", why)
+
+
+def test_a_marker_of_minus_1_in_json_is_told_what_to_write(refused: Refused) -> None:
+    Path("log.jsonl").write_text(RING.replace('"marker": null', '"marker": -1'))
+    refused("certify log.jsonl", "log.jsonl, event 1: the marker is -1: write null")
+
+
+@pytest.mark.parametrize("name", ["log.csv", "log.csv.gz", "log", "log.gz", "log.txt"])
+@pytest.mark.parametrize("separator", ["", "sep=,\n"])
+def test_a_log_may_be_packed_and_have_any_name(results: Results, name: str, separator: str) -> None:
+    table = f"{separator}door,degree,marker\n,2,0\n0,2,\n1,2,1\n".encode()
+    for log in (table, RING.encode()):
+        if log is table or ".csv" not in name:
+            for data in (log, gzip.compress(log)):
+                Path(name).write_bytes(data)
+                (entry,) = results(f"certify {name}")["results"]
+                assert entry["verdict"] == "PROVED"
 
 
 def test_an_incomplete_log_gets_advice(call: Call, results: Results) -> None:

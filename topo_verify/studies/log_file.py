@@ -7,16 +7,22 @@
 | 1 | 2 | 1 |
 
 The first row is the percept at the start; each further row is a door and the percept behind it. An
-empty cell may hold a word of `EMPTY`, and a number may end in `.0`, as tables of floats write them.
-Commas, semicolons or tabs separate the columns; other columns and empty rows are ignored. A row
-with more or fewer cells than titles is refused, since a file that was cut might prove a wrong map.
+empty cell may hold a word of `EMPTY`, and a number may be a float, as `2.00`, `2,0` or `2e+00`.
+Commas, semicolons or tabs separate the columns, or what a first line says, as Excel's `sep=;`.
+Other columns and empty rows are ignored. A row with more or fewer cells than titles is refused,
+since a file that was cut might prove a wrong map.
+
+Why not pandas or `csv.Sniffer`? Both guess: they fill or drop the cells of a file that was cut.
 """
 
 from __future__ import annotations
 
 import csv
+import re
+from codecs import BOM_UTF8
 from collections.abc import Generator, Iterable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext
+from decimal import Decimal
 from itertools import chain, islice
 from os import PathLike, fspath
 
@@ -27,12 +33,15 @@ from topo_verify.world.formats import files
 
 COLUMNS = ("door", "degree", "marker")
 
-EMPTY = ("-", "nan", "none", "null", "na")
-"""What may stand in an empty cell: `-` is what `tour` prints."""
+EMPTY = ("-", "nan", "none", "null", "na", "n/a", "<na>", "#n/a", "nat", "nil", "\\n")
+"""What may stand in an empty cell: `-` is what `tour` prints, the others what databases write."""
 
 
-COMPRESSED_OR_WIDE = (b"\xff\xfe", b"\xfe\xff", b"\x1f\x8b", b"PK\x03")
-"""How files in UTF-16, of gzip and of zip begin."""
+WIDE = (b"\xff\xfe", b"\xfe\xff")
+"""How files in UTF-16 begin."""
+
+_SEPARATOR = re.compile(r'"?sep=(.)"?[,;\t]*', re.IGNORECASE)
+_NUMBER = re.compile(r"\+?[0-9]{1,9}(?:\.[0-9]{0,40})?(?:e[+-]?[0-9]{1,2})?", re.IGNORECASE)
 
 
 def read_log(path: str | PathLike[str]) -> Trace:
@@ -41,7 +50,7 @@ def read_log(path: str | PathLike[str]) -> Trace:
         return tuple(
             (event for _, event in table_events(lines, name))
             if is_table
-            else read_events(lines, name=name)
+            else json_events(lines, name)
         )
 
 
@@ -88,28 +97,40 @@ def _opened(path: str) -> Generator[tuple[Iterator[bytes], str, bool]]:
             first.append(line)
             if line.strip():
                 break
-        if first and first[0].startswith(COMPRESSED_OR_WIDE):
-            raise InputError(
-                f"{name}: expected text in UTF-8, got UTF-16 or a compressed file: convert it"
-            )
-        head = first[-1].lower().strip() if first else b""
+        if first and first[0].startswith(WIDE):
+            raise InputError(f"{name}: expected text in UTF-8, got UTF-16: save it as UTF-8")
+        head = first[-1].removeprefix(BOM_UTF8).lower().strip() if first else b""
         is_untitled = head[:1].isdigit() or head[:1] in {b",", b";"}
-        is_table = name.lower().endswith(".csv") or (
-            b"{" not in head and (is_untitled or any(column.encode() in head for column in COLUMNS))
+        titles = (*COLUMNS, "sep=")
+        is_table = files.unpacked_name(name).lower().endswith(".csv") or (
+            b"{" not in head and (is_untitled or any(title.encode() in head for title in titles))
         )
         yield chain(first, lines), name, is_table
+
+
+def json_events(lines: Iterable[bytes], name: str) -> Iterator[Event]:
+    """The events in the lines of JSON; a marker of -1 is refused, it would be door -1."""
+    for number, event in enumerate(read_events(lines, name=name)):
+        if isinstance(event, Start | Move) and event.percept.marker == -1:
+            raise InputError(
+                f"{name}, event {number}: the marker is -1: write null where no marker is seen"
+            )
+        yield event
 
 
 def table_events(lines: Iterable[bytes], name: str) -> Iterator[tuple[int, Event]]:
     """The events in the lines of a CSV table with titles, each with its row."""
     titles: list[str] = []
-    separator = ","
+    given = separator = ""
     begun = False
     rows = (row for line in lines for row in line.splitlines())
     for number, line in enumerate(rows, 1):
         text = line.decode("utf-8-sig", errors="replace")
         if not titles:
-            separator = max(",;\t", key=text.count)
+            separator = given or max(",;\t", key=text.count)
+            if not given and (match := _SEPARATOR.fullmatch(text.strip(" "))):
+                given = match[1]
+                continue
         place = f"{name}, row {number}"
         try:
             (row,) = csv.reader([text], delimiter=separator)
@@ -150,18 +171,30 @@ def _require_columns(titles: Sequence[str], place: str) -> None:
 
 
 def _event(cells: dict[str, str], place: str, *, begun: bool) -> Event:
-    door, degree, marker = (cells.get(column, "").removesuffix(".0") for column in COLUMNS)
-    door, marker = ("" if text.lower() in EMPTY else text for text in (door, marker))
-    if bool(door) != begun:
+    texts = {column: cells.get(column, "") for column in COLUMNS}
+    is_empty = {column: text.lower() in ("", *EMPTY) for column, text in texts.items()}
+    if is_empty["door"] == begun:
         expected = "a door, as in every row but the first" if begun else "no door: the robot starts"
-        raise InputError(f"{place}: expected {expected}, got {door!r}")
-    for column, text in (("door", door), ("degree", degree), ("marker", marker)):
-        is_number = text.isascii() and text.isdigit() and len(text) < 10
-        if (text or column == "degree") and not (is_number and int(text) <= MOST_DOORS):
+        mend = "" if begun else "; leave it empty"
+        raise InputError(f"{place}: expected {expected}, got {texts['door']!r}{mend}")
+    numbers: dict[str, int | None] = {}
+    for column, text in texts.items():
+        numbers[column] = None if is_empty[column] else _number(text)
+        if numbers[column] is None and (not is_empty[column] or column == "degree"):
             mend = "; leave it empty where no marker is seen" if column == "marker" else ""
             raise InputError(
                 f"{place}: expected a whole number from 0 to {MOST_DOORS} as {column},"
                 f" got {text!r}{mend}"
             )
-    percept = Percept(int(degree), int(marker) if marker else None)
-    return Move(int(door), percept) if begun else Start(percept=percept)
+    door, degree = numbers["door"] or 0, numbers["degree"] or 0
+    percept = Percept(degree, numbers["marker"])
+    return Move(door, percept) if begun else Start(percept=percept)
+
+
+def _number(text: str) -> int | None:
+    """The whole number, also written as a float; a comma before one or two zeros is decimal."""
+    text = re.sub(r",(0{1,2})$", r".\1", text)
+    if not _NUMBER.fullmatch(text):
+        return None
+    value = Decimal(text)
+    return int(value) if value <= MOST_DOORS and value == value.to_integral_value() else None
