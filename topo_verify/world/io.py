@@ -27,7 +27,7 @@ from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
-    from topo_verify.world.formats.embedding import Tell
+    from topo_verify.world.formats.embedding import Note
 
 W = TypeVar("W", bound=World)
 
@@ -76,7 +76,7 @@ def load(
     path: str | PathLike[str],
     *,
     graph: int | None = None,
-    largest_part: Tell | None = None,
+    largest_part: Note | None = None,
 ) -> W:
     """The world in the file; `World.load` documents the arguments.
 
@@ -101,7 +101,7 @@ def decoded(
     name: str,
     stem: str = "",
     graph: int | None = None,
-    largest_part: Tell | None = None,
+    largest_part: Note | None = None,
 ) -> W:
     """The world in the bytes, which are of this kind, or planar_code with its head."""
     from topo_verify.world.formats import graphml, node_link, planar_code, sumo, world_json

@@ -22,7 +22,7 @@ from topo_verify.world.formats import files, world_json
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
-    from topo_verify.world.formats.embedding import Tell
+    from topo_verify.world.formats.embedding import Note
 
 T = TypeVar("T")
 
@@ -129,7 +129,7 @@ _FAMILY = CallSyntax("family of worlds", "family:", "family:lattice(3,4,seed=7)"
 
 
 def resolve_world(
-    text: str, *, stdin: IO[bytes] | None = None, largest_part: Tell | None = None
+    text: str, *, stdin: IO[bytes] | None = None, largest_part: Note | None = None
 ) -> World:
     """The world that the text names; `-` reads `stdin`.
 

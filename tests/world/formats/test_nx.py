@@ -92,7 +92,7 @@ def test_an_embedding_that_is_broken_is_refused() -> None:
     two.set_data({0: [1], 1: [0], 2: [3], 3: [2]})
     toroidal: nx.PlanarEmbedding[int] = nx.PlanarEmbedding()
     toroidal.set_data({0: [1, 2, 3], 1: [0, 2, 3], 2: [0, 1, 3], 3: [0, 1, 2]})
-    for embedding, sentence in [
+    given: list[tuple[Any, str]] = [
         (half, "the planar embedding is broken"),
         (None, "expected a networkx.PlanarEmbedding, got None; networkx.check_planarity"),
         (NX.path_graph(2), "expected a networkx.PlanarEmbedding, got <networkx"),
@@ -100,7 +100,8 @@ def test_an_embedding_that_is_broken_is_refused() -> None:
         (toroidal, "the planar embedding is broken"),
         (two, "the planar embedding: the world is not connected"),
         (NX.PlanarEmbedding(), "'vertices' is empty"),
-    ]:
+    ]
+    for embedding, sentence in given:
         with pytest.raises(InputError, match=sentence):
             from_planar_embedding(embedding)
     with pytest.raises(InputError, match=r"no edge for marker=\(0, 9\)"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import networkx as nx
 import pytest
@@ -10,6 +11,9 @@ import yaml
 
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
+
+NX: Any = nx
+"""NetworkX where its stubs leave types open."""
 
 GML = """Creator "a program"
 graph [
@@ -58,8 +62,8 @@ CONVERTED: dict[str, tuple[bytes, World]] = {
     "t.gml": (GML.encode(), families.cycle(3)),
     "t.gexf": (GEXF.encode(), families.cycle(3)),
     "t.net": (PAJEK.encode(), families.cycle(3)),
-    "t.g6": (nx.to_graph6_bytes(nx.cycle_graph(4)), families.cycle(4)),
-    "t.s6": (nx.to_sparse6_bytes(nx.cycle_graph(4)), families.cycle(4)),
+    "t.g6": (NX.to_graph6_bytes(NX.cycle_graph(4)), families.cycle(4)),
+    "t.s6": (NX.to_sparse6_bytes(NX.cycle_graph(4)), families.cycle(4)),
     "t.ec": (EDGE_CODE, families.tetrahedron()),
     "t.off": (OFF.encode(), families.wheel(4)),
     "t.edgelist": (b"a b\nb c\nc a\n", families.cycle(3)),

@@ -15,11 +15,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from math import isclose
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar, cast
 
 from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import embedding, geometry
-from topo_verify.world.formats.embedding import DrawnEdge, DrawnEnd, DrawnVertex, Point, Tell
+from topo_verify.world.formats.embedding import DrawnEdge, DrawnEnd, DrawnVertex, Note, Point
 from topo_verify.world.formats.flaws import Flaws
 from topo_verify.world.rooted_map import World
 
@@ -74,7 +74,7 @@ def as_world(
     *,
     name: str = "",
     marker: DrawnEnd | None = None,
-    largest_part: Tell | None = None,
+    largest_part: Note | None = None,
 ) -> W:
     """The world of the drawing; `nodes` by their ids, the rest as for `embedding.as_world`."""
     number: dict[Any, int] = {}
@@ -229,13 +229,14 @@ def _holds_numbers(value: Any) -> bool:
 
 def _has_points(value: Any) -> bool:
     try:
-        first = list(value)[:2]
-        rows = [[*row.values()] if isinstance(row, Mapping) else list(row) for row in first]
-        return len(rows) > 1 and all(
-            len(row) > 1 and all(_is_number(x) for x in row) for row in rows
-        )
+        rows = [_values(row) for row in list(value)[:2]]
     except TypeError:
         return False
+    return len(rows) > 1 and all(len(row) > 1 and all(map(_is_number, row)) for row in rows)
+
+
+def _values(row: Any) -> list[Any]:
+    return list(cast("Mapping[str, Any]", row).values() if isinstance(row, Mapping) else row)
 
 
 def _is_number(value: Any) -> bool:

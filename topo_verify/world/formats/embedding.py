@@ -24,8 +24,8 @@ W = TypeVar("W", bound=World)
 
 Point = tuple[float, float]
 
-Tell = Callable[[str], None]
-"""Is told a sentence about what was read."""
+Note = Callable[[str], None]
+"""A function that is called with a sentence about what was read."""
 
 MOST_EDGES = 500_000
 
@@ -64,7 +64,7 @@ def as_world(
     *,
     name: str = "",
     marker: DrawnEnd | None = None,
-    largest_part: Tell | None = None,
+    largest_part: Note | None = None,
 ) -> W:
     """The world of the drawing; by default the marker is the first dart of the first place.
 
@@ -220,7 +220,7 @@ def _require_connected(
 
 
 def _largest_part(
-    places: Sequence[DrawnVertex], ways: Sequence[DrawnEdge], source: str, tell: Tell
+    places: Sequence[DrawnVertex], ways: Sequence[DrawnEdge], source: str, tell: Note
 ) -> tuple[Sequence[DrawnVertex], Sequence[DrawnEdge]]:
     """The part with the most vertices, the first of several; what is left out is told."""
     largest, *others = _parts(places, ways)

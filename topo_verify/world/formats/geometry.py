@@ -100,10 +100,11 @@ def _parts(geometry: Any, subject: str, kind: str) -> list[_Rows]:
     while waiting:
         value = waiting.pop()
         value = getattr(value, "__geo_interface__", value)
+        fields = _fields(value)
         if isinstance(value, str):
             parts += _text_parts(value, subject, kind)
-        elif isinstance(value, Mapping) and "type" in value:
-            name, inside = str(value["type"]), value.get("geometries", value.get("coordinates"))
+        elif "type" in fields:
+            name, inside = str(fields["type"]), fields.get("geometries", fields.get("coordinates"))
             if name == "GeometryCollection":
                 waiting += row_of(inside, subject)[::-1]
             else:
@@ -165,11 +166,17 @@ def _point(row: Sequence[object], subject: str, most: int) -> Point:
 
 def row_of(value: Any, subject: str) -> list[Any]:
     """The values in a row of any kind; a point may be a mapping with x and y."""
-    if isinstance(value, Mapping) and {"x", "y"} <= value.keys():
-        value = value["x"], value["y"]
+    fields = _fields(value)
+    if {"x", "y"} <= fields.keys():
+        return [fields["x"], fields["y"]]
     if not isinstance(value, str | bytes | Mapping):
         with suppress(TypeError):  # numpy's arrays without a dimension
             return list(cast("Iterable[Any]", value))
     raise InputError(
-        f"{subject} is {shown(repr(value), limit=60)}, expected x and y in a row, or such rows"
+        f"{subject} is {shown(repr(cast('object', value)), limit=60)}, expected x and y in a row,"
+        " or such rows"
     )
+
+
+def _fields(value: object) -> Mapping[str, Any]:
+    return cast("Mapping[str, Any]", value) if isinstance(value, Mapping) else {}

@@ -25,7 +25,7 @@ from msgspec import UNSET, Meta, UnsetType
 from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import drawn_graph, rotated, world_json
 from topo_verify.world.formats.drawn_graph import GraphEdge
-from topo_verify.world.formats.embedding import Tell
+from topo_verify.world.formats.embedding import Note
 from topo_verify.world.formats.flaws import Flaws
 from topo_verify.world.formats.rotated import RotatedEdge, RotatedVertex
 from topo_verify.world.rooted_map import World
@@ -90,7 +90,7 @@ def decode(
     *,
     name: str = "node-link JSON",
     stem: str = "",
-    largest_part: Tell | None = None,
+    largest_part: Note | None = None,
 ) -> W:
     """The world in the text; `largest_part` as for `embedding.as_world`."""
     text = world_json.utf8_text(text, name)
@@ -120,7 +120,7 @@ def decode(
         ) from error
 
 
-def _drawn(cls: type[W], data: _Drawing, name: str, stem: str, largest_part: Tell | None) -> W:
+def _drawn(cls: type[W], data: _Drawing, name: str, stem: str, largest_part: Note | None) -> W:
     flaws = Flaws(name)
     rotated.require_no_rotation(data.nodes, source=name)
     nodes: dict[Any, dict[str, Any]] = {}
@@ -136,9 +136,10 @@ def _drawn(cls: type[W], data: _Drawing, name: str, stem: str, largest_part: Tel
     edges: list[GraphEdge] = []
     for place, edge in enumerate(data.edges or data.links or ()):
         with flaws:
-            ends = [_key(edge, side, f"{name}: edge {place}") for side in ("source", "target")]
-            key = [edge["key"]] if "key" in edge else []
-            edges.append(GraphEdge(*ends, edge, data.directed, (*ends, *key)))
+            subject = f"{name}: edge {place}"
+            start, end = (_key(edge, side, subject) for side in ("source", "target"))
+            label = (start, end, *([edge["key"]] if "key" in edge else []))
+            edges.append(GraphEdge(start, end, edge, data.directed, label))
     return drawn_graph.as_world(cls, nodes, edges, flaws, name=stem, largest_part=largest_part)
 
 
@@ -151,7 +152,7 @@ def _key(fields: Mapping[str, Any], field: str, subject: str) -> Any:
 def _hashable(value: Any, subject: str) -> Any:
     """The id, a list of it as a tuple."""
     if isinstance(value, list):
-        return tuple(_hashable(part, subject) for part in cast("list[Any]", value))
+        return tuple(_hashable(part, subject) for part in cast("Any", value))
     if isinstance(value, dict):
         raise InputError(
             f"{subject} is an object, expected an id: a number, a text, true, false, null, or a"

@@ -96,13 +96,7 @@ def from_planar_embedding(
     import networkx as nx
 
     source = "the planar embedding"
-    if not isinstance(embedding, nx.PlanarEmbedding):
-        raise InputError(
-            f"{source}: expected a networkx.PlanarEmbedding, got"
-            f" {shown(repr(cast('object', embedding)), limit=60)}; networkx.check_planarity(graph)"
-            " returns whether the graph is planar, and its embedding, or None if it is not; a graph"
-            " with positions is read by from_positions"
-        )
+    _require_embedding(embedding)
     given = cast("Any", embedding)
     try:
         given.check_structure()
@@ -123,6 +117,18 @@ def from_planar_embedding(
         )
     except InputError as error:
         raise InputError(f"{source}: {error}") from error
+
+
+def _require_embedding(embedding: object) -> None:
+    import networkx as nx
+
+    if not isinstance(embedding, nx.PlanarEmbedding):
+        raise InputError(
+            "the planar embedding: expected a networkx.PlanarEmbedding, got"
+            f" {shown(repr(embedding), limit=60)}; networkx.check_planarity(graph)"
+            " returns whether the graph is planar, and its embedding, or None if it is not; a graph"
+            " with positions is read by from_positions"
+        )
 
 
 def to_planar_embedding(world: World) -> nx.PlanarEmbedding[int]:
@@ -173,7 +179,7 @@ def from_positions(
     labels = list(given.edges(keys=True)) if given.is_multigraph() else list(given.edges())
     edges = (
         drawn_graph.GraphEdge(
-            *label[:2], given.edges[label], directed=given.is_directed(), label=label
+            label[0], label[1], given.edges[label], directed=given.is_directed(), label=label
         )
         for label in labels
     )

@@ -15,7 +15,7 @@ from typing import TypeVar
 
 from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import embedding, geometry, markup
-from topo_verify.world.formats.embedding import DrawnEdge, DrawnVertex, Tell
+from topo_verify.world.formats.embedding import DrawnEdge, DrawnVertex, Note
 from topo_verify.world.formats.flaws import Flaws
 from topo_verify.world.rooted_map import World
 
@@ -28,7 +28,7 @@ def decode(
     *,
     name: str = "SUMO network",
     stem: str = "",
-    largest_part: Tell | None = None,
+    largest_part: Note | None = None,
 ) -> W:
     """The world in the bytes; `largest_part` as for `embedding.as_world`."""
     flaws = Flaws(name)
