@@ -62,6 +62,10 @@ class InputError(ShortTraceback, TopoVerifyError, ValueError):
         super().__init__(shown(sentence, limit=LINE))
 
 
+class WriteError(InputError):
+    """A file, or standard output, cannot be written; what was found by then is still reported."""
+
+
 class ExaminationInterrupted(ShortTraceback, KeyboardInterrupt):
     """Ctrl-C during `explore` or `examine`; a notebook shows where your code was."""
 

@@ -54,9 +54,7 @@ def _blocks(entry: SearchEntry) -> Iterator[Block]:
 def _as_text(entry: SearchEntry) -> str:
     from topo_verify.report.terminal import pretty
 
-    out = StringIO()
-    pretty(_blocks(entry), out, plain=True)
-    return out.getvalue().rstrip()
+    return pretty(_blocks(entry), StringIO(), plain=True).rstrip()
 
 
 def _as_html(entry: SearchEntry) -> str:

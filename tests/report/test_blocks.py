@@ -21,9 +21,7 @@ class Terminal(StringIO):
 
 
 def printed(*blocks: bl.Block, out: StringIO | None = None) -> str:
-    out = StringIO() if out is None else out
-    pretty(blocks, out)
-    return out.getvalue()
+    return pretty(blocks, StringIO() if out is None else out)
 
 
 def test_long_texts_are_wrapped_and_command_lines_are_not() -> None:

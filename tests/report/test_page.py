@@ -93,7 +93,7 @@ def test_it_says_how_much_was_judged_and_what_was_not() -> None:
     assert '<td class="failed">failed</td><td class="number">3 of 3</td>' in page
     assert '<td class="open">? UNKNOWN</td>' in page
     assert '<td>not-declared</td><td class="number">0 of 3</td>' in page
-    assert "The run was interrupted: the rest was not judged." in page
+    assert "Not complete: interrupted: the rest was not judged." in page
     assert "interrupted" not in report_page(account(exhibit=False), RUN)
 
 

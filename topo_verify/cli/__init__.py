@@ -1,5 +1,6 @@
 """The command line: one file a command; arguments, progress, printing and exit codes.
 
+front.py      the process that the user starts, and its child
 runs.py       worlds as the user names them; judged runs and walks as shown
 options.py    options that commands share, and the stores that they name
 output.py     results on stdout and in files
@@ -11,7 +12,6 @@ import errno
 import os
 import platform
 import shlex
-import signal
 import sys
 import traceback
 from collections.abc import Iterator, Mapping, Sequence
@@ -24,7 +24,9 @@ from typing import IO, Any, NoReturn, TextIO
 import click
 from click.shell_completion import shell_complete
 
+from topo_verify.cli import front
 from topo_verify.errors import LINE, InputError, shown
+from topo_verify.programs import interruption
 from topo_verify.programs.isolation import own_arguments
 
 __all__ = ["main"]
@@ -232,41 +234,67 @@ class CommandLine(click.Group):
     ) -> NoReturn:
         """Run the command line and exit."""
         name = prog_name or "topo-verify"
-        if args is None:
-            own_arguments()  # hide them from mappers in other processes
-            # As Ctrl-C: finished work is kept and printed; exit code 3.
-            signal.signal(signal.SIGTERM, signal.default_int_handler)
         if instruction := os.environ.get(_COMPLETE):
             sys.exit(shell_complete(self, extra, name, _COMPLETE, instruction))
-        sys.exit(self._code(list(sys.argv[1:] if args is None else args), name, extra))
+        if args is not None:
+            sys.exit(self._code(list(args), name, extra))
+        _open_closed_streams()
+        own_arguments()  # hide them from mappers in other processes
+        sys.exit(front.run(lambda: self._code(sys.argv[1:], name, extra), say))
 
     def _code(self, arguments: list[str], name: str, extra: dict[str, Any]) -> int:
         try:
+            _require_stdout()
             # A copy: click empties the list, which reports still need.
             with self.make_context(name, arguments.copy(), obj=arguments, **extra) as context:
                 code = self.invoke(context)
+            interruption.end()
         except click.exceptions.Exit as done:
             code = done.exit_code
         except (click.Abort, KeyboardInterrupt):
-            say("topo-verify: interrupted before the first result")
-            code = ExitCode.INCOMPLETE
+            code = _interrupted()
         except BrokenPipeError:  # --help was cut off
             silence(sys.stdout)
             code = ExitCode.NOTHING_FOUND
         except Exception as error:  # noqa: BLE001  all are reported
-            code = explain(error, arguments)
+            interruption.end()
+            # A signal may have become another exception on its way.
+            code = _interrupted() if interruption.is_noted() else explain(error, arguments)
         return _flushed(int(code))
 
 
-def _flushed(code: int) -> int:
+def _require_stdout() -> None:
     out: TextIO | None = sys.stdout  # it is None after >&-
+    if out is None:
+        raise InputError("standard output is closed: open it, or send it to a file")
+
+
+def _interrupted() -> ExitCode:
+    interruption.end()
+    say("topo-verify: interrupted before the first result")
+    return ExitCode.INCOMPLETE
+
+
+def _open_closed_streams() -> None:
+    """Put the null device in the place of a closed stream, before another file takes its number."""
+    for place in range(3):
+        try:
+            os.fstat(place)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)
+    if sys.stderr is None:
+        sys.stderr = os.fdopen(2, "w", encoding="utf-8")
+
+
+def _flushed(code: int) -> int:
+    interruption.end()
     try:
-        if out is not None:
-            out.flush()
+        if code != ExitCode.BAD_INPUT:
+            sys.stdout.flush()
     except BrokenPipeError:
-        silence(out)
+        silence(sys.stdout)
     except OSError as error:
-        silence(out)
+        silence(sys.stdout)
         say(f"topo-verify: cannot write to standard output: {error.strerror}")
         return ExitCode.BAD_INPUT
     return code

@@ -180,6 +180,7 @@ def explore(
 
     def explored() -> Iterator[Result[ExploreEntry]]:
         targets = on_engine(engine, mappers.load(), limits)
+        output.require_places(trace=trace, svg=svg)
         if everywhere:
             _require_one_marker({"--trace": trace, "--player": player, "--gap": gap})
         starts = runs.named_worlds(worlds, marker if isinstance(marker, int) else None)
@@ -252,12 +253,14 @@ def _results(
                 output.progress(f"{target.text} in {at.name}", next(number), total)
                 first = results.get(place.world.code) if asked.everywhere else None
                 if first is None:
-                    result = _explored(output, place, target, asked, played)
+                    result, run = _explored(output, place, target, asked, played)
                     results[place.world.code] = result
+                    yield result
+                    _write_run(asked, run, played[-1])
                 else:
                     result = replace(first, entry=_as_at(place, first.entry))
+                    yield result
                 entries.append(result.entry)
-                yield result
             if asked.everywhere and asked.svg is not None:
                 _write_heat_map(output, asked.svg, at, target, entries)
     finally:  # an interrupt keeps the runs that are done
@@ -271,26 +274,31 @@ def _explored(
     target: Target,
     asked: _ExploreOptions,
     played: list[PlayedRun],
-) -> Result[ExploreEntry]:
-    def kept(run: Exploration) -> Exploration:
-        if asked.trace is not None:
-            files.write(asked.trace, write_trace(run.kept_trace).decode())
-        return run if asked.choices is None else asked.choices.checked(run)
-
+) -> tuple[Result[ExploreEntry], Exploration]:
+    choices = asked.choices
     run, report, incomplete = runs.judged(
-        target, at, asked.limits, strict=asked.strict, before_judging=kept
+        target,
+        at,
+        asked.limits,
+        strict=asked.strict,
+        before_judging=lambda run: run if choices is None else choices.checked(run),
     )
-    if asked.choices is not None:
-        report = asked.choices.named(report, asked.limits)
+    if choices is not None:
+        report = choices.named(report, asked.limits)
     output.found.keep(report)
     played.append(PlayedRun(run.algorithm, run.trace, report.judgements, run.stopped))
+    return _result(run, at, report, asked, incomplete=incomplete), run
+
+
+def _write_run(asked: _ExploreOptions, run: Exploration, played: PlayedRun) -> None:
+    if asked.trace is not None:
+        files.write(asked.trace, write_trace(run.kept_trace).decode())
     if asked.svg is not None and not asked.everywhere:
         from topo_verify.player.animation import animated_svg
         from topo_verify.player.scenes import Playback
 
-        playback = Playback(at.world, run.trace, report.judgements, run.stopped)
+        playback = Playback(run.world, run.trace, played.judgements, run.stopped)
         files.write(asked.svg, animated_svg(playback, name=run.algorithm))
-    return _result(run, at, report, asked, incomplete=incomplete)
 
 
 def _placed(at: runs.NamedWorld) -> Iterator[runs.NamedWorld]:

@@ -1,9 +1,10 @@
 """Runs a command, prints its results on stdout, and derives its exit code.
 
 A command is a generator of `Result`s. `Output.run` keeps what it yielded before Ctrl-C or a
-broken pipe, and prints one of three forms: `pretty` for people, `json` (docs/semantics.md,
-section 16), `markdown`. What a mapper prints goes to stderr. Files of --report, --junit and
---badge are checked before the work begins, and written at the end, each whole or not at all.
+broken pipe in an `Outcome`. Exit code, first line, JSON and files are functions of that: files of
+--report, --junit and --badge are written first, each whole or not at all, then one of three forms
+on stdout: `pretty` for people, `json` (docs/semantics.md, section 16), `markdown`. What a mapper
+prints goes to stderr.
 """
 
 from __future__ import annotations
@@ -13,8 +14,7 @@ import os
 import platform
 import shlex
 import sys
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from functools import cached_property
@@ -22,7 +22,7 @@ from importlib import metadata
 from pathlib import Path
 from threading import Lock, Timer
 from time import perf_counter
-from typing import IO, TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import click
 import msgspec
@@ -30,7 +30,8 @@ import msgspec
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli import ExitCode, say, silence, version
 from topo_verify.cli.runs import FoundRuns
-from topo_verify.errors import InputError, plural, shown
+from topo_verify.errors import InputError, WriteError, plural, shown
+from topo_verify.programs import interruption
 from topo_verify.report import account as acc
 from topo_verify.report.badge import badge
 from topo_verify.report.blocks import Block, Cell, Raw, Text, TextTable
@@ -65,21 +66,39 @@ class Result(Generic[E]):
 
 
 @dataclass
-class _Done(Generic[E]):
+class Outcome(Generic[E]):
+    """The results of a command, and what is missing; exit code and verdict are functions of it.
+
+    Attributes:
+        finished: all that was asked for was tried.
+        unwritten: why files, or standard output, could not be written, a sentence each.
+    """
+
     results: list[Result[E]] = field(default_factory=list[Result[E]])
     seconds: list[float] = field(default_factory=list[float])
     finished: bool = False
+    unwritten: list[str] = field(default_factory=list[str])
 
     @property
     def entries(self) -> list[E]:
+        """The entries of the results."""
         return [result.entry for result in self.results]
 
     @property
     def code(self) -> ExitCode:
+        """The exit code of the command."""
         if any(result.failed for result in self.results):
             return ExitCode.CLAIM_FAILED
+        if self.unwritten:
+            return ExitCode.BAD_INPUT
         complete = self.finished and not any(result.incomplete for result in self.results)
         return ExitCode.NOTHING_FOUND if complete else ExitCode.INCOMPLETE
+
+    def extent(self, judged: acc.JudgedExtent) -> acc.JudgedExtent:
+        """The extent of the results, with the verdict of the exit code."""
+        words = judged.words + ("" if self.finished else ", interrupted")
+        words += ", not written everywhere" if self.unwritten else ""
+        return acc.JudgedExtent(_VERDICTS.get(self.code, judged.verdict), words)
 
 
 @dataclass(frozen=True)
@@ -139,15 +158,18 @@ class Output:
     def __init__(self, style: str, *, quiet: bool) -> None:
         self.timing: dict[str, Any] = {}
         self.style, self.quiet = style, quiet
-        self.stdout: IO[str] = sys.stdout or _nowhere()
+        self.stdout = sys.stdout
+        self._is_read_no_more = False
         self.progress = ProgressBar(quiet=quiet)
         self._files: list[tuple[str, str]] = []
 
     def ask(self, **files: str | None) -> None:
         """Have files written at the end, each keyed by its option of `FORMS`."""
-        named = [(f"--{option}", name) for option, name in files.items() if name is not None]
-        _require_files(named)
-        self._files += named
+        self._files += _places(files)
+
+    def require_places(self, **files: str | None) -> None:
+        """Raise InputError if one of these files, keyed by its option, cannot be written."""
+        _places(files)
 
     @property
     def exhibits(self) -> bool:
@@ -186,19 +208,17 @@ class Output:
             extent: how much was done before Ctrl-C; default: the number of results.
             more: further fields of the JSON envelope.
         """
-        done: _Done[E] = _Done()
+        outcome: Outcome[E] = Outcome()
         # JSON and Markdown are one document each.
         live = live if self.style == "pretty" else None
 
         def accounted(account: Callable[[Sequence[E]], acc.Account]) -> acc.Account:
-            """The account with the verdict of the exit code."""
-            summary = account(done.entries)
-            words = summary.extent.words + ("" if done.finished else ", interrupted")
+            summary = account(outcome.entries)
             return replace(
                 summary,
                 about=summary.about or command,  # no entry names a mapper
-                extent=acc.JudgedExtent(_VERDICTS.get(done.code, summary.extent.verdict), words),
-                blocks=summary.blocks or tuple(show(done.entries)),
+                extent=outcome.extent(summary.extent),
+                blocks=summary.blocks or tuple(show(outcome.entries)),
                 exhibits=self.found.exhibits,
                 left_out=self.found.left_out,
             )
@@ -207,115 +227,136 @@ class Output:
             if account is not None and self.style == "markdown":
                 summary = accounted(account)
                 yield Text(f"{summary.extent.verdict}: {summary.about}, {summary.extent.words}")
-            yield from (live.end if live else show)(done.entries)
+            yield from (live.end if live else show)(outcome.entries)
             yield from self.found.blocks() if walk else ()
             if more.get("in_process"):
                 yield Text("")
                 yield Text("In process: a mapper of your own could see what judges it.")
 
-        begin = perf_counter()
-        try:
-            if live is not None:
-                self._pretty(live.head)
-            self._collect(done, results(), live)
-            self._print(command, done, last(), perf_counter() - begin, more)
-            if not done.finished:
-                words = extent(done.entries) if extent else plural(len(done.results), "result")
-                say(f"topo-verify: interrupted after {words}")
-        except _ReaderGone:
-            pass  # files are still written
-        if account is not None and self._files:
+        def text() -> str:
+            if self.style != "json":
+                return self._text(last())
+            envelope = {
+                "format": f"topo-verify/{command}",
+                "version": VERSION,
+                "tool": version(),
+                "ok": outcome.code == 0,
+                "exit": int(outcome.code),
+                **more,
+                "results": msgspec.to_builtins(outcome.entries),
+                "timing": {"seconds": seconds, "results": outcome.seconds, **self.timing},
+            }
+            return json.dumps(envelope) + "\n"
+
+        def page(option: str) -> str:
+            assert account is not None, "only a command with an account has --report"
             ending = acc.Ending(
                 command=command,
                 again=command_line(click.get_current_context().obj or ()),
-                code=int(done.code),
-                finished=done.finished,
+                code=int(outcome.code),
+                finished=outcome.finished,
+                unwritten=tuple(outcome.unwritten),
                 date=datetime.now(UTC),
-                seconds=perf_counter() - begin,
-                by_suite=done.seconds,
+                seconds=seconds,
+                by_suite=outcome.seconds,
                 timing=self.timing,
                 versions=versions(),
             )
-            summary = accounted(account)
-            for option, name in self._files:
-                files.write(name, FORMS[option](summary, ending))
-        return done.code
+            return FORMS[option](accounted(account), ending)
 
-    def _collect(self, done: _Done[E], results: Iterator[Result[E]], live: Live[E] | None) -> None:
         begin = perf_counter()
+        self._collect(outcome, results, live)
+        interruption.end()
+        seconds = perf_counter() - begin
+        self._write(outcome, page, text)
+        for sentence in outcome.unwritten:
+            say(f"topo-verify: {sentence}")
+        if not (outcome.finished or self._is_read_no_more):
+            words = extent(outcome.entries) if extent else plural(len(outcome.results), "result")
+            say(f"topo-verify: interrupted after {words}")
+        return outcome.code
+
+    def _collect(
+        self,
+        outcome: Outcome[E],
+        results: Callable[[], Iterator[Result[E]]],
+        live: Live[E] | None,
+    ) -> None:
         try:
-            for result in results:
-                done.results.append(result)
-                done.seconds.append(perf_counter() - begin)
+            if live is not None:
+                self._print(self._text(live.head))
+            begin = perf_counter()
+            for result in results():
+                outcome.results.append(result)
+                outcome.seconds.append(perf_counter() - begin)
                 if live is not None:
                     self.progress.clear()
-                    self._pretty(live.each(result.entry))
+                    self._print(self._text(live.each(result.entry)))
                 begin = perf_counter()
-            done.finished = True
-        except KeyboardInterrupt:
+            interruption.check()
+            outcome.finished = True
+        except (KeyboardInterrupt, _ReaderGone):
             pass
+        except WriteError as error:
+            if not outcome.results:
+                raise
+            outcome.unwritten.append(str(error))
+        except Exception:
+            if not interruption.is_noted():
+                raise
         finally:
             self.progress.clear()
 
-    def _print(
-        self,
-        command: str,
-        done: _Done[E],
-        blocks: Iterable[Block],
-        seconds: float,
-        more: dict[str, Any],
+    def _write(
+        self, outcome: Outcome[E], page: Callable[[str], str], text: Callable[[], str]
     ) -> None:
-        if self.style == "pretty":
-            self._pretty(blocks)
-            return
-        with _reader(self.stdout, "utf-8") as out:
-            if self.style == "json":
-                envelope = {
-                    "format": f"topo-verify/{command}",
-                    "version": VERSION,
-                    "tool": version(),
-                    "ok": done.code == 0,
-                    "exit": int(done.code),
-                    **more,
-                    "results": msgspec.to_builtins(done.entries),
-                    "timing": {"seconds": seconds, "results": done.seconds, **self.timing},
-                }
-                out.write(json.dumps(envelope) + "\n")
+        """Write the files, then standard output; all again if one fails, since that is exit 2.
+
+        What a pipe has received cannot be taken back, so pipes come last.
+        """
+        todo = sorted(self._files, key=lambda file: Path(file[1]).is_fifo())
+        while True:
+            pages = [page(option) for option, _ in todo]
+            printed = "" if self._is_read_no_more else text()
+            for file, content in zip(tuple(todo), pages, strict=True):
+                try:
+                    files.write(file[1], content)
+                except WriteError as error:
+                    outcome.unwritten.append(str(error))
+                    todo.remove(file)
+                    break
             else:
-                out.write(markdown(blocks))
+                try:
+                    return self._print(printed)
+                except _ReaderGone:
+                    return None
+                except WriteError as error:
+                    outcome.unwritten.append(str(error))
+                    self._is_read_no_more = True
 
-    def _pretty(self, blocks: Iterable[Block]) -> None:
-        blocks = tuple(blocks)
-        is_data = any(isinstance(block, Raw) for block in blocks)
-        with _reader(self.stdout, "utf-8" if is_data else None) as out:
-            pretty(blocks, out)
+    def _text(self, blocks: Iterable[Block]) -> str:
+        return markdown(blocks) if self.style == "markdown" else pretty(blocks, self.stdout)
 
-
-@contextmanager
-def _reader(out: IO[str], encoding: str | None = None) -> Generator[IO[str]]:
-    """Standard output, in this encoding; by default in the locale's."""
-    if (reconfigure := getattr(out, "reconfigure", None)) is not None:
-        # for an encoding without one of our letters
-        reconfigure(encoding=encoding, errors="backslashreplace")
-    try:
-        yield out
-        out.flush()  # at Python's exit a failure could not be reported
-    except BrokenPipeError:
-        silence(out)
-        raise _ReaderGone from None
-    except OSError as error:
-        silence(out)
-        raise InputError(f"cannot write to standard output: {error.strerror}") from error
+    def _print(self, text: str) -> None:
+        out = self.stdout
+        if (reconfigure := getattr(out, "reconfigure", None)) is not None:
+            reconfigure(errors="backslashreplace")  # an encoding without one of our letters
+        try:
+            out.write(text)
+            out.flush()  # at Python's exit a failure could not be reported
+        except BrokenPipeError:
+            silence(out)
+            self._is_read_no_more = True
+            raise _ReaderGone from None
+        except OSError as error:
+            silence(out)
+            raise WriteError(f"cannot write to standard output: {error.strerror}") from error
 
 
 _VERDICTS: dict[ExitCode, Verdict] = {
     ExitCode.CLAIM_FAILED: "REFUTED",
     ExitCode.INCOMPLETE: "UNKNOWN",
 }
-
-
-def _nowhere() -> IO[str]:
-    return Path(os.devnull).open("w", encoding="utf-8")
 
 
 DELAY = 1.0
@@ -336,7 +377,8 @@ class ProgressBar:
         self._bar: Bar | None = None
 
     def __call__(self, task: str, done: int, total: int) -> None:
-        """Show the current task, the steps done and their total."""
+        """Show the current task, the steps done and their total; KeyboardInterrupt if it is due."""
+        interruption.check()
         if not self._wanted:
             return
         self._state = (task, done, total)
@@ -404,7 +446,8 @@ FORMS: dict[str, Callable[[acc.Account, acc.Ending], str]] = {
 }
 
 
-def _require_files(named: Sequence[tuple[str, str]]) -> None:
+def _places(files: Mapping[str, str | None]) -> list[tuple[str, str]]:
+    named = [(f"--{option}", name) for option, name in files.items() if name is not None]
     for option, name in named:
         if (objection := _objection(name)) is not None:
             raise InputError(f"{option} {shown(name)}: {objection}; name a file to be written")
@@ -413,6 +456,7 @@ def _require_files(named: Sequence[tuple[str, str]]) -> None:
     if len(set(regular)) < len(regular):
         options = " and ".join(option for option, _ in named)
         raise InputError(f"expected different files for {options}: one would overwrite the other")
+    return named
 
 
 def _objection(name: str) -> str | None:

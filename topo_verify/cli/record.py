@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 import click
+import msgspec
 
 from topo_verify.campaign.campaign import MAX_TIMEOUTS
 from topo_verify.campaign.row import Row
@@ -12,7 +13,7 @@ from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import finding_blocks
-from topo_verify.errors import plural
+from topo_verify.errors import WriteError, plural
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.baseline import record as study
@@ -55,6 +56,7 @@ def record(
     """Run a mapper in every world of a corpus and write its costs, decisions and maps to a file."""
 
     def recorded() -> Iterator[Result[study.RecordEntry]]:
+        output.require_places(out=out)
         texts = worlds or DEFAULT
         corpus = corpus_from(texts, seed=seed)
         failing: list[Row] = []
@@ -75,10 +77,15 @@ def record(
             baseline = study.record(target, corpus, rows, worlds=texts, seed=seed, limits=limits)
         # A partial baseline would make later comparisons look complete.
         whole = len(baseline.entries) == total
-        if whole:
-            files.write(out, encode(baseline))
         entry = study.recorded(baseline, target, failing, out if whole else None)
-        yield Result(entry, failed=entry.wrong > 0, incomplete=entry.undecided > 0)
+        failed, incomplete = entry.wrong > 0, entry.undecided > 0
+        try:
+            if whole:
+                files.write(out, encode(baseline))
+        except WriteError:  # claims that fail are shown all the same
+            yield Result(msgspec.structs.replace(entry, file=None), failed, incomplete)
+            raise
+        yield Result(entry, failed, incomplete)
 
     return output.run("record", recorded, _show, seed=seed, in_process=mappers.in_process)
 
@@ -101,4 +108,4 @@ def _show(entries: Sequence[study.RecordEntry]) -> Iterator[Block]:
             yield Text(f"written: {entry.file}")
         else:
             times = f"{MAX_TIMEOUTS} time-outs"
-            yield Text(f"No baseline was written: the mapper was stopped after {times}.")
+            yield Text(f"No baseline was written: {times}, or no room for the file.")

@@ -18,6 +18,7 @@ from typing import NamedTuple, TypeVar
 
 from topo_verify import errors
 from topo_verify.errors import LINE, InputError, shown
+from topo_verify.programs import interruption
 from topo_verify.programs.loaded import is_users
 from topo_verify.robot.events import Finish, MapData
 from topo_verify.robot.limits import MapperStopped, TimeLimitExceeded
@@ -56,6 +57,17 @@ def deliver(
         MapperStopped: the robot or a limit stopped the mapper.
         KeyboardInterrupt: Ctrl-C, unless `alone`; also exceptions of test tools.
     """
+    try:
+        return _deliver(mapper, robot, alone)
+    finally:
+        interruption.check()  # a signal that the mapper caught, or took for an error of its own
+
+
+def _deliver(
+    mapper: Callable[[R], object],
+    robot: R,
+    alone: bool,  # noqa: FBT001  as in `deliver`
+) -> Finish | Undelivered:
     try:
         result = mapper(robot)
     except BaseException as raised:

@@ -127,6 +127,7 @@ class Ending:
     Attributes:
         again: the command line that repeats the run.
         date: the end in UTC.
+        unwritten: why files could not be written, a sentence each.
         by_suite: the seconds of each suite, if known.
         timing: other figures that differ from run to run, possibly nested.
     """
@@ -137,9 +138,18 @@ class Ending:
     finished: bool
     date: datetime
     seconds: float
+    unwritten: Sequence[str] = ()
     by_suite: Sequence[float] = ()
     timing: Mapping[str, Any] = field(default_factory=dict[str, Any])
     versions: Mapping[str, str] = field(default_factory=dict[str, str])
+
+    @property
+    def missing(self) -> list[JudgedCase]:
+        """A case for each thing that keeps the run from its end."""
+        unwritten = [
+            JudgedCase("written", "UNKNOWN", "undecided", message=m) for m in self.unwritten
+        ]
+        return [*([] if self.finished else [UNFINISHED]), *unwritten]
 
 
 _OUTCOMES: dict[Status, Outcome] = {

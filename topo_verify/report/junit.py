@@ -15,21 +15,20 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from topo_verify.report.account import UNFINISHED, Account, Ending, JudgedCase, JudgedSuite, Outcome
+from topo_verify.report.account import Account, Ending, JudgedCase, JudgedSuite, Outcome
 from topo_verify.report.html import xml_text
 
 _CHILD: dict[Outcome, str] = {"failed": "failure", "undecided": "error", "not-judged": "skipped"}
 
 
 def junit(account: Account, run: Ending) -> str:
-    """The account as JUnit XML, with a further case if the run did not finish."""
+    """The account as JUnit XML, with a further case for each thing that the run lacks."""
     suites = list(account.suites)
     times = [run.seconds] if len(suites) == 1 else list(run.by_suite)
     if len(times) != len(suites):
         times = [0.0] * len(suites)
-    if not run.finished or not suites:
-        case = UNFINISHED if not run.finished else NOTHING
-        suites.append(JudgedSuite("the run", (case,)))
+    if missing := run.missing or ([] if suites else [NOTHING]):
+        suites.append(JudgedSuite("the run", tuple(missing)))
         times.append(0.0)
     lines = ['<?xml version="1.0" encoding="UTF-8"?>', "<testsuites>"]
     for number, (suite, seconds) in enumerate(zip(suites, times, strict=True)):

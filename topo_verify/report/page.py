@@ -23,7 +23,7 @@ from topo_verify.player.page import (
     squeezed,
 )
 from topo_verify.player.recording import recording
-from topo_verify.report.account import UNFINISHED, Account, Ending, Exhibit, JudgedCase, JudgedSuite
+from topo_verify.report.account import Account, Ending, Exhibit, JudgedCase, JudgedSuite
 from topo_verify.report.blocks import PALETTE, TONES, clean
 from topo_verify.report.html import blocks_as_html, code, picture, toned, xml_text
 from topo_verify.world.rooted_map import World
@@ -34,6 +34,7 @@ MOST_DRAWN = 200
 EXITS = {
     0: "nothing found in what was checked",
     1: "a claim fails, or something is not as expected",
+    2: "not everything could be written",
     3: "incomplete; what was not decided is no pass",
 }
 
@@ -90,7 +91,7 @@ def _header(account: Account, run: Ending) -> str:
             f'<p class="verdict {TONES[extent.verdict]}"><span class="letter"><span>{letter}</span>'
             f"</span> {extent.verdict}: {words}</p>"
         )
-    unfinished = "" if run.finished else f"<p>The run was {xml_text(UNFINISHED.message)}.</p>\n"
+    missing = "".join(f"<p>Not complete: {xml_text(case.message)}.</p>\n" for case in run.missing)
     found = {"counterexamples": "Counterexamples"} if account.exhibits else {}
     results, judged = {"results": "Results"}, {"judged": "What was judged"}
     worlds = {"worlds": "Worlds"} if account.others else {}
@@ -102,7 +103,7 @@ def _header(account: Account, run: Ending) -> str:
     menu = " ".join(f'<a href="#{name}">{title}</a>' for name, title in links.items())
     return (
         f"<h1>topo-verify {xml_text(run.command)}: {xml_text(clean(account.about))}</h1>\n"
-        f"{headline}\n{unfinished}"
+        f"{headline}\n{missing}"
         f"<p>Exit code {run.code}: {EXITS[run.code]}.</p>\n"
         f"{_again(run.again)}\n<nav>{menu}</nav>"
     )

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
+from io import StringIO
 from typing import IO, TYPE_CHECKING
 
 from topo_verify.errors import LINE, shown
@@ -27,25 +28,27 @@ LEAST_REST = 20
 """Least width of a column of width 0."""
 
 
-def pretty(blocks: Iterable[bl.Block], out: IO[str], *, plain: bool = False) -> None:
-    """Print the blocks to a terminal's width, else to COLUMNS, else to 80 columns.
+def pretty(blocks: Iterable[bl.Block], out: IO[str], *, plain: bool = False) -> str:
+    """The blocks as text for a terminal's width, else for COLUMNS, else for 80 columns.
 
     `plain`: without colours, whatever FORCE_COLOR says.
     """
     console = None
+    lines: list[str] = []
     for block in blocks:
         if isinstance(block, bl.PictureBlock):
             continue
         if isinstance(block, bl.Raw):
-            out.write(block.text + "\n")  # not by Rich, which would wrap it and takes its time
+            lines.append(block.text)  # not by Rich, which would wrap it and takes its time
             continue
         console = console or _console(out, plain=plain)
         if isinstance(block, bl.View):
-            out.writelines(f"{line}\n" for line in block.lines(console.width))
+            lines += block.lines(console.width)
             continue
         with console.capture() as printed:
             _print(block, console)
-        out.writelines(f"{line.rstrip()}\n" for line in printed.get().splitlines())
+        lines += (line.rstrip() for line in printed.get().splitlines())
+    return "".join(f"{line}\n" for line in lines)
 
 
 def _console(out: IO[str], *, plain: bool) -> Console:
@@ -53,7 +56,8 @@ def _console(out: IO[str], *, plain: bool) -> Console:
 
     wide = None if out.isatty() else _columns()
     return Console(
-        file=out,
+        file=StringIO(),  # Rich writes to it, though all is captured
+        force_terminal=out.isatty() or None,
         width=wide,
         color_system=None if plain else "auto",
         highlight=False,

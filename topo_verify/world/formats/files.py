@@ -17,7 +17,7 @@ from pathlib import Path
 from secrets import token_hex
 from typing import IO, TextIO
 
-from topo_verify.errors import InputError, shown
+from topo_verify.errors import InputError, WriteError, shown
 
 LIMIT = 64 * 2**20
 """Bytes: twice a world of a million darts with positions."""
@@ -134,7 +134,7 @@ def write(path: str | PathLike[str], text: str | bytes) -> None:
         else:
             _replace(target, data)
     except (OSError, ValueError) as error:
-        raise InputError(
+        raise WriteError(
             f"cannot write {shown(path)}: {_reason(error)}; name a file that can be written"
         ) from error
 
