@@ -70,10 +70,16 @@ class Outcome(Generic[E]):
     """The results of a command, and what is missing; exit code and verdict are functions of it.
 
     Attributes:
+        more: further fields of the JSON envelope.
+        timing: figures that differ from run to run.
         finished: all that was asked for was tried.
         unwritten: why files, or standard output, could not be written, a sentence each.
     """
 
+    command: str
+    more: dict[str, Any]
+    timing: dict[str, Any]
+    begin: float = field(default_factory=perf_counter)
     results: list[Result[E]] = field(default_factory=list[Result[E]])
     seconds: list[float] = field(default_factory=list[float])
     finished: bool = False
@@ -99,6 +105,38 @@ class Outcome(Generic[E]):
         words = judged.words + ("" if self.finished else ", interrupted")
         words += ", not written everywhere" if self.unwritten else ""
         return acc.JudgedExtent(_VERDICTS.get(self.code, judged.verdict), words)
+
+    @property
+    def json(self) -> str:
+        """The object that --format json prints."""
+        took = perf_counter() - self.begin
+        envelope = {
+            "format": f"topo-verify/{self.command}",
+            "version": VERSION,
+            "tool": version(),
+            "ok": self.code == 0,
+            "exit": int(self.code),
+            **self.more,
+            "results": msgspec.to_builtins(self.entries),
+            "timing": {"seconds": took, "results": self.seconds, **self.timing},
+        }
+        return json.dumps(envelope) + "\n"
+
+    @property
+    def ending(self) -> acc.Ending:
+        """What files say beside the account."""
+        return acc.Ending(
+            command=self.command,
+            again=command_line(click.get_current_context().obj or ()),
+            code=int(self.code),
+            finished=self.finished,
+            unwritten=tuple(self.unwritten),
+            date=datetime.now(UTC),
+            seconds=perf_counter() - self.begin,
+            by_suite=self.seconds,
+            timing=self.timing,
+            versions=versions(),
+        )
 
 
 @dataclass(frozen=True)
@@ -208,7 +246,7 @@ class Output:
             extent: how much was done before Ctrl-C; default: the number of results.
             more: further fields of the JSON envelope.
         """
-        outcome: Outcome[E] = Outcome()
+        outcome: Outcome[E] = Outcome(command, more, self.timing)
         # JSON and Markdown are one document each.
         live = live if self.style == "pretty" else None
 
@@ -233,42 +271,17 @@ class Output:
                 yield Text("")
                 yield Text("In process: a mapper of your own could see what judges it.")
 
-        def text() -> str:
-            if self.style != "json":
-                return self._text(last())
-            envelope = {
-                "format": f"topo-verify/{command}",
-                "version": VERSION,
-                "tool": version(),
-                "ok": outcome.code == 0,
-                "exit": int(outcome.code),
-                **more,
-                "results": msgspec.to_builtins(outcome.entries),
-                "timing": {"seconds": seconds, "results": outcome.seconds, **self.timing},
-            }
-            return json.dumps(envelope) + "\n"
+        def pages() -> list[str]:
+            if account is None or not self._files:
+                return []
+            summary, ending = accounted(account), outcome.ending
+            return [FORMS[option](summary, ending) for option, _ in self._files]
 
-        def page(option: str) -> str:
-            assert account is not None, "only a command with an account has --report"
-            ending = acc.Ending(
-                command=command,
-                again=command_line(click.get_current_context().obj or ()),
-                code=int(outcome.code),
-                finished=outcome.finished,
-                unwritten=tuple(outcome.unwritten),
-                date=datetime.now(UTC),
-                seconds=seconds,
-                by_suite=outcome.seconds,
-                timing=self.timing,
-                versions=versions(),
-            )
-            return FORMS[option](accounted(account), ending)
-
-        begin = perf_counter()
         self._collect(outcome, results, live)
         interruption.end()
-        seconds = perf_counter() - begin
-        self._write(outcome, page, text)
+        self._write(
+            outcome, pages, lambda: outcome.json if self.style == "json" else self._text(last())
+        )
         for sentence in outcome.unwritten:
             say(f"topo-verify: {sentence}")
         if not (outcome.finished or self._is_read_no_more):
@@ -308,22 +321,21 @@ class Output:
             self.progress.clear()
 
     def _write(
-        self, outcome: Outcome[E], page: Callable[[str], str], text: Callable[[], str]
+        self, outcome: Outcome[E], pages: Callable[[], list[str]], text: Callable[[], str]
     ) -> None:
         """Write the files, then standard output; all again if one fails, since that is exit 2.
 
         What a pipe has received cannot be taken back, so pipes come last.
         """
-        todo = sorted(self._files, key=lambda file: Path(file[1]).is_fifo())
+        self._files.sort(key=lambda file: Path(file[1]).is_fifo())
         while True:
-            pages = [page(option) for option, _ in todo]
-            printed = "" if self._is_read_no_more else text()
-            for file, content in zip(tuple(todo), pages, strict=True):
+            contents, printed = pages(), "" if self._is_read_no_more else text()
+            for file, content in zip(tuple(self._files), contents, strict=bool(contents)):
                 try:
                     files.write(file[1], content)
                 except WriteError as error:
                     outcome.unwritten.append(str(error))
-                    todo.remove(file)
+                    self._files.remove(file)
                     break
             else:
                 try:
@@ -332,7 +344,6 @@ class Output:
                     return None
                 except WriteError as error:
                     outcome.unwritten.append(str(error))
-                    self._is_read_no_more = True
 
     def _text(self, blocks: Iterable[Block]) -> str:
         return markdown(blocks) if self.style == "markdown" else pretty(blocks, self.stdout)
@@ -344,12 +355,11 @@ class Output:
         try:
             out.write(text)
             out.flush()  # at Python's exit a failure could not be reported
-        except BrokenPipeError:
-            silence(out)
-            self._is_read_no_more = True
-            raise _ReaderGone from None
         except OSError as error:
             silence(out)
+            self._is_read_no_more = True
+            if isinstance(error, BrokenPipeError):
+                raise _ReaderGone from None
             raise WriteError(f"cannot write to standard output: {error.strerror}") from error
 
 

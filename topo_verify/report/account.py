@@ -16,10 +16,10 @@ from topo_verify.player.recording import PlayedRun
 from topo_verify.report.blocks import Block, Tone
 from topo_verify.world.rooted_map import World
 
-Outcome = Literal["passed", "failed", "undecided", "not-judged"]
+CaseOutcome = Literal["passed", "failed", "undecided", "not-judged"]
 """`undecided` is no pass; `not-judged` is neither pass nor failure."""
 
-TONE_OF: dict[Outcome, Tone | None] = {
+TONE_OF: dict[CaseOutcome, Tone | None] = {
     "passed": "held",
     "failed": "failed",
     "undecided": "open",
@@ -40,7 +40,7 @@ class JudgedCase:
 
     name: str
     verdict: str
-    outcome: Outcome
+    outcome: CaseOutcome
     judged: str = ""
     message: str = ""
     again: str = ""
@@ -152,7 +152,7 @@ class Ending:
         return [*([] if self.finished else [UNFINISHED]), *unwritten]
 
 
-_OUTCOMES: dict[Status, Outcome] = {
+_OUTCOMES: dict[Status, CaseOutcome] = {
     "ok": "passed",
     "failed": "failed",
     "undecided": "undecided",
@@ -193,7 +193,7 @@ def verdict_case(
     name: str, verdict: str, judged: str = "", message: str = "", again: str = ""
 ) -> JudgedCase:
     """A case with this verdict, where REFUTED is a failure."""
-    outcomes: dict[str, Outcome] = {"REFUTED": "failed", "UNKNOWN": "undecided"}
+    outcomes: dict[str, CaseOutcome] = {"REFUTED": "failed", "UNKNOWN": "undecided"}
     return JudgedCase(name, verdict, outcomes.get(verdict, "passed"), judged, message, again)
 
 

@@ -15,10 +15,14 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from topo_verify.report.account import Account, Ending, JudgedCase, JudgedSuite, Outcome
+from topo_verify.report.account import Account, CaseOutcome, Ending, JudgedCase, JudgedSuite
 from topo_verify.report.html import xml_text
 
-_CHILD: dict[Outcome, str] = {"failed": "failure", "undecided": "error", "not-judged": "skipped"}
+_CHILD: dict[CaseOutcome, str] = {
+    "failed": "failure",
+    "undecided": "error",
+    "not-judged": "skipped",
+}
 
 
 def junit(account: Account, run: Ending) -> str:
