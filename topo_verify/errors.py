@@ -1,7 +1,7 @@
 """Exceptions, grouped by who must act, and words for messages.
 
 The command line exits with 2 for `InputError`, 1 for `ClaimFailed`, 3 for `ClaimUndecided` and
-70 for `InternalError`.
+`HelperLost`, 70 for `InternalError`.
 """
 
 from __future__ import annotations
@@ -79,6 +79,10 @@ class ClaimUndecided(TopoVerifyError, AssertionError):
 
     If that does not matter, catch it: `pytest.skip`, or `hypothesis.reject`.
     """
+
+
+class HelperLost(TopoVerifyError):
+    """A process of topo-verify was ended from outside, so nothing more is decided."""
 
 
 class InternalError(TopoVerifyError):

@@ -12,6 +12,7 @@
     resumed.py      resumed runs with other options: refused, or as from the start
     forged.py       mappers that write messages of the protocol: always a finding
     intrusion.py    a mapper that attacks the processes that judge it
+    endings.py      signals at random moments: every form of the end agrees with the exit code
     kills.py        signals at random moments: nothing lost, nothing wrong afterwards
     trial.py        a command line in a forked process, and objections to its end
     mutations.py    changes of bytes, lines, JSON, XML and numbers
@@ -39,6 +40,7 @@ from time import monotonic
 os.environ |= {"OPENBLAS_NUM_THREADS": "1", "NO_COLOR": "1"}  # before numpy is imported
 
 import caches
+import endings
 import flips
 import forged
 import intrusion
@@ -53,11 +55,11 @@ from readers import Count
 
 KEEP = Path("torture-failures").resolve()
 TRIALS = {"readers": 400, "bit flips": 3000, "programs": 40, "messages": 40}
-TRIALS |= {"intrusion": 8, "kills": 9, "resumed": 30, "caches": 100}
+TRIALS |= {"intrusion": 8, "kills": 9, "endings": 8, "resumed": 30, "caches": 100}
 """The trials of each row of a part with --scale 1."""
 
 PIECE = {"readers": 50, "bit flips": 100, "programs": 2, "messages": 2}
-PIECE |= {"intrusion": 2, "kills": 3, "resumed": 3, "caches": 25}
+PIECE |= {"intrusion": 2, "kills": 3, "endings": 4, "resumed": 3, "caches": 25}
 """Trials of a worker at a time; every third of a piece kills a helper."""
 
 
@@ -103,6 +105,9 @@ def rows(seed: int, scale: float) -> Iterator[Row]:
     yield Row("messages", "forged messages", [partial(forged.trials, one) for one in several])
     several = cut("intrusion", seeds("intrusion", "intruder", 10**3))
     yield Row("intrusion", "an intruder", [partial(intrusion.trials, one) for one in several])
+    for name in endings.COMMANDS:
+        several = cut("endings", seeds("endings", name, 10**4))
+        yield Row("endings", name, [partial(endings.trials, name, one) for one in several])
     for name in kills.COMMANDS:
         several = cut("kills", seeds("kills", name, 10**3))
         yield Row("kills", name, [partial(kills.trials, name, one) for one in several])

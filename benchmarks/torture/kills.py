@@ -18,6 +18,7 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -79,8 +80,13 @@ START = (
 
 def start(name: str) -> subprocess.Popen[str]:
     """A command in the current folder that has begun."""
+    return begin((*COMMANDS[name].words, "--format", "json"))
+
+
+def begin(arguments: Sequence[str]) -> subprocess.Popen[str]:
+    """A command with these arguments in the current folder that has begun."""
     Path("begun").unlink(missing_ok=True)
-    words = (sys.executable, "-c", START, *COMMANDS[name].words, "--format", "json")
+    words = (sys.executable, "-c", START, *arguments)
     with Path("out").open("w") as out, Path("err").open("w") as err:
         process = subprocess.Popen(  # noqa: S603  our own program
             words, stdout=out, stderr=err, text=True, start_new_session=True

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from tests.programs.programs import ran
-from topo_verify import InputError
+from topo_verify.errors import HelperLost
 from topo_verify.programs import launcher
 from topo_verify.programs.launcher import launch, prepare
 
@@ -104,7 +104,7 @@ def test_a_launcher_that_is_killed_is_replaced_until_a_program_was_started() -> 
     killed = launcher._launcher()._process
     killed.kill()
     killed.wait()
-    with pytest.raises(InputError, match="was killed, and none can be started beside a mapper"):
+    with pytest.raises(HelperLost, match="was killed, and none can be started beside a mapper"):
         launch("tasks:ends")
 
 

@@ -13,7 +13,6 @@ A lost worker means the same in every study:
 from __future__ import annotations
 
 import re
-import signal
 import sys
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -34,7 +33,8 @@ from topo_verify.campaign.run import on_engine
 from topo_verify.campaign.tally import Counts, Tally, notable
 from topo_verify.campaign.work import Division, Loss, Remote, Work
 from topo_verify.campaign.worker import Beat, Handler, WorkerProcess
-from topo_verify.errors import InputError
+from topo_verify.errors import HelperLost, InputError
+from topo_verify.programs import interruption
 from topo_verify.programs.foreign import Unlisted
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loaded import Loaded, watch
@@ -270,7 +270,7 @@ def serve(job: bytes) -> Generator[Handler]:
 
     InputError: a mapper cannot be loaded, or its source has changed.
     """
-    signal.signal(signal.SIGTERM, lambda _signal, _frame: sys.exit(1))  # through this context
+    interruption.end_at_sigterm()
     given = msgspec.json.decode(job, type=CampaignJob)
     if given.depends is not None:
         watch()
@@ -351,7 +351,8 @@ def _split(shard: c.Shard, cuts: Sequence[int]) -> list[c.Shard]:
 def _lost(campaign: c.Campaign, shard: c.Shard, loss: Loss) -> c.ShardResult:
     """The result of a shard of at most one world that was lost with its last worker."""
     if loss.loading:
-        raise InputError(
+        was_ended = loss.maybe_external and loss.silence is None
+        raise (HelperLost if was_ended else InputError)(
             f"target {campaign.mappers[0]!r}: a process that loads it ends ({loss.cause})"
         )
     if calls_native(campaign):

@@ -6,7 +6,6 @@ Jobs, tasks and results are JSON data, opaque to this file.
 from __future__ import annotations
 
 import os
-import signal
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -23,8 +22,8 @@ def processors() -> int:
     return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
 
 
-KILLED = f"signal {signal.SIGKILL.value}"
-"""The exit status in words of a process that SIGKILL ended."""
+FROM_OUTSIDE = {f"signal {number}" for number in (1, 2, 3, 9, 15)}  # HUP, INT, QUIT, KILL, TERM
+"""The exit statuses in words of a process that another one may have ended."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +45,7 @@ class Loss:
     @property
     def maybe_external(self) -> bool:
         """Whether something else may have ended it, e.g. the out-of-memory killer."""
-        return self.silence is not None or self.status == KILLED
+        return self.silence is not None or self.status in FROM_OUTSIDE
 
     @property
     def cause(self) -> str:

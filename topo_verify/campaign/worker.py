@@ -39,6 +39,7 @@ from typing import Any, BinaryIO
 import msgspec
 
 from topo_verify.errors import InputError
+from topo_verify.programs import interruption
 from topo_verify.programs.launcher import launch
 from topo_verify.robot.stopwatch import Stopwatch, tasks_of
 
@@ -257,6 +258,11 @@ def main(commands: BinaryIO, out: BinaryIO, heartbeat: int) -> None:
         _work(function_at(serve)(bytes(job)), lines, send, Heartbeat(heartbeat))
     except ConnectionError:
         pass  # the parent is gone, and needs no result
+    except (SystemExit, KeyboardInterrupt):
+        if not interruption.is_noted():
+            raise
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        signal.raise_signal(signal.SIGTERM)  # the status says what ended it
     except InputError as error:
         send(WorkerFailed(str(error), bug=False))
     except Exception:  # noqa: BLE001  the parent gets it

@@ -25,7 +25,7 @@ import click
 from click.shell_completion import shell_complete
 
 from topo_verify.cli import front
-from topo_verify.errors import LINE, InputError, shown
+from topo_verify.errors import LINE, HelperLost, InputError, shown
 from topo_verify.programs import interruption
 from topo_verify.programs.isolation import own_arguments
 
@@ -87,9 +87,9 @@ def silence(stream: IO[str] | None) -> None:
 
 def explain(error: Exception, arguments: Sequence[str]) -> ExitCode:
     """Print on stderr why a command ended and how to mend it; return the exit code."""
-    if isinstance(error, InputError):
+    if isinstance(error, InputError | HelperLost):
         say(f"topo-verify: {error}")
-        return ExitCode.BAD_INPUT
+        return ExitCode.BAD_INPUT if isinstance(error, InputError) else ExitCode.INCOMPLETE
     if isinstance(error, click.exceptions.NoArgsIsHelpError):
         click.echo(error.message, err=True)
         return ExitCode.BAD_INPUT

@@ -237,7 +237,7 @@ def _account(entries: Sequence[Comparison]) -> acc.Account:
 
 def _cases(entry: Comparison) -> Iterator[acc.JudgedCase]:
     def case(
-        name: str, number: int, of: int, first: Change | None, outcome: acc.Outcome = "failed"
+        name: str, number: int, of: int, first: Change | None, outcome: acc.CaseOutcome = "failed"
     ) -> acc.JudgedCase:
         return acc.JudgedCase(
             name,

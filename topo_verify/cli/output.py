@@ -30,7 +30,7 @@ import msgspec
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli import ExitCode, say, silence, version
 from topo_verify.cli.runs import FoundRuns
-from topo_verify.errors import InputError, WriteError, plural, shown
+from topo_verify.errors import HelperLost, InputError, WriteError, plural, shown
 from topo_verify.programs import interruption
 from topo_verify.report import account as acc
 from topo_verify.report.badge import badge
@@ -314,6 +314,8 @@ class Output:
             if not outcome.results:
                 raise
             outcome.unwritten.append(str(error))
+        except HelperLost as error:
+            say(f"topo-verify: {error}")
         except Exception:
             if not interruption.is_noted():
                 raise

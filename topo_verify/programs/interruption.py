@@ -35,6 +35,17 @@ def listen() -> None:
     sys.unraisablehook = _lost
 
 
+def end_at_sigterm() -> None:
+    """Let SIGTERM end this worker through its contexts, by SystemExit."""
+    signal.signal(signal.SIGTERM, _leave)
+    sys.unraisablehook = _lost
+
+
+def _leave(_number: int, _frame: FrameType | None) -> None:
+    _State.noted = True
+    raise SystemExit
+
+
 def _note(_number: int, _frame: FrameType | None) -> None:
     if _State.ended:
         return

@@ -34,7 +34,7 @@ import threading
 from collections.abc import Sequence
 from contextlib import suppress
 
-from topo_verify.errors import InputError, InternalError
+from topo_verify.errors import HelperLost, InternalError
 from topo_verify.programs import isolation
 
 _ORDER = struct.Struct("=qcq")
@@ -74,7 +74,7 @@ def launch(place: str, *files: int, folder: str | None = None) -> Launched:
     Args:
         folder: where it runs; default: the current folder.
     Raises:
-        InputError: the launcher was killed after a program was started.
+        HelperLost: the launcher was killed after a program was started.
         OSError: the system starts no process.
     """
     ours, theirs = socket.socketpair()
@@ -182,7 +182,7 @@ def _launcher() -> _Launcher:
             if not last.lost:
                 return last
             if last.foreign:
-                raise InputError(
+                raise HelperLost(
                     "the process that starts workers was killed, and none can be started beside"
                     " a mapper: start the command again"
                 )
