@@ -24,7 +24,7 @@ from typing import Generic, Self
 
 import msgspec
 
-from topo_verify.campaign.work import FROM_OUTSIDE, Loss, Piece, Pieces, ResultT, TaskT, Work
+from topo_verify.campaign.work import BY_SIGNAL, Loss, Piece, Pieces, ResultT, TaskT, Work
 from topo_verify.campaign.worker import TaskDone, WorkerFailed, WorkerProcess, WorkerReady
 from topo_verify.errors import InputError, InternalError
 
@@ -147,7 +147,7 @@ class Pool(Generic[TaskT, ResultT]):
         if worker.ready:
             piece.whole.losses.append((piece.task, loss))
         # one that dies while it loads would die with any piece, unless something else killed it
-        was_killed = status in FROM_OUTSIDE and silence is None
+        was_killed = status in BY_SIGNAL and silence is None
         if (worker.ready or was_killed) and piece.deaths < self._work.attempts:
             self._pieces.queue.appendleft(piece)
             return

@@ -12,6 +12,8 @@ from dataclasses import dataclass, field
 from itertools import chain
 from typing import Any, Generic, TypeVar
 
+from topo_verify.programs.interruption import FROM_OUTSIDE
+
 TaskT = TypeVar("TaskT")
 ResultT = TypeVar("ResultT")
 
@@ -22,8 +24,8 @@ def processors() -> int:
     return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
 
 
-FROM_OUTSIDE = {f"signal {number}" for number in (1, 2, 3, 9, 15)}  # HUP, INT, QUIT, KILL, TERM
-"""The exit statuses in words of a process that another one may have ended."""
+BY_SIGNAL = {f"signal {number.value}" for number in FROM_OUTSIDE}
+"""The exit statuses in words of a process that another one ended."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +47,7 @@ class Loss:
     @property
     def maybe_external(self) -> bool:
         """Whether something else may have ended it, e.g. the out-of-memory killer."""
-        return self.silence is not None or self.status in FROM_OUTSIDE
+        return self.silence is not None or self.status in BY_SIGNAL
 
     @property
     def cause(self) -> str:

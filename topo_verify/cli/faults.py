@@ -143,7 +143,9 @@ def _account(entries: Sequence[study.Caught], checks: str) -> acc.Account:
 
 
 def _case(entry: study.Caught, checks: str) -> acc.JudgedCase:
-    outcome: acc.CaseOutcome = "passed" if entry.ok else "undecided" if entry.undecided else "failed"
+    outcome: acc.CaseOutcome = (
+        "passed" if entry.ok else "undecided" if entry.undecided else "failed"
+    )
     words = {"passed": "caught", "failed": "missed", "undecided": "undecided"}
     if entry.harmless:
         words |= {"passed": "not flagged", "failed": "flagged"}

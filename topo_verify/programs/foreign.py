@@ -18,10 +18,11 @@ from typing import ClassVar, TypeVar
 
 import msgspec
 
-from topo_verify.errors import InputError
+from topo_verify.errors import HelperLost, InputError
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import Child, Ended, ReaperProcess, Silent, TooLong
 from topo_verify.programs.delivery import users_line
+from topo_verify.programs.interruption import FROM_OUTSIDE
 from topo_verify.programs.isolation import python_command
 from topo_verify.programs.library import LIBRARY, library_file
 from topo_verify.programs.loaded import Loaded
@@ -52,6 +53,8 @@ LONGEST = 2**26
 _from_child: msgspec.json.Decoder[ms.FromChild] = msgspec.json.Decoder(ms.FromChild)
 _from_loading: msgspec.json.Decoder[ms.FromLoading] = msgspec.json.Decoder(ms.FromLoading)
 _from_stock: msgspec.json.Decoder[ms.FromStock] = msgspec.json.Decoder(ms.FromStock)
+
+_FROM_OUTSIDE = {number.name for number in FROM_OUTSIDE}
 
 _OVER = msgspec.json.encode(ms.OverMessage()) + b"\n"
 
@@ -154,11 +157,12 @@ class Foreign(Program):
 
     def _started(self, reaper: ReaperProcess) -> Child:
         child = Child(self.command, reaper, longest=self.longest, echo=self.text)
-        why: Misbehaved | InputError
+        why: Misbehaved | InputError | HelperLost
         try:
             answer = self._answer(child, _from_loading, "was loaded")
         except Misbehaved as wrong:
-            why = wrong if self._was_loaded else InputError(f"target {self.text!r}: {wrong}")
+            unloaded = HelperLost if wrong.signal in _FROM_OUTSIDE else InputError
+            why = wrong if self._was_loaded else unloaded(f"target {self.text!r}: {wrong}")
         except BaseException:
             child.end()
             raise
@@ -183,7 +187,9 @@ class Foreign(Program):
             why = error
         else:
             return message
-        raise Misbehaved(why.kind, str(why).replace("the program", "its process", 1))
+        raise Misbehaved(
+            why.kind, str(why).replace("the program", "its process", 1), signal=why.signal
+        )
 
 
 def _users_line(stack: bytes) -> str:

@@ -13,8 +13,11 @@ from time import monotonic
 from types import FrameType
 
 SIGNALS = [signal.SIGINT, signal.SIGTERM]
+FROM_OUTSIDE = [signal.SIGTERM]
 if sys.platform != "win32":
     SIGNALS.append(signal.SIGHUP)
+    FROM_OUTSIDE = [*SIGNALS, signal.SIGQUIT, signal.SIGKILL]
+"""The signals that tell nothing of the process that they end: another one sent them."""
 
 TOGETHER = 1.0
 """Seconds in which several signals count as one: a terminal signals a command and its parent."""
