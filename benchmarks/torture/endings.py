@@ -97,9 +97,7 @@ def _made() -> dict[str, bytes]:
     """The files that commands read."""
     with TemporaryDirectory() as folder:
         _prepare(folder)
-        return {
-            name: Path(name).read_bytes() for name in ("mapper.py", "baseline.gz", "run.jsonl")
-        }
+        return {name: Path(name).read_bytes() for name in ("mapper.py", "baseline.gz", "run.jsonl")}
 
 
 def _enter(folder: str) -> None:

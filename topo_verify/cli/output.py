@@ -367,6 +367,7 @@ class Output:
 
 _VERDICTS: dict[ExitCode, Verdict] = {
     ExitCode.CLAIM_FAILED: "REFUTED",
+    ExitCode.BAD_INPUT: "UNKNOWN",  # not all could be written
     ExitCode.INCOMPLETE: "UNKNOWN",
 }
 

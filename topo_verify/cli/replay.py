@@ -133,15 +133,15 @@ def replay(
         kernel = _judged_in_coq(output, report) if proved else None
         if trace is not None and _is_log(report):
             report = _of_a_log(report, "the log" if subject == "-" else Path(subject).name)
-        if player is not None and report.run is not None:
-            run = report.run
-            played = PlayedRun(report.target, tuple(run.trace), report.judgements, run.stopped)
-            runs.write_page(player, run.world, report.world, [played])
         reports.append(report)
         ok = not report.findings and not incomplete
         incomplete = incomplete or (kernel is not None and bool(kernel.why))
         entry = entry_of(ReplayEntry, report, ok=ok, trace=trace, stopped=stopped, kernel=kernel)
         yield Result(entry, failed=bool(report.findings), incomplete=incomplete)
+        if player is not None and report.run is not None:
+            run = report.run
+            played = PlayedRun(report.target, tuple(run.trace), report.judgements, run.stopped)
+            runs.write_page(player, run.world, report.world, [played])
 
     asked = Extent(0, to_end=True) if everything else Extent(first, to_end=first is not None)
     return output.run(

@@ -23,6 +23,8 @@ _z3: Any = import_module("z3")
 
 Z3Setup = Literal["quantified", "ground", "clauses"]
 
+_CTRL_C = "interrupted from keyboard"
+
 _LOGIC = {"ground": "QF_UF", "clauses": "QF_FD"}
 
 
@@ -89,8 +91,10 @@ class Z3Question:
             self._solver.assert_and_track(assertion, label)
 
     def check(self, assumed: Mapping[str, bool] | None = None) -> SolverAnswer:
-        """The answer if these Booleans have these values."""
+        """The answer if these Booleans have these values; KeyboardInterrupt at Ctrl-C."""
         result = self._solver.check(*starmap(self._literal, (assumed or {}).items()))
+        if result == _z3.unknown and self._solver.reason_unknown() == _CTRL_C:
+            raise KeyboardInterrupt  # Z3 heeds the signal itself, so Python does not see it
         if result == _z3.sat:
             self._answer = "sat"
         else:
