@@ -198,6 +198,7 @@ class Output:
         self.style, self.quiet = style, quiet
         self.stdout = sys.stdout
         self._is_read_no_more = False
+        self._prints_data = style != "pretty"
         self.progress = ProgressBar(quiet=quiet)
         self._files: list[tuple[str, str]] = []
 
@@ -348,12 +349,17 @@ class Output:
                     outcome.unwritten.append(str(error))
 
     def _text(self, blocks: Iterable[Block]) -> str:
+        blocks = tuple(blocks)
+        self._prints_data |= any(isinstance(block, Raw) for block in blocks)
         return markdown(blocks) if self.style == "markdown" else pretty(blocks, self.stdout)
 
     def _print(self, text: str) -> None:
+        """Write to standard output: data as UTF-8, text for people in the locale's encoding."""
         out = self.stdout
         if (reconfigure := getattr(out, "reconfigure", None)) is not None:
-            reconfigure(errors="backslashreplace")  # an encoding without one of our letters
+            # for an encoding without one of our letters
+            encoding = "utf-8" if self._prints_data else None
+            reconfigure(encoding=encoding, errors="backslashreplace")
         try:
             out.write(text)
             out.flush()  # at Python's exit a failure could not be reported
