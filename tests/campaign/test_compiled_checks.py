@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
+from msgspec.structs import replace
 
 pytest.importorskip("numba", reason="the compiled engine needs numba")
 
 from tests.compiled.judged import as_judged, sampled
+from tests.compiled.mutations import mutated_traces
 from topo_verify import CATALOGUE, World, explore, families
 from topo_verify.campaign import compiled_checks
 from topo_verify.campaign import judge as judging
@@ -16,7 +20,7 @@ from topo_verify.checkers import check, claims
 from topo_verify.compiled.faults import PLANTED
 from topo_verify.faults import FAULTS
 from topo_verify.programs.loader import Mapper
-from topo_verify.robot.events import Finish
+from topo_verify.robot.events import Confirm, Event, Evidence, Finish, Record, Reject
 
 MAPPERS: dict[str, Mapper | str] = {
     **{name: name for name in CATALOGUE},
@@ -69,10 +73,102 @@ def test_it_agrees_with_the_checkers_in_a_larger_lattice(checks: CompiledChecks,
     require_alike(checks, families.lattice(10, 10), name)
 
 
+@pytest.fixture(scope="module", params=[False, True], ids=["small", "part by part"])
+def each_layout(request: pytest.FixtureRequest) -> CompiledChecks:
+    return CompiledChecks(is_long=request.param, part=3)
+
+
+def require_alike_on_mutated_traces(checks: CompiledChecks, seed: int, number: int) -> None:
+    """Assert that judge and checkers agree on mutated traces, of which few may be left open."""
+    left_open = 0
+    for world, trace in mutated_traces(seed, number):
+        judged = checks.unchecked(world, trace)
+        if judged is None:
+            left_open += 1
+        else:
+            assert as_judged(judged) == as_judged(check(world, trace)), f"{world.name}: {trace}"
+    assert left_open < number / 3
+
+
+def test_it_agrees_with_the_checkers_on_mutated_traces(each_layout: CompiledChecks) -> None:
+    require_alike_on_mutated_traces(each_layout, 1, 1000)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(2, 7))
+def test_it_agrees_with_the_checkers_on_many_mutated_traces(
+    each_layout: CompiledChecks, seed: int
+) -> None:
+    require_alike_on_mutated_traces(each_layout, seed, 4000)
+
+
 @pytest.fixture
 def everything_is_large(monkeypatch: pytest.MonkeyPatch) -> None:
     for module in (claims, judging, compiled_checks):
         monkeypatch.setattr(module, "LARGE", 3)
+
+
+@pytest.mark.usefixtures("everything_is_large")
+def test_where_claim_10_is_not_asked_it_agrees_on_mutated_traces(
+    each_layout: CompiledChecks,
+) -> None:
+    require_alike_on_mutated_traces(each_layout, 7, 1000)
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("everything_is_large")
+@pytest.mark.parametrize("seed", range(8, 13))
+def test_where_claim_10_is_not_asked_it_agrees_on_many_mutated_traces(
+    each_layout: CompiledChecks, seed: int
+) -> None:
+    require_alike_on_mutated_traces(each_layout, seed, 4000)
+
+
+WITH_EVIDENCE = explore("m2/8", "enhancement-ii+i")
+"""A run with a rejection whose evidence cites a dart, and with a reported cost."""
+
+
+@pytest.mark.parametrize(
+    "evidence",
+    [{"sequence": -1}, {"at": -1}, {"record": Record(-1, ())}],
+    ids=lambda e: next(iter(e)),
+)
+def test_evidence_that_cites_minus_1_cites_something(
+    each_layout: CompiledChecks, evidence: dict[str, Any]
+) -> None:
+    trace = [with_evidence(event, evidence) for event in WITH_EVIDENCE.trace]
+    assert each_layout.unchecked(WITH_EVIDENCE.world, trace) is None
+    judgements = each_layout(WITH_EVIDENCE.world, trace, strict=False)
+    assert "rejection-justified" in [j.claim for j in judgements if j.status == "failed"]
+
+
+def with_evidence(event: Event, evidence: dict[str, Any]) -> Event:
+    if isinstance(event, Reject):
+        return replace(event, evidence=replace(event.evidence, **evidence))
+    return event
+
+
+def test_a_reported_cost_of_minus_1_is_a_cost(each_layout: CompiledChecks) -> None:
+    *events, finish = WITH_EVIDENCE.trace
+    assert isinstance(finish, Finish)
+    trace = [*events, replace(finish, cost=-1)]
+    judgements = each_layout(WITH_EVIDENCE.world, trace, strict=False)
+    assert [j.claim for j in judgements if j.status == "failed"] == ["cost-honest"]
+
+
+@pytest.mark.parametrize(
+    "decision",
+    [Confirm(97, 98, "motion"), Reject(97, 98, "motion", Evidence(0)), Confirm(-1, 0, "folding")],
+)
+def test_a_decision_about_no_dart_of_s_leaves_s_proved(
+    each_layout: CompiledChecks, decision: Confirm | Reject
+) -> None:
+    run = explore("m4/167", "folding")
+    for place in range(1, len(run.trace) - 1):
+        trace = [*run.trace[:place], decision, *run.trace[place:]]
+        judged = each_layout.unchecked(run.world, trace)
+        assert judged is not None
+        assert as_judged(judged) == as_judged(check(run.world, trace))
 
 
 @pytest.mark.usefixtures("everything_is_large")

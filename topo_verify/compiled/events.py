@@ -134,7 +134,18 @@ def percept_word(percept: Percept | None) -> int:
     return percept.degree * P + (0 if percept.marker is None else 1 + percept.marker)
 
 
+def _number_word(number: int | None) -> int:
+    if number == ABSENT:
+        raise OverflowError(f"{ABSENT} is the word for no number")
+    return ABSENT if number is None else number
+
+
 def words(events: Iterable[ev.Event]) -> list[int]:
+    """The words of a trace, without its start and its map.
+
+    Raises:
+        OverflowError: a percept or a number fits no word, or is -1, the word for none.
+    """
     row: list[int] = []
     moves: dict[int, tuple[ev.Move, tuple[int, ...]]] = {}  # by identity: most are shared
     for event in events:
@@ -153,7 +164,7 @@ def words(events: Iterable[ev.Event]) -> list[int]:
             case ev.Augment(edge, kind, dart, degree):
                 row += (AUGMENT, edge, 1 + KINDS.index(kind), dart, degree)
             case ev.Finish(cost, _):
-                row += (FINISH, ABSENT if cost is None else cost)
+                row += (FINISH, _number_word(cost))
             case ev.Start():
                 pass
     return row
@@ -171,9 +182,9 @@ def _reject_words(event: ev.Reject) -> tuple[int, ...]:
         why.step,
         percept_word(why.expected),
         percept_word(why.observed),
-        ABSENT if why.sequence is None else why.sequence,
-        ABSENT if why.at is None else why.at,
-        ABSENT if why.record is None else why.record.dart,
+        _number_word(why.sequence),
+        _number_word(why.at),
+        _number_word(None if why.record is None else why.record.dart),
         CONTRADICTIONS.index(why.contradiction or ""),
         len(doors),
         *doors,

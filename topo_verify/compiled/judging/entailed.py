@@ -74,9 +74,10 @@ def conclude_event(run: RunWords, case: CaseWords, event: DecisionWords) -> None
     known = other == drawn.darts if is_new else is_open_on_fold(drawn, other)
     if not known or not is_open_on_fold(drawn, e):
         drawn.unproved = 1
-        drawn.stands = 0
         if kind == REJECT:
             note_rejection(drawn, 0)
+        if kind == AUGMENT:
+            drawn.stands = 0
         return
     if kind == REJECT:
         cited_follows = 1 if rejection.rule >= BY_FOLDING and is_met(run, case, rejection) else 0
