@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 from topo_verify.checkers import CLAIMS, Judgement, Status, check
 from topo_verify.checkers.claims import LARGE
-from topo_verify.compiled.events import words
+from topo_verify.compiled.events import ABSENT, words
 from topo_verify.compiled.explore import place_map, place_world, workspace, write, zeros
 from topo_verify.compiled.judging.layout import JUDGE_SIZE, LONG, LONG_SIZE, CaseWords
 from topo_verify.compiled.judging.verdict import FIRST_PART, LAST_PART, judge_part
@@ -82,7 +82,7 @@ class CompiledChecks:
             len(world.alpha) > layout.constants["WORLD_DARTS"]
             or not (isinstance(start, Start) and start.percept == first_percept(world))
             or not isinstance(finish, Finish)
-            or (finish.cost or 0) < 0
+            or finish.cost == ABSENT
         ):
             return False
         case = CaseWords(self._case)
@@ -90,7 +90,7 @@ class CompiledChecks:
         case.bound, case.delivered = world.cost_bound, 1
         place_world(self._space, layout, world)
         try:
-            case.reported = -1 if finish.cost is None else finish.cost
+            case.reported = ABSENT if finish.cost is None else finish.cost
             return place_map(self._space, layout, finish.map) and self._judge_parts(trace) >= 0
         except (ValueError, OverflowError):
             return False

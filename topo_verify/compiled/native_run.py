@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from topo_verify.compiled import native, tally
 from topo_verify.compiled import workspace as ws
-from topo_verify.compiled.events import decoded
+from topo_verify.compiled.events import ABSENT, decoded
 from topo_verify.compiled.explore import CompiledRun, map_of, place_world, write
 from topo_verify.compiled.kernel import address_of, compiled
 from topo_verify.robot.events import MapData
@@ -184,5 +184,5 @@ def made_by(space: Row, world: World) -> CompiledRun:
         delivered,
         why,
         tuple(decoded(words.tolist())),
-        None if reported < 0 else reported,
+        None if reported == ABSENT else reported,
     )

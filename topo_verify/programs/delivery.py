@@ -23,7 +23,7 @@ from topo_verify.programs.loaded import is_users
 from topo_verify.robot.events import Finish, MapData
 from topo_verify.robot.limits import MapperStopped, TimeLimitExceeded
 from topo_verify.robot.simulator import Misuse
-from topo_verify.world.validation import map_parts, optional_part
+from topo_verify.world.validation import RANGE, is_in_range, map_parts, optional_part
 
 R = TypeVar("R")
 
@@ -183,8 +183,7 @@ def finish_of(result: object) -> Finish:
         raise InputError(
             f"the mapper reports the cost {cost!r}: expected a number of moves or None"
         )
-    if cost is not None and index(cost).bit_length() > 64:
-        # msgspec writes 64 bits; no run has 2^64 moves.
-        raise InputError("the mapper reports a cost of more than 64 bits: expected its moves")
+    if cost is not None and not is_in_range(index(cost)):
+        raise InputError(f"the mapper reports a cost that is not {RANGE}: expected its moves")
     delivered = MapData(tuple(map(tuple, vertices)), tuple(map(tuple, edges)), marker)
     return Finish(None if cost is None else index(cost), delivered)

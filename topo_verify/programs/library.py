@@ -245,7 +245,7 @@ class NativeMapper:
             "vertices": rows,
             "edges": [(d, o) for d, o in enumerate(others) if d < o],
             "marker": None if marker == REFUSED else marker,
-            "cost": None if cost < 0 else cost,
+            "cost": None if cost == REFUSED else cost,
         }
         return 0
 

@@ -22,9 +22,10 @@ from typing import Any, Literal, cast
 import msgspec
 
 from topo_verify.programs.loaded import Loaded
-from topo_verify.robot.events import Decision, MapData, Number
-from topo_verify.robot.percept import Percept, Purpose
+from topo_verify.robot.events import Decision, MapData
+from topo_verify.robot.percept import Door, Percept, Purpose
 from topo_verify.world.formats.world_json import WorldFile
+from topo_verify.world.validation import Number
 
 PROTOCOL: Literal[1] = 1
 """The version of the protocol."""
@@ -75,8 +76,8 @@ class MoveMessage(_Message, frozen=True, gc=False, omit_defaults=True):
     `purpose` says what the move is for; it is recorded, and never needed.
     """
 
-    # No upper bound here: a door that does not exist is the robot's finding, not a malformed line.
-    door: Number
+    # A door that does not exist is the robot's finding, not a malformed line.
+    door: Door
     purpose: Purpose | None = None
 
 
@@ -178,7 +179,7 @@ class BatchRun(msgspec.Struct, frozen=True, omit_defaults=True):
     """
 
     id: str
-    doors: tuple[Number, ...] = ()
+    doors: tuple[Door, ...] = ()
     declare: tuple[BatchDecision, ...] = ()
     map: MapData | None = None
     cost: Number | None = None

@@ -24,8 +24,8 @@
  * by which it was entered. Declarations speak of these darts (docs/semantics.md, section 3). Who
  * declares nothing is judged on percepts, map and cost, and may number darts as it likes.
  *
- * Every number is 64 bits wide and signed; one that is declared lies between -2^62 and 2^62. The
- * functions below are inline: what the library and topo-verify share is `tv_robot` alone.
+ * Every number is 64 bits wide and signed. The functions below are inline: what the library and
+ * topo-verify share is `tv_robot` alone.
  */
 #ifndef TOPO_VERIFY_H
 #define TOPO_VERIFY_H

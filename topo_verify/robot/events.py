@@ -17,15 +17,13 @@ from codecs import BOM_UTF8
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from io import BytesIO
-from typing import Annotated, Any, Literal, Protocol, get_args
+from typing import Any, Literal, Protocol, get_args
 
 import msgspec
 
 from topo_verify.errors import InputError
 from topo_verify.robot.percept import Door, Percept, Purpose
-
-Number = Annotated[int, msgspec.Meta(ge=-(2**62), le=2**62)]
-"""An integer of at most 62 bits; longer ones would flood a message."""
+from topo_verify.world.validation import Number
 
 MapDart = Number
 """A dart of S as a mapper declares it."""

@@ -14,7 +14,9 @@ from typing import Annotated, Literal, get_args
 
 import msgspec
 
-Door = int
+from topo_verify.world.validation import Number
+
+Door = Number
 """0 … degree-1, counted clockwise from the reference dart."""
 
 Purpose = Literal["walk", "cross", "validate", "retrace"]

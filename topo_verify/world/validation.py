@@ -11,9 +11,23 @@ from contextlib import suppress
 from itertools import chain
 from math import isfinite
 from operator import eq, index
-from typing import Any, SupportsIndex, cast
+from typing import Annotated, Any, SupportsIndex, cast
+
+import msgspec
 
 from topo_verify.errors import InputError, plural
+
+LEAST_NUMBER, MOST_NUMBER = -(2**63), 2**63 - 1
+
+Number = Annotated[int, msgspec.Meta(ge=LEAST_NUMBER, le=MOST_NUMBER)]
+"""A dart, door or cost in a map, trace, message or file: 64 bits with a sign."""
+
+RANGE = "from -2^63 to 2^63 - 1"
+
+
+def is_in_range(number: int) -> bool:
+    """Whether this is a `Number`."""
+    return LEAST_NUMBER <= number <= MOST_NUMBER
 
 
 def require_permutations(alpha: Sequence[int], sigma: Sequence[int], root: int | None) -> None:
@@ -162,9 +176,10 @@ def map_parts(map_like: object) -> tuple[list[list[int]], list[list[int]], int |
     vertices, edges, marker = (_part(map_like, name) for name in ("vertices", "edges", "marker"))
     dart = None if marker is None else _integer(marker)
     if marker is not None and dart is None:
+        got = "another one" if type(marker) is int else f"a {type(marker).__name__}"
         raise InputError(
-            "expected a dart (an integer of at most 64 bits) or None as the map's 'marker', got a"
-            f" {type(marker).__name__}: give the number of the dart"
+            f"expected a dart (an integer {RANGE}) or None as the map's 'marker', got"
+            f" {got}: give the number of the dart"
         )
     return _rows("vertices", vertices), _rows("edges", edges), dart
 
@@ -202,14 +217,15 @@ def _rows(name: str, value: object) -> list[list[int]]:
     for place, row in enumerate(given):
         is_set = isinstance(row, AbstractSet)  # has no order
         items = None if name == "vertices" and is_set else _items(row)
-        if items and {int}.issuperset(map(type, items)) and max(*map(abs, items), 0) < 2**64:
+        is_plain = items and {int}.issuperset(map(type, items))
+        if items and is_plain and is_in_range(min(items)) and is_in_range(max(items)):
             rows.append(items)  # the usual case, quickly
             continue
         darts = [dart for item in items or () if (dart := _integer(item)) is not None]
         if items is None or len(darts) < len(items):
             got = f"a {type(row).__name__}" if items is None else "one with something else in it"
             raise InputError(
-                f"expected a list of darts (integers of at most 64 bits) as the map's"
+                f"expected a list of darts (integers {RANGE}) as the map's"
                 f" {name}[{place}], got {got}: give their numbers"
             )
         rows.append(darts)
@@ -227,12 +243,12 @@ def _items(value: object) -> list[Any] | None:
 
 
 def _integer(value: object) -> int | None:
-    """None unless the value is an integer of at most 64 bits."""
+    """None unless the value is an integer in the range of numbers."""
     if type(value) is int:  # no bool
-        return value if value.bit_length() <= 64 else None
+        return value if is_in_range(value) else None
     if isinstance(value, bool) or not hasattr(value, "__index__"):
         return None
     with suppress(TypeError):  # an array of one float
         number = index(cast("SupportsIndex", value))
-        return number if number.bit_length() <= 64 else None
+        return number if is_in_range(number) else None
     return None

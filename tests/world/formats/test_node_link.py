@@ -52,7 +52,7 @@ def test_world_json_says_how_a_file_of_node_link_json_is_called() -> None:
         ('"source":0', '"source":9', "edge 0 has the end 9, expected the id of a node"),
         ('"darts":[0,1]', '"darts":[0,1,2]', r"`array` of length 2.* - at `\$.edges\[0\].darts`"),
         ('"key":0', '"key":' + "[" * 100000, "nested too deeply|not valid JSON"),
-        ('"rotation":[0]', '"rotation":[9007199254740993]', r"`\$.nodes\[0\].rotation"),
+        ('"rotation":[0]', '"rotation":[9223372036854775808]', r"`\$.nodes\[0\].rotation"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_named_with_its_place(old: str, new: str, sentence: str) -> None:

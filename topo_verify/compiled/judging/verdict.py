@@ -90,7 +90,7 @@ def judge_delivery(run: RunWords, case: CaseWords) -> None:
                 unexplored += 1
         if (case.legal != 0 and 0 < unexplored < case.size) or not is_world(run, case):
             case.wrong |= 1 << 4
-    if delivered and case.reported not in (-1, cost):
+    if delivered and case.reported not in (ABSENT, cost):
         case.wrong |= 1 << 5
     if cost > case.bound or (delivered and cost < case.darts // 2):
         case.wrong |= 1 << 6
@@ -252,7 +252,7 @@ def share_out(case: CaseWords) -> None:
     confirmations = case.confirmations
     decisions = rejections + confirmations + case.augmentations
     ended = case.delivered
-    reported = 1 if ended != 0 and case.reported >= 0 else 0
+    reported = 1 if ended != 0 and case.reported != ABSENT else 0
     share(case, 1, case.followed, 1 + case.cost)
     share(case, 2, posed, edges)
     share(case, 3, case.posed - undecided, case.posed + unsettled)

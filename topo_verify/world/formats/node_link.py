@@ -17,10 +17,10 @@ ids. Each of these would be another world in silence.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, TypeVar, cast
+from typing import Any, TypeVar, cast
 
 import msgspec
-from msgspec import UNSET, Meta, UnsetType
+from msgspec import UNSET, UnsetType
 
 from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import drawn_graph, rotated, world_json
@@ -29,25 +29,24 @@ from topo_verify.world.formats.embedding import Note
 from topo_verify.world.formats.flaws import Flaws
 from topo_verify.world.formats.rotated import RotatedEdge, RotatedVertex
 from topo_verify.world.rooted_map import World
+from topo_verify.world.validation import Number
 
 W = TypeVar("W", bound=World)
 
-_SAFE = 2**53
-_FileDart = Annotated[int, Meta(ge=-_SAFE, le=_SAFE)]
 _Id = Any
 
 
 class _Graph(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     format: str
     version: int
-    marker: _FileDart | None = None
+    marker: Number | None = None
     name: str = ""
     source: str = ""
     licence: str = ""
 
 
 class _Node(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    rotation: tuple[_FileDart, ...]
+    rotation: tuple[Number, ...]
     name: str | None = None
     x: float | None = None
     y: float | None = None
@@ -55,7 +54,7 @@ class _Node(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class _Edge(msgspec.Struct, frozen=True, kw_only=True):
-    darts: tuple[_FileDart, _FileDart]
+    darts: tuple[Number, Number]
     source: _Id
     target: _Id
 

@@ -21,14 +21,11 @@ from msgspec import UNSET, Meta, UnsetType
 from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
+from topo_verify.world.validation import Number
 
 W = TypeVar("W", bound=World)
 
 VERSION: Final = 1
-
-_SAFE = 2**53
-
-_FileDart = Annotated[int, Meta(ge=-_SAFE, le=_SAFE)]
 
 
 class WorldFile(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -42,15 +39,15 @@ class WorldFile(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     version: Annotated[Literal[1], Meta(description="the version of this format, 1")]
     name: Annotated[str, Meta(description="a text, what the world is called")] | UnsetType = UNSET
     vertices: Annotated[
-        tuple[tuple[_FileDart, ...], ...],
+        tuple[tuple[Number, ...], ...],
         Meta(description="one list a vertex, its darts (integers) in clockwise order"),
     ]
     edges: Annotated[
-        tuple[tuple[_FileDart, _FileDart], ...],
+        tuple[tuple[Number, Number], ...],
         Meta(description="one list an edge, its two darts (integers)"),
     ]
     marker: Annotated[
-        _FileDart | None,
+        Number | None,
         Meta(description="the dart that the marker points at, null only where there is no dart"),
     ]
     vertex_names: (
