@@ -158,6 +158,7 @@ def test_a_hypothesis_without_a_fate_is_a_finding_of_claim_3(every: int) -> None
     finding = kept.findings[0]
     assert (finding.expected, finding.seen) == ("each rejected", [dropped[0].hypothesis])
     assert "hypotheses are left" in finding.message
+    assert "declare a reject for each" in finding.message
     assert isinstance(trace[-1], ev.Finish)
     assert judgements["rejection-justified"].of == 28
 

@@ -195,7 +195,7 @@ def test_a_log_that_no_world_shows_is_refuted_and_exits_1(call: Call, results: R
     assert (entry["verdict"], entry["witnesses"], entry["open_doors"]) == ("REFUTED", [], [])
     assert (entry["places"], entry["place"]) == ([], None)
     text = " ".join(call("certify false.jsonl").stdout.split())
-    assert "the marker cannot point at door 7 of 2" in text
+    assert "no place behind a door shows (degree 2, marker at door 7)" in text
 
 
 def test_where_only_the_delivered_map_is_wrong_no_reading_is_doubted(call: Call) -> None:

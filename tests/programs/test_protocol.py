@@ -14,6 +14,7 @@ from tests.programs.programs import served
 from tests.versions import older
 from topo_verify import World, explore
 from topo_verify.programs import protocol as ms
+from topo_verify.programs.misbehaviour import Misbehaved, decoded
 from topo_verify.programs.program import Program
 from topo_verify.world.formats import world_json
 
@@ -107,3 +108,10 @@ def test_fields_that_no_schema_lists_are_seen_wherever_they_stand() -> None:
         "$.map.name"
     ]
     assert not unknown_fields({"type": "done", "map": MAP, "cost": 1})
+
+
+def test_the_kinds_of_an_augmentation_are_named() -> None:
+    event = '{"type": "augment", "edge": 0, "kind": "vertex", "dart": 1, "degree": 1}'
+    decode = msgspec.json.Decoder[ms.FromProgram](ms.FromProgram).decode
+    with pytest.raises(Misbehaved, match="new or loop"):
+        decoded(f'{{"type": "declare", "event": {event}}}'.encode(), decode, validate=False)

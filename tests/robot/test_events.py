@@ -209,6 +209,22 @@ def test_numbers_of_any_length_in_unknown_fields_are_ignored() -> None:
     assert ev.read_trace(start) == (ev.Start(percept=Percept(1, 0)),)
 
 
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        (b'{"type": "augment", "edge": 0, "kind": "vertex", "dart": 1, "degree": 1}',
+         "new or loop"),
+        (b'{"type": "confirm", "edge": 0, "hypothesis": 1, "rule": "luck"}', "motion or prefix or"),
+        (b'{"type": "move", "door": 0, "percept": {"degree": 1, "marker": 0}, "purpose": "run"}',
+         "walk or cross or"),
+    ],
+)  # fmt: skip
+def test_the_words_of_a_field_are_named(line: bytes, words: str) -> None:
+    start = b'{"type": "start", "percept": {"degree": 1, "marker": 0}}\n'
+    with pytest.raises(InputError, match=words):
+        ev.read_trace(start + line)
+
+
 def test_policies_print_as_code_that_makes_them_again() -> None:
     chosen = ev.Policies("last", "random(3)")
     assert eval(repr(chosen), {"tv": topo_verify}) == chosen  # noqa: S307  as pasted

@@ -235,6 +235,12 @@ def test_a_reject_without_evidence_is_shown_one(robot: SimulatedRobot, evidence:
     assert len(robot.events) == 1
 
 
+def test_the_kinds_of_an_augmentation_are_named(robot: SimulatedRobot) -> None:
+    event: Any = {"type": "augment", "edge": 0, "kind": "vertex", "dart": 1, "degree": 1}
+    with pytest.raises(Misuse, match="new or loop"):
+        robot.declare(event)
+
+
 def test_a_robot_shows_what_it_senses() -> None:
     robot = SimulatedRobot(World.from_id("m1/0"), 1)
     assert repr(robot.handle) == "<Robot at (degree 1, marker at door 0)>"

@@ -138,7 +138,7 @@ def test_the_digest_names_the_worlds_and_nothing_else() -> None:
         ("drawn:2:king(4,4,seed=1)", "leave out seed="),
         ("drawn:2:queen(4,4)", "no such family of worlds"),
         ("drawn:2:torus(4,4)", "unexpected keyword argument 'seed'"),
-        ("-", "name a file"),
+        ("-", "read only once"),
         ("nowhere", "no such world"),
         ("m3/9999", "m3"),
     ],
@@ -147,6 +147,16 @@ def test_what_names_no_worlds_is_refused(text: str, words: str) -> None:
     with pytest.raises(InputError) as refused:
         corpus_from([text])
     assert words in str(refused.value)
+
+
+@pytest.mark.parametrize("text", ["edges=5", "generated:0", "drawn:king(4,4)", "-", "nowhere"])
+def test_a_refusal_names_every_form(text: str) -> None:
+    with pytest.raises(InputError) as refused:
+        corpus_from([text])
+    for form in ("corpus", "edges<=N", "generated:N:STRATEGY", "drawn:N:FAMILY", "folder", "file"):
+        assert form in str(refused.value)
+    for world in ("m5/17", "family:", "nyc"):
+        assert world in str(refused.value)
 
 
 def test_a_folder_without_worlds_is_refused(tmp_path: Path) -> None:

@@ -121,7 +121,7 @@ def test_a_finding_names_the_row_of_the_file(tmp_path: Path) -> None:
     (tmp_path / "log.csv").write_text("door,degree,marker\n,3,0\n5,2,\n")
     told = str(tv.certify(tmp_path / "log.csv"))
     assert "event 1 (row 3): " in told
-    assert "door 5 of 3 (0 is the first) led to a place of 2" in told
+    assert "degree 3 has no door 5" in told
 
 
 def test_a_contradiction_of_other_readings_names_the_one_that_showed_it() -> None:

@@ -113,7 +113,8 @@ def true_hypothesis_kept(run: ReplayedTrace) -> Iterator[Finding]:
             yield Wrong(decision.when, truth, "new", message)
     for fate in run.fates.values():
         if isinstance(event := fate.event, ev.Augment) and fate.left:
-            message = f"S grows by a new vertex behind edge {event.edge}, but hypotheses are left"
+            message = f"S grows by a new vertex behind edge {event.edge}, but hypotheses are left:"
+            message += " declare a reject for each, or declare nothing"
             yield Wrong(fate.when, "each rejected", sorted(fate.left), message)
 
 
@@ -238,8 +239,7 @@ def _unmet(run: ReplayedTrace, when: int, cited: ev.Evidence, ends: tuple[Percep
             return f"what is seen there is {seen}, not {told}"
     if cited.step or (cited.sequence, cited.at, cited.record) != (None, None, None):
         return "it rests on no step of a sequence, and cites one"
-    conclusion = run.conclusions.get(when)
-    if conclusion is None:
+    if (conclusion := run.conclusions.get(when)) is None:
         return "S was not proved so far"
     return "" if conclusion.met else f"it does not follow that {cited.contradiction!r}"
 

@@ -118,10 +118,10 @@ class Fold:
     def move(self, door: Door, percept: Percept) -> None:
         """Let the robot leave by a door and sense this behind it. Raises Contradiction."""
         (here, dart), marker, back = self.at, percept.marker, percept.degree
-        if door not in range(doors := self._seen[here].degree) or back < 1:
-            raise Contradiction(f"door {door} of {doors} (0 is the first) led to a place of {back}")
-        if marker is not None and not 0 <= marker < percept.degree:
-            raise Contradiction(f"the marker cannot point at door {marker} of {percept.degree}")
+        if door not in range(doors := self._seen[here].degree):
+            raise Contradiction(f"degree {doors} has no door {door}: doors are 0 to {doors - 1}")
+        if not 0 <= (marker or 0) < back:
+            raise Contradiction(f"no place behind a door shows {percept}")
         exit_place = self.find((here, dart + door))
         known = self.partner(exit_place)
         # the marker is at v0, whose dart 0 is marked

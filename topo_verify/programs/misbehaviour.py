@@ -14,6 +14,7 @@ import msgspec
 from topo_verify.errors import shown
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import Child
+from topo_verify.robot.events import decode_error
 from topo_verify.robot.limits import MapperStopped
 
 Misbehaviour = Literal[
@@ -92,7 +93,8 @@ def decoded(line: bytes, decode: Callable[[bytes], Any], *, validate: bool) -> A
     except UnicodeDecodeError:
         kind, description = "not-utf8", "a line that is not UTF-8"
     except msgspec.ValidationError as error:
-        kind, description = _kind(str(error)), f"a line that is no message of the protocol: {error}"
+        kind = _kind(str(error))
+        description = f"a line that is no message of the protocol: {decode_error(error)}"
     except msgspec.DecodeError as error:
         reason = str(error).removeprefix("JSON is malformed: ")
         kind, description = "not-json", f"a line that is not JSON ({reason})"

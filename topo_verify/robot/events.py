@@ -22,13 +22,15 @@ from typing import Any, Literal, Protocol, get_args
 import msgspec
 
 from topo_verify.errors import InputError
-from topo_verify.robot.percept import Door, Percept, Purpose
+from topo_verify.robot.percept import PURPOSES, Door, Percept, Purpose
 from topo_verify.world.validation import Number
 
 MapDart = Number
 """A dart of S as a mapper declares it."""
 
 RuleName = Literal["motion", "prefix", "history", "records", "folding", "planar"]
+
+Growth = Literal["new", "loop"]
 
 TRACE_FORMAT: Literal["topo-verify/trace"] = "topo-verify/trace"
 TRACE_VERSION = 1
@@ -143,7 +145,7 @@ class Augment(_Event, frozen=True):
     """The map grows by a new vertex with first dart `dart`, or by a loop with other end `dart`."""
 
     edge: MapDart
-    kind: Literal["new", "loop"]
+    kind: Growth
     dart: MapDart
     degree: Number
 
@@ -226,6 +228,17 @@ def read_events(lines: Iterable[bytes], *, name: str = "trace") -> Iterator[Even
         _require_start(None, name)
 
 
+_WORDS = {"kind": get_args(Growth), "rule": get_args(RuleName), "purpose": PURPOSES}
+"""The words of each field that has one of a few."""
+
+
+def decode_error(error: Exception) -> str:
+    """What msgspec says of a message, and the words that the field may have."""
+    text = str(error)
+    words = _WORDS.get(text.rstrip("`").rpartition(".")[2], ())
+    return f"{text}: expected {' or '.join(words)}" if words and "enum" in text else text
+
+
 _MOST_KEPT = 2**16
 """Distinct Move lines that are shared; most logs have fewer."""
 
@@ -246,7 +259,7 @@ def _event(line: bytes, place: str) -> Event:
         json.loads(line, object_pairs_hook=see, parse_int=str, strict=False)
     except (msgspec.MsgspecError, RecursionError, ValueError) as error:
         raise InputError(
-            f"{place}: expected an event of a trace, as {_EXAMPLE}: {error}"
+            f"{place}: expected an event of a trace, as {_EXAMPLE}: {decode_error(error)}"
         ) from error
     if doubled:
         raise InputError(f"{place}: the key {doubled[0]!r} stands twice: leave one of the two out")

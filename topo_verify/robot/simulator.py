@@ -97,7 +97,7 @@ def plain_decision(event: ev.Decision | Mapping[str, object]) -> ev.Decision:
         got = f", got {kind:.40}" if isinstance(kind, str) else ""
         example = f"; as in {EVIDENCE}" if "evidence" in str(error) else ""
         expected = "expected a decision (pose, reject, confirm, augment)"
-        raise Misuse(f"{expected}{got}: {error}{example}") from None
+        raise Misuse(f"{expected}{got}: {ev.decode_error(error)}{example}") from None
 
 
 class RobotHandle:

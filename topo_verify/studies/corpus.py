@@ -28,10 +28,16 @@ from topo_verify.errors import InputError, is_utf8, shown
 from topo_verify.world import io
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.formats import files, planar_code
-from topo_verify.world.resolve import resolve_world
+from topo_verify.world.resolve import NoSuchWorld, resolve_world
 from topo_verify.world.rooted_map import World
 
 DEFAULT = ("corpus",)
+
+FORMS = (
+    "corpus, edges<=N, generated:N, generated:N:STRATEGY, drawn:N:FAMILY, a folder, a file, an id"
+    " (m5/17), a family (family:lattice(3,4,seed=7)) or nyc"
+)
+"""The forms of a text of WORLDS, for a refusal."""
 
 SMALL = "edges<=4"
 
@@ -161,11 +167,15 @@ def _parts(text: str, seed: int) -> Iterator[CorpusPart]:
     elif text.startswith("drawn:"):
         yield _drawn(text, seed)
     elif text == "-":
-        raise InputError("--worlds -: standard input is read only once; name a file or a folder")
+        raise _no_worlds(text, "standard input is read only once")
     elif _is_folder(text):
         yield _folder(text)
     else:
         yield _listed(text, _file(text, text))
+
+
+def _no_worlds(text: str, why: str) -> InputError:
+    return InputError(f"--worlds {shown(text)!r}: {why}; expected one of {FORMS}")
 
 
 # ---------------------------------------------------------------- all of a size
@@ -175,10 +185,8 @@ def _enumerated(text: str) -> CorpusPart:
     match = re.fullmatch(r"edges<=([0-9]{1,3})", text)
     most = int(match[1]) if match else 0
     if not 1 <= most <= MOST_ENUMERATED:
-        raise InputError(
-            f"--worlds: expected 'edges<=N', every world of 1 to N edges, with N from 1 to"
-            f" {MOST_ENUMERATED}, got {text!r}"
-        )
+        why = f"'edges<=N' is every world of 1 to N edges, with N from 1 to {MOST_ENUMERATED}"
+        raise _no_worlds(text, why)
 
     def listed() -> Iterator[Named]:
         for edges in range(1, most + 1):
@@ -197,10 +205,11 @@ def _generated(text: str, seed: int) -> CorpusPart:
     match = re.fullmatch(r"generated:([0-9]{1,9})(?::(.+))?", text, re.DOTALL)
     number = int(match[1]) if match else 0
     if match is None or not 1 <= number <= MOST_GENERATED:
-        raise InputError(
-            f"--worlds: expected 'generated:N' or 'generated:N:STRATEGY' with N from 1 to"
-            f" {MOST_GENERATED:,}, as in 'generated:200:planar_worlds(max_edges=20)', got {text!r}"
+        why = (
+            f"'generated:N' and 'generated:N:STRATEGY' have N from 1 to {MOST_GENERATED:,}, as in"
+            " 'generated:200:planar_worlds(max_edges=20)'"
         )
+        raise _no_worlds(text, why)
     strategies = STRATEGIES if match[2] is None else (match[2],)
     each, more = divmod(number, len(strategies))
     worlds: list[World] = []
@@ -229,10 +238,11 @@ def _drawn(text: str, seed: int) -> CorpusPart:
     match = re.fullmatch(r"drawn:([0-9]{1,9}):(.+\))", text, re.DOTALL)
     number = int(match[1]) if match else 0
     if match is None or not 1 <= number <= MOST_GENERATED:
-        raise InputError(
-            f"--worlds: expected 'drawn:N:FAMILY' with N from 1 to {MOST_GENERATED:,}, as in"
-            f" 'drawn:30:lattice(10,10,holes=0.2)', got {text!r}"
+        why = (
+            f"'drawn:N:FAMILY' has N from 1 to {MOST_GENERATED:,}, as in"
+            " 'drawn:30:lattice(10,10,holes=0.2)'"
         )
+        raise _no_worlds(text, why)
     if re.search(r"\bseed\s*=", match[2]):
         raise InputError(
             f"--worlds {text!r}: the seeds are drawn; leave out seed= from the call, and give"
@@ -263,7 +273,11 @@ def _listed(text: str, worlds: Sequence[Named], *, sample: bool = False) -> Corp
 
 def _by_name(name: str, group: str) -> Named:
     _require_utf8(name)
-    return Named(name, resolve_world(name), group, ("--worlds", name))
+    try:
+        world = resolve_world(name)
+    except NoSuchWorld:
+        raise _no_worlds(name, "no such world or file") from None
+    return Named(name, world, group, ("--worlds", name))
 
 
 def _require_utf8(name: str) -> None:

@@ -26,6 +26,11 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+
+class NoSuchWorld(InputError):
+    """The text has none of the forms of a WORLD, and no file has this name."""
+
+
 Argument = int | float | str | bool | None
 
 MAX_LENGTH = 200
@@ -136,7 +141,8 @@ def resolve_world(
     Args:
         largest_part: as for `io.load`.
     Raises:
-        InputError: there is no such world, or it cannot be read.
+        NoSuchWorld: the text names no world.
+        InputError: the world cannot be made or read.
     """
     if text == "-":
         stream, name = stdin or files.standard_input(), "standard input"
@@ -153,7 +159,7 @@ def resolve_world(
     if numbered and not _exists(text) and _exists(numbered[1]):
         return World.load(numbered[1], graph=int(numbered[2]))
     if not _exists(text):
-        raise InputError(
+        raise NoSuchWorld(
             f"no such world: '{shown(text)}' is not a file; give a path, an id (m5/17), a family"
             " (family:lattice(10,10,holes=0.2,seed=7)), nyc (the street network of the package) or"
             " - (world JSON on standard input)"
