@@ -12,6 +12,7 @@ import click
 import msgspec
 
 from topo_verify.campaign.campaign import close
+from topo_verify.campaign.judge import JudgedRun, Report
 from topo_verify.campaign.targets import each_text
 from topo_verify.campaign.targets import targets as targets_of
 from topo_verify.campaign.work import processors
@@ -216,17 +217,18 @@ def _run_again(output: Output, league: League, table: Sequence[LeagueEntry]) -> 
     for mapper in league.mappers:
         if (first := broken.get(mapper.text)) is not None:
             at = named_world(first.world)
-            limits = league.limits_of_failure(league.rows[mapper.text, first.world])
+            failure = league.rows[mapper.text, first.world]
+            limits = league.limits_of_failure(failure)
             _, report, undecided = judged(mapper, at, limits)
             title = target_title(league.name(mapper.text), at.text)
             if any(finding.claim == first.claim for finding in report.findings):
                 named = msgspec.structs.replace(report, target=league.name(mapper.text))
-                output.found.keep(named.of(report.run))
-                if limits is not league.limits and first.ended in {"budget", "world-timeout"}:
-                    league.remarks.append(
-                        f"{title}: the run ended by {first.ended}; it is shown to soon after the"
-                        f" failing claim (--budget {limits.budget})."
-                    )
+                named = named.of(report.run)
+                if limits is not league.limits and report.run is not None:
+                    why = f"{CUT}; the whole run: {failure.findings[0].replay}"
+                    named = _cut(named, report.run._replace(stopped=why))
+                    league.remarks.append(f"{title}: {why}")
+                output.found.keep(named)
                 continue
             output.found.show(acc.Exhibit(title, at.world, at.text, (first.message,)))
             if not undecided:
@@ -234,6 +236,22 @@ def _run_again(output: Output, league: League, table: Sequence[LeagueEntry]) -> 
                     f"{title}, run once more: {first.claim} holds. The mapper does not do the same"
                     " each time; the first run counts."
                 )
+
+
+CUT = "cut here, soon after the failing claim"
+
+
+def _cut(report: Report, run: JudgedRun) -> Report:
+    """The report without the finding that a run which we cut delivered no map."""
+    findings = [f for f in report.findings if (f.claim, f.event) != ("map-isomorphic", None)]
+    cut = report.with_findings(findings)
+    judgements = tuple(
+        msgspec.structs.replace(judgement, status="undecided")
+        if judgement.status == "failed" and not judgement.findings
+        else judgement
+        for judgement in cut.judgements
+    )
+    return msgspec.structs.replace(cut, judgements=judgements).of(run)
 
 
 def _add_timing(output: Output, league: League, table: Sequence[LeagueEntry]) -> None:

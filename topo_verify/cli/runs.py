@@ -389,6 +389,13 @@ def target_title(target: str, world: str) -> str:
     return f"{target} in {world}"
 
 
+def _not_found(report: Report) -> tuple[str, ...]:
+    """Why the run ended without a map, where that is no finding."""
+    stopped = report.run and report.run.stopped
+    told = any(finding.event is None for finding in report.findings)
+    return () if told or not stopped else (stopped,)
+
+
 def exhibit_of(report: Report, *others: PlayedRun) -> acc.Exhibit | None:
     """A run with its findings and other runs beside it, or None."""
     if report.run is None:
@@ -398,7 +405,7 @@ def exhibit_of(report: Report, *others: PlayedRun) -> acc.Exhibit | None:
         title=target_title(report.target, report.world),
         world=report.run.world,
         name=report.world,
-        notes=tuple(map(finding_line, report.findings[:OTHERS])),
+        notes=(*map(finding_line, report.findings[:OTHERS]), *_not_found(report)),
         runs=(run, *others),
         again=report.findings[0].replay if report.findings else "",
     )

@@ -216,6 +216,8 @@ class _View:
     def end(self, *, at_end: bool) -> Iterator[str]:
         for finding in self.playback.about_the_run:
             yield from self.wrapped(_found(finding, self.playback.world), "", "   ")
+        if not self.playback.about_the_run:
+            yield from self.wrapped(self.playback.stopped or "", "", "   ")
         illegal = self.playback.replayed.illegal
         if illegal is not None and (at_end or self.focus == illegal):
             stands: int | None = illegal - 1
