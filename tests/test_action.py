@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 import sysconfig
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -65,6 +66,8 @@ def run_step(name: str, folder: Path, programs: Path, **inputs: str) -> Ran:
 
 
 PROGRAMS = Path(sys.executable).parent
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+FAST: list[str] = PROJECT["optional-dependencies"]["fast"]
 
 
 def test_every_input_stands_on_the_page_with_its_default() -> None:
@@ -138,6 +141,21 @@ def test_an_input_cannot_become_a_command(tmp_path: Path) -> None:
     assert {path.name for path in tmp_path.iterdir()} == {"topo-verify.md", "summary.md", "outputs"}
 
 
+@pytest.mark.parametrize(
+    ("target", "packages"),
+    [("mapper.py:explore", ["."]), ("--library ./mapper.so:map_world", [".", *FAST])],
+)
+def test_what_calls_a_library_is_installed_with_it(
+    target: str, packages: list[str], tmp_path: Path
+) -> None:
+    pip = tmp_path / "python"
+    pip.write_text('#!/bin/sh\nprintf "%s\\n" "$@" > asked\n')
+    pip.chmod(0o755)
+    assert run_step("Install", tmp_path, tmp_path, install=".", target=target).code == 0
+    asked = (tmp_path / "asked").read_text().split()
+    assert asked == ["-m", "pip", "install", "--quiet", *packages]
+
+
 def test_a_wheel_is_installed_and_the_mapper_checked_with_it(tmp_path: Path) -> None:
     path = os.pathsep.join([str(PROGRAMS), os.environ["PATH"]])  # the backend's own program
     build = [sys.executable, "-m", "build", "--wheel", "--no-isolation", "-o", str(tmp_path)]
@@ -151,7 +169,7 @@ def test_a_wheel_is_installed_and_the_mapper_checked_with_it(tmp_path: Path) -> 
     # What topo-verify depends on comes from here; the wheel's own files come first.
     (site,) = (tmp_path / "venv").glob("lib/python*/site-packages")
     (site / "more.pth").write_text(sysconfig.get_path("purelib") + "\n")
-    installed = run_step("Install", tmp_path, programs, install=str(wheel))
+    installed = run_step("Install", tmp_path, programs, install=str(wheel), target="basic")
     assert installed.code == 0, installed.stderr
     assert (site / "topo_verify" / "cli").is_dir()
     shutil.copy(ROOT / "examples" / "own_mapper" / "declared.py", tmp_path)

@@ -48,9 +48,21 @@ def test_an_enhancement_that_costs_less_agrees_and_one_that_costs_more_does_not(
     assert "Agrees: I costs less than basic" in said("6a", {"basic": 200, "enhancement-i": 90})
     text = said("6a", {"basic": 90, "enhancement-i": 200})
     assert "Does not agree: the paper says that I costs less than basic" in text
-    assert "it costs more at size 4, 6, 8, 10." in text
+    assert "at 0 of 4 sizes, and costs more at size 4, 6, 8, 10." in text
     text = said("6a", {"basic": 90, "enhancement-i": 90})
-    assert "Agrees: I costs no more than basic in the mean at every size, and the same at" in text
+    assert "at 0 of 4 sizes, and costs the same at size 4, 6, 8, 10." in text
+    assert "Agrees" not in text
+
+
+def test_where_an_enhancement_costs_the_same_at_some_sizes_it_is_said_at_how_many_it_agrees() -> (
+    None
+):
+    figure = FIGURES["6a"]
+    equal = [point for point in points("6a", {"basic": 90, "enhancement-i": 90}) if point.size < 8]
+    less = [point for point in points("6a", {"basic": 90, "enhancement-i": 9}) if point.size >= 8]
+    text = paragraph(figure, [*equal, *less])
+    assert "Agrees:" not in text
+    assert "at 2 of 4 sizes, and costs the same at size 4, 6." in text
 
 
 def test_one_figure_is_compared_with_another() -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
+from topo_verify.errors import plural
 from topo_verify.studies.reproduce.figures import FIGURES, LATTICE, Figure
 from topo_verify.studies.reproduce.points import FigurePoint
 
@@ -105,16 +106,17 @@ def _order(figure: Figure, lines: dict[str, _Line]) -> Iterator[str]:
         equal = [s for s in both if differ[s] == 0]
         costlier = [s for s in both if differ[s] < 0]
         claim = f"{SHORT[after]} costs less than {SHORT[before]}"
-        ties = f", and the same at {_sizes(equal)}" if equal else ""
-        if costlier:
+        agreeing = len(both) - len(equal) - len(costlier)
+        others = [f"more at {_sizes(costlier)}"] * bool(costlier)
+        others += [f"the same at {_sizes(equal)}"] * bool(equal)
+        if others:
+            head = "Does not agree" if costlier or not agreeing else "Agrees in part"
             yield (
-                f"Does not agree: the paper says that {claim}; in the mean it costs more at"
-                f" {_sizes(costlier)}{ties}."
+                f"{head}: the paper says that {claim}; in the mean it does at {agreeing} of"
+                f" {plural(len(both), 'size')}, and costs {' and '.join(others)}."
             )
         elif both:
-            if equal:
-                claim = f"{SHORT[after]} costs no more than {SHORT[before]}"
-            yield f"Agrees: {claim} in the mean at every size{ties}."
+            yield f"Agrees: {claim} in the mean at every size."
 
 
 def _sizes(sizes: Sequence[int]) -> str:
