@@ -15,6 +15,7 @@ from topo_verify.campaign.targets import one_target, target_arguments, target_te
 from topo_verify.programs.library import header_text, library_file
 from topo_verify.programs.loader import Target
 from topo_verify.programs.misbehaviour import last_words
+from topo_verify.robot.limits import Limits
 from topo_verify.studies.search.search import search
 
 MISDEEDS = {
@@ -68,6 +69,14 @@ def test_a_crash_is_one_line_that_names_the_function(
         " -fsanitize=address names the line: docs/tutorials/native.md"
     )
     assert capfd.readouterr().err == ""  # none of our own lines
+
+
+def test_an_endless_loop_has_a_next_step(tmp_path: Path) -> None:
+    target = one_target(hostile(tmp_path, "loop"))
+    run = explore(World.from_id("m2/9"), target, limits=Limits(move_timeout=0.5))
+    assert run.limit == "move-timeout"
+    assert "gdb" in str(run.stopped)
+    assert "docs/tutorials/native.md" in str(run.stopped)
 
 
 def test_a_world_that_is_skipped_is_neither_right_nor_wrong(tmp_path: Path) -> None:

@@ -189,6 +189,9 @@ HUNG = (
 )
 """Why a program may have stood still; the harness cannot tell them apart."""
 
+NATIVE_HUNG = "gdb names the line: docs/tutorials/native.md, 'To debug a crash'"
+"""The next step where a native mapper stood still."""
+
 
 def explore(  # noqa: PLR0913  an argument an option
     world: World | str,
@@ -234,6 +237,8 @@ def explore(  # noqa: PLR0913  an argument an option
         robot.settle()
     if limit == "move-timeout" and target.text.startswith(PREFIX):
         stopped = f"{stopped}; {HUNG}"
+    elif limit == "move-timeout" and is_native(target):
+        stopped = f"{stopped}; {NATIVE_HUNG}"
     misbehaved = None
     if isinstance(target.mapper, Program):
         misbehaved = target.mapper.misbehaved
