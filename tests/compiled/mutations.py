@@ -74,7 +74,7 @@ class Mutation:
         elif how == 4:
             silent = tuple(draw.sample(KINDS, draw.choice((1, 1, 2))))
             since = draw.choice((0, place))
-            events[since:] = [event for event in events[since:] if not isinstance(event, silent)]
+            events[since:] = [event for event in events[since:] if type(event) not in silent]
         else:
             events[place] = self._of_event(events[place])
 
