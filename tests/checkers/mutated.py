@@ -37,19 +37,21 @@ class Mutated(NamedTuple):
     stopped: str | None
 
 
-def mutated_traces(seed: int, number: int, *, most_edges: int = 7) -> Iterator[Mutated]:
-    """Traces of all catalogue mappers in worlds with 1 … most_edges edges, with 0 … 5 faults."""
+def mutated_traces(seed: int, runs: int, *, most_edges: int = 7) -> Iterator[Mutated]:
+    """Five traces of each run of a catalogue mapper, with 0 … 5 faults."""
     random = Random(seed)
-    for place in range(number):
-        if place % 5 == 0:
-            edges = random.randrange(1, most_edges + 1)
-            world = World.from_id(f"m{edges}/{random.randrange(rank_order.count(edges))}")
-            mapper = random.choice(sorted(NAMED))
-            pick, order = random.choice(("nearest", "last")), random.choice(("shortest", "newest"))
-            policies = {"pick": pick, "order": order} if mapper in CATALOGUE else {}
-            run = explore(world, mapper, **policies)
-        stopped = None if random.randrange(9) else "it was stopped"
-        yield Mutated(world, _Faults(random, world).planted(run.trace), stopped)
+    for _ in range(runs):
+        edges = random.randrange(1, most_edges + 1)
+        world = World.from_id(f"m{edges}/{random.randrange(rank_order.count(edges))}")
+        mapper = random.choice(sorted(NAMED))
+        pick, order = random.choice(("nearest", "last")), random.choice(("shortest", "newest"))
+        chooses = mapper in CATALOGUE
+        run = explore(
+            world, mapper, pick=pick if chooses else None, order=order if chooses else None
+        )
+        for _ in range(5):
+            stopped = None if random.randrange(9) else "it was stopped"
+            yield Mutated(world, _Faults(random, world).planted(run.trace), stopped)
 
 
 class _Faults:
@@ -130,7 +132,8 @@ class _Faults:
 
     def _number(self) -> int:
         darts = len(self.world.alpha)
-        return self.random.choice((*range(darts), *range(darts), -1, darts, darts + 1, 2**60))
+        numbers: tuple[int, ...] = (*range(darts), *range(darts), -1, darts, darts + 1, 2**60)
+        return numbers[self.random.randrange(len(numbers))]
 
     def _percept(self) -> Percept:
         degree = self.random.randrange(1, 6)

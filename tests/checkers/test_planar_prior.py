@@ -52,7 +52,7 @@ def test_a_planar_world_that_folds_it_further_is_found() -> None:
 
 def test_where_the_search_is_given_up_the_decision_is_undecided_and_never_ok() -> None:
     conclusion = told(OPEN)
-    assert conclusion.undecided
+    assert conclusion.why == entailment.UNDECIDED[0]
     assert conclusion.witness is None
     *others, judgement = check(World.from_id("m5/4139"), OPEN)
     assert (judgement.claim, judgement.status) == ("decisions-entailed", "undecided")

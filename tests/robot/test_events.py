@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 from codecs import BOM_UTF8
-from typing import Any
+from typing import Any, cast
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis.vendor.pretty import pretty
@@ -232,14 +233,18 @@ def test_policies_print_as_code_that_makes_them_again() -> None:
 
 
 def test_an_event_of_a_kind_of_ones_own_is_in_order_where_its_base_is() -> None:
-    class Patrol(ev.Move, frozen=True):
-        """A move of another mapper's vocabulary."""
-
-    class Done(ev.Finish, frozen=True):
-        """A finish of another mapper's vocabulary."""
+    def subclass(kind: type[ev.Event]) -> Any:
+        return msgspec.defstruct("Own", [], bases=(kind,), frozen=True, tag_field="type")
 
     start, *_, end = trace_of("m1/0")
     assert isinstance(end, ev.Finish)
-    ev.require_order([start, Patrol(0, Percept(2, 1)), end])
+    move, finish = subclass(ev.Move)(0, Percept(2, 1)), subclass(ev.Finish)(end.cost, end.map)
+    assert ev.require_order([start, move, end]) == (start, ev.Move(0, Percept(2, 1)), end)
     with pytest.raises(InputError, match="event 1 of the trace is out of order"):
-        ev.require_order([start, Done(end.cost, end.map), end])
+        ev.require_order([start, finish, end])
+
+
+def test_what_is_no_event_is_refused() -> None:
+    start, *_, end = trace_of("m1/0")
+    with pytest.raises(InputError, match="event 1 of the trace is a str"):
+        ev.require_order(cast("ev.Trace", (start, "move", end)))

@@ -53,7 +53,7 @@ def judge_log(trace: Sequence[Event]) -> JudgedLog:
         InputError: the trace does not begin with its only `start`, or goes on after `finish`; or
             its places have more than 2^20 doors together, and more than 16 an event.
     """
-    require_order(trace)
+    trace = require_order(trace)
     folded = ent.FoldedTrace(trace)
     fold, broken = folded.fold, folded.read_to(len(trace))
     most = max(MOST_DARTS, 16 * len(trace))
@@ -68,7 +68,7 @@ def judge_log(trace: Sequence[Event]) -> JudgedLog:
         finding = Finding("map-entailed", when, "percepts that some world shows", why, message)
         return JudgedLog(fold, broken, None, conclusions, (finding,))
     if fold.open_darts():
-        delivered = [ent.map_conclusion(folded)] if isinstance(trace[-1], Finish) else []
+        delivered = [ent.map_conclusion(folded)] if type(trace[-1]) is Finish else []
         doubts = *unproved("decisions-entailed", conclusions), *unproved("map-entailed", delivered)
         return JudgedLog(fold, None, None, conclusions, doubts)
     world = showing(fold.world(), trace)

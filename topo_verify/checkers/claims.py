@@ -13,7 +13,7 @@ import msgspec
 
 from topo_verify.checkers.coverage import coverage
 from topo_verify.checkers.darts import KnownDart, WorldDart
-from topo_verify.checkers.entailment import UNDECIDED, Conclusion, delivered_code, map_conclusion
+from topo_verify.checkers.entailment import UNDECIDED, Conclusion, map_conclusion
 from topo_verify.checkers.excursions import Word
 from topo_verify.checkers.findings import Finding, Judgement, Status
 from topo_verify.checkers.replayed_trace import ReplayedTrace, Round
@@ -73,7 +73,7 @@ def percepts_true(run: ReplayedTrace) -> Iterator[Finding]:
         yield Wrong(when, seen, told, f"the trace says {told} where the world shows {seen}")
     if run.illegal is not None:
         move, degree = run.trace[run.illegal], run.map.seen_at(run.positions[-1]).degree
-        assert isinstance(move, ev.Move)
+        assert type(move) is ev.Move
         message = f"there is no door {move.door} at a vertex of degree {degree}"
         yield Wrong(run.illegal, f"a door below {degree}", move.door, message)
 
@@ -82,19 +82,19 @@ def true_hypothesis_posed(run: ReplayedTrace) -> Iterator[Finding]:
     """2. If e leads to a known vertex, its dart is in H; S grows along edges that were posed."""
     for decision in run.rounds:
         event = decision.event
-        if isinstance(event, ev.Pose):
+        if type(event) is ev.Pose:
             yield from _wrongly_posed(run, decision, event)
-        elif isinstance(event, ev.Augment) and decision.pose is None:
+        elif type(event) is ev.Augment and decision.pose is None:
             message = f"S grows along dart {event.edge}, which was not posed"
             yield Wrong(decision.when, event.edge, None, message)
 
 
 def _wrongly_posed(run: ReplayedTrace, decision: Round, pose: ev.Pose) -> Iterator[Finding]:
-    edge, hypotheses, when, end = pose.edge, pose.hypotheses, decision.when, decision.end
-    if end is None or not all(run.map.is_open(h, when) for h in hypotheses):
+    edge, hypotheses, when, crossing = pose.edge, pose.hypotheses, decision.when, decision.crossing
+    if crossing is None or not all(run.map.is_open(h, when) for h in hypotheses):
         message = f"edge {edge} or a hypothesis is no unexplored dart of S: is an augment missing?"
         yield Wrong(when, "unexplored darts", [edge, *hypotheses], message)
-    elif run.crossings.get(run.crossing(end), when) >= when:
+    elif run.crossings.get(crossing, when) >= when:
         yield Wrong(when, edge, None, f"dart {edge} is posed before the robot crossed it")
     elif (truth := decision.truth) not in (None, *hypotheses):
         message = f"edge {edge} leads to dart {truth}, which is not among the hypotheses"
@@ -105,24 +105,24 @@ def true_hypothesis_kept(run: ReplayedTrace) -> Iterator[Finding]:
     """3. No rule and no motion rejects the true hypothesis, and none is dropped in silence."""
     for decision in run.rounds:
         event, edge, truth = decision.event, decision.event.edge, decision.truth
-        if isinstance(event, ev.Reject) and truth == event.hypothesis:
+        if type(event) is ev.Reject and truth == event.hypothesis:
             message = f"edge {edge} does lead to dart {truth}, which rule {event.rule!r} rejects"
             yield Wrong(decision.when, "kept", "rejected", message)
-        elif isinstance(event, ev.Augment) and event.kind == "new" and truth is not None:
+        elif type(event) is ev.Augment and event.kind == "new" and truth is not None:
             message = f"edge {edge} leads to dart {truth}, but S grows by a new vertex"
             yield Wrong(decision.when, truth, "new", message)
-    for fate in run.fates.values():
-        if isinstance(event := fate.event, ev.Augment) and fate.left:
+    for crossing, fate in run.fates.items():
+        if type(event := fate.event) is ev.Augment and (left := run.left[crossing]):
             message = f"S grows by a new vertex behind edge {event.edge}, but hypotheses are left:"
             message += " declare a reject for each, or declare nothing"
-            yield Wrong(fate.when, "each rejected", sorted(fate.left), message)
+            yield Wrong(fate.when, "each rejected", sorted(left), message)
 
 
 def no_false_confirm(run: ReplayedTrace) -> Iterator[Finding]:
     """4. A confirmed hypothesis is the true one."""
     for decision in run.rounds:
         event = decision.event
-        if isinstance(event, ev.Confirm) and event.hypothesis != decision.truth:
+        if type(event) is ev.Confirm and event.hypothesis != decision.truth:
             edge, hypothesis, leads = event.edge, event.hypothesis, _leads(run, decision)
             message = f"edge {edge} leads to {leads}, but dart {hypothesis} is confirmed"
             yield Wrong(decision.when, leads, hypothesis, message)
@@ -132,24 +132,17 @@ def map_isomorphic(run: ReplayedTrace) -> Iterator[Finding]:
     """5. The map at the end is the world, and every declared S on the way is a part of it."""
     if run.spoiled is not None:
         event, leads = run.rounds[-1].event, _leads(run, run.rounds[-1])
-        assert isinstance(event, ev.Augment)
+        assert type(event) is ev.Augment
         grows = f"S grows by {event.kind} dart {event.dart} with degree {event.degree}"
         message = f"{grows}, but edge {event.edge} leads to {leads}"
         yield Wrong(run.spoiled, leads, event, message)
-    finish = run.trace[-1]
-    if isinstance(finish, ev.Finish):
-        yield from _wrong_map(run, finish)
-    else:
+    code, last, left = run.code, len(run.trace) - 1, len(run.map.phi) - len(run.map.alpha)
+    if code and run.spoiled is run.illegal is None and run.map.alpha and left:
+        yield Wrong(last, 0, left, f"the map is delivered while {left} darts of S are unexplored")
+    if code is None:
         why = run.stopped or "the trace ends without 'finish'"
         yield Wrong(None, "a map", None, f"no map was delivered: {why}")
-
-
-def _wrong_map(run: ReplayedTrace, finish: ev.Finish) -> Iterator[Finding]:
-    last, left = len(run.trace) - 1, len(run.map.phi) - len(run.map.alpha)
-    if run.spoiled is run.illegal is None and run.map.alpha and left:
-        yield Wrong(last, 0, left, f"the map is delivered while {left} darts of S are unexplored")
-    code = delivered_code(finish.map)
-    if isinstance(code, str):
+    elif isinstance(code, str):
         yield Wrong(last, "a map", None, code)
     elif code != run.world.code:
         ours, theirs = (map_size(len(v), len(a) // 2) for v, a in (run.world.code, code))
@@ -160,7 +153,7 @@ def _wrong_map(run: ReplayedTrace, finish: ev.Finish) -> Iterator[Finding]:
 def cost_honest(run: ReplayedTrace) -> Iterator[Finding]:
     """6. The reported cost, if one is reported, is the number of moves."""
     finish = run.trace[-1]
-    if isinstance(finish, ev.Finish) and finish.cost not in (None, run.cost):
+    if type(finish) is ev.Finish and finish.cost not in (None, run.cost):
         message = f"the mapper reports a cost of {finish.cost}, but made {plural(run.cost, 'move')}"
         yield Wrong(len(run.trace) - 1, run.cost, finish.cost, message)
 
@@ -168,7 +161,7 @@ def cost_honest(run: ReplayedTrace) -> Iterator[Finding]:
 def cost_within_bound(run: ReplayedTrace) -> Iterator[Finding]:
     """7. m <= cost <= m·(n + (2m-1)·2(n-1)); the lower half only where a map was delivered."""
     bound, m, n = run.world.cost_bound, len(run.world.edges), len(run.world.vertices)
-    least = m if isinstance(run.trace[-1], ev.Finish) else 0
+    least = m if type(run.trace[-1]) is ev.Finish else 0
     if not least <= run.cost <= bound:
         bounds = f"{m} … {bound}"
         message = f"a cost of {run.cost} is outside {bounds}, the bound for m = {m} and n = {n}"
@@ -184,7 +177,7 @@ def rejection_justified(run: ReplayedTrace) -> Iterator[Finding]:
     """
     for decision in run.rounds:
         event = decision.event
-        if isinstance(event, ev.Reject) and (why := _unjustified(run, decision, event)):
+        if type(event) is ev.Reject and (why := _unjustified(run, decision, event)):
             message = f"rejecting {event.hypothesis} for edge {event.edge} is not justified: {why}"
             yield Wrong(decision.when, "evidence that disagrees", event.evidence, message)
 
@@ -195,7 +188,8 @@ UNTRUE = Wrong(None, "true percepts", None, "the percepts are not true and prove
 
 def map_entailed(run: ReplayedTrace) -> Iterator[Finding]:
     """9. The history alone proves the map: no other world fits it."""
-    yield from unproved("map-entailed", [map_conclusion(run.fold)]) if run.is_history else [UNTRUE]
+    proofs = [map_conclusion(run.fold, run.code)] if run.is_history else []
+    yield from unproved("map-entailed", proofs) if run.is_history else [UNTRUE]
 
 
 def decisions_entailed(run: ReplayedTrace) -> Iterator[Finding]:
@@ -209,9 +203,8 @@ def unproved(claim: str, conclusions: Iterable[Conclusion]) -> Iterator[Finding]
     expected, but = "a proved decision", "the decision does not follow"
     if claim == "map-entailed":
         expected, but = "a map that is proved", "the history proves no such map"
-    for conclusion in conclusions:
-        when, why, witness, _ = conclusion
-        if why and not conclusion.undecided:
+    for when, why, witness, _ in conclusions:
+        if why not in ("", UNDECIDED[0]):
             text = witness.text if witness else None
             yield Finding(claim, when, expected, why, f"{but}: {why}", text)
 

@@ -10,29 +10,27 @@ Source: docs/semantics.md, section 9, "Coverage", with the table.
 from __future__ import annotations
 
 from topo_verify.checkers.replayed_trace import ReplayedTrace
-from topo_verify.robot.events import SIGHTS, Augment, Confirm, Finish, Pose, Reject
-
-Share = tuple[int, int]
+from topo_verify.robot.events import Augment, Confirm, Finish, Move, Pose, Reject
 
 
-def coverage(run: ReplayedTrace) -> dict[str, Share]:
+def coverage(run: ReplayedTrace) -> dict[str, tuple[int, int]]:
     """How much of a run each claim judges; of claim 10, how much there is to judge."""
     events = [decision.event for decision in run.rounds]
     declared = [*map(type, events)]
     rejections, confirmations = declared.count(Reject), declared.count(Confirm)
-    posed = sum([len(event.hypotheses) for event in events if isinstance(event, Pose)])
-    ends = {edge: fate.event for edge, fate in run.fates.items() if isinstance(fate.event, Augment)}
+    posed = sum([len(event.hypotheses) for event in events if type(event) is Pose])
+    ends = {edge: fate.event for edge, fate in run.fates.items() if type(fate.event) is Augment}
     loops = [end.kind for end in ends.values()].count("loop")
     unsettled = len(run.crossings.keys() - ends.keys())
-    left = sum([len(fate.left) for fate in run.fates.values()])
-    missing = sum([len(fate.left) for edge, fate in run.fates.items() if edge in ends])
-    grown = {run.crossing(run.map.phi[dart]) for dart in run.map.alpha}
+    left = sum(map(len, run.left.values()))
+    missing = sum([len(run.left[edge]) for edge in ends])
+    grown = [edge for edge in run.crossings if run.map.number.get(edge) in run.map.alpha]
     decisions = rejections + confirmations + declared.count(Augment)
-    percepts = sum([isinstance(event, SIGHTS) for event in run.followed])
+    unfollowed = [*map(type, run.trace[len(run.positions) :])].count(Move)
     maps = run.kinds[Finish]
     costs = int(getattr(run.trace[-1], "cost", None) is not None)
     return {
-        "percepts-true": (percepts, 1 + run.cost),
+        "percepts-true": (1 + run.cost - unfollowed, 1 + run.cost),
         "true-hypothesis-posed": (len(run.crossings.keys() & run.fates), len(run.crossings)),
         "true-hypothesis-kept": (posed - left, posed + unsettled),
         "no-false-confirm": (confirmations, max(confirmations, loops) + unsettled),
@@ -41,5 +39,5 @@ def coverage(run: ReplayedTrace) -> dict[str, Share]:
         "cost-within-bound": (1, 1),
         "rejection-justified": (rejections, rejections + missing + unsettled),
         "map-entailed": (maps, 1),
-        "decisions-entailed": (decisions, decisions + len(run.crossings.keys() - grown)),
+        "decisions-entailed": (decisions, decisions + len(run.crossings) - len(grown)),
     }

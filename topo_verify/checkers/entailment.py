@@ -17,7 +17,6 @@ from __future__ import annotations
 from collections.abc import Container, Iterator, Sequence
 from contextlib import suppress
 from copy import deepcopy
-from functools import lru_cache
 from itertools import islice
 from typing import NamedTuple
 
@@ -49,11 +48,6 @@ class Conclusion(NamedTuple):
     witness: World | None = None
     met: bool = False
 
-    @property
-    def undecided(self) -> bool:
-        """Whether the search for a witness was given up."""
-        return self.why == UNDECIDED[0]
-
 
 FURTHER = 300
 """The most foldings tried in one run."""
@@ -74,16 +68,16 @@ class FoldedTrace:
 
     def read_to(self, end: int) -> tuple[int, str] | None:
         """Read on up to event number `end`, excluded, and return `broken`."""
-        for event in self.trace[self.read : end] if self.broken is None else ():
-            self.read += 1
+        while self.read < end and self.broken is None:
+            event = self.trace[self.read]
             try:
-                if isinstance(event, Move):
+                if type(event) is Move:
                     self.fold.move(event.door, event.percept)
-                elif isinstance(event, Start):
+                elif type(event) is Start:
                     _require_start(event.percept)
             except Contradiction as contradiction:
-                self.broken = self.read - 1, str(contradiction)
-                break
+                self.broken = self.read, str(contradiction)
+            self.read += 1
         return self.broken
 
 
@@ -93,7 +87,6 @@ def _require_start(seen: Percept) -> None:
         raise Contradiction(f"at the start door 0 is the marked one, so {seen} cannot be seen")
 
 
-@lru_cache(maxsize=16)
 def delivered_code(delivered: MapData) -> Code | str:
     """The canonical code of a delivered map, or why it is not a map."""
     try:
@@ -102,20 +95,20 @@ def delivered_code(delivered: MapData) -> Code | str:
         return f"the delivered value is not a map: {error}"
 
 
-def map_conclusion(folded: FoldedTrace) -> Conclusion:
-    """Whether the history alone proves the delivered map (claim 9)."""
+def map_conclusion(folded: FoldedTrace, code: Code | str | None = None) -> Conclusion:
+    """Whether the history alone proves the delivered map (claim 9); `code`: as `delivered_code`."""
     fold, finish, last = folded.fold, folded.trace[-1], len(folded.trace) - 1
-    if not isinstance(finish, Finish):
+    if type(finish) is not Finish:
         return Conclusion(0, "no map was delivered")
     if broken := folded.read_to(last):
         return Conclusion(broken[0], f"no world shows this history: {broken[1]}")
-    code = delivered_code(finish.map)
+    code = code or delivered_code(finish.map)
     if isinstance(code, str):
         return Conclusion(last, code)
+    if fold.table(0) == code:
+        return Conclusion(last, "")
     number = fold.open_darts()
     why = f"{plural(number, 'door')} seen and never crossed" if number else "it proves another map"
-    if not number and fold.table() == code:
-        return Conclusion(last, "")
     witness = fold.world(1)
     return Conclusion(last, why, fold.world(2) if witness.code == code else witness)
 
@@ -124,11 +117,11 @@ def decision_conclusions(folded: FoldedTrace) -> Iterator[Conclusion]:
     """Every declared reject, confirm and augmentation, up to the first that draws an unproved S."""
     trace = folded.trace
     on_fold = MapOnFold(folded.fold)
-    rules = {event.rule for event in trace if isinstance(event, Reject)}
+    rules = {event.rule for event in trace if type(event) is Reject}
     tries = iter(range(FURTHER)) if "planar" in rules else None
     refuted: set[tuple[int, int]] = set()  # for good: S and the history only grow
     for when, event in enumerate(trace):
-        if not isinstance(event, CONCLUDED):
+        if type(event) is Move or not isinstance(event, CONCLUDED):
             continue
         if folded.read_to(when):
             break
@@ -137,7 +130,7 @@ def decision_conclusions(folded: FoldedTrace) -> Iterator[Conclusion]:
         else:
             why, witness = _doubt(on_fold, event, refuted, tries)
             yield Conclusion(when, why, witness, _is_met(on_fold, event))
-        if isinstance(event, Augment):
+        if type(event) is Augment:
             if why:  # from here on S is not proved
                 return
             on_fold.grow(event)
@@ -154,8 +147,8 @@ FOLLOWS: Doubt = ("", None)
 UNDECIDED: Doubt = ("no planar world was found in which it is false, nor that none exists", None)
 
 
-def _is_met(on_fold: MapOnFold, event: Event) -> bool:
-    if not isinstance(event, Reject) or event.rule not in ("folding", "planar"):
+def _is_met(on_fold: MapOnFold, event: Concluded) -> bool:
+    if type(event) is not Reject or event.rule not in ("folding", "planar"):
         return False
     e, h, cited = KnownDart(event.edge), KnownDart(event.hypothesis), event.evidence.contradiction
     if event.rule == "planar":
@@ -165,8 +158,8 @@ def _is_met(on_fold: MapOnFold, event: Event) -> bool:
 
 
 def _unknown_dart(on_fold: MapOnFold, event: Concluded) -> str:
-    other = event.dart if isinstance(event, Augment) else event.hypothesis
-    is_new = isinstance(event, Augment) and event.kind == "new"
+    other = event.dart if type(event) is Augment else event.hypothesis
+    is_new = type(event) is Augment and event.kind == "new"
     is_right = other == len(on_fold.places) if is_new else on_fold.is_open(other)
     fits = is_right and on_fold.is_open(event.edge)
     return "" if fits else f"{event.edge} or {other} is not an unexplored dart of S"
@@ -176,9 +169,9 @@ def _doubt(
     on_fold: MapOnFold, event: Concluded, refuted: Container[tuple[int, int]], tries: Tries
 ) -> Doubt:
     e = KnownDart(event.edge)
-    if isinstance(event, Reject):
+    if type(event) is Reject:
         return _may_lead_to(on_fold, e, [KnownDart(event.hypothesis)], tries)
-    if isinstance(event, Confirm):
+    if type(event) is Confirm:
         return _may_be_apart(on_fold, e, KnownDart(event.hypothesis), None)
     if event.kind == "loop":
         return _may_be_apart(on_fold, e, KnownDart(event.dart), event.degree)
@@ -194,9 +187,9 @@ def _may_lead_to(on_fold: MapOnFold, e: KnownDart, ends: list[KnownDart], tries:
     behind = fold.partner(on_fold.places[e])
     for end in ends:
         places = on_fold.places[e], on_fold.places[end]
-        # asked first, since most ends look different, which contradicts
-        differs = behind and fold.look(behind) != fold.look(places[1])
-        if differs or end not in face or any(fold.contradictions(*places, apart)):
+        # asked first, since it refutes most
+        is_other = behind is not None and fold.are_apart(behind, places[1])
+        if is_other or end not in face or any(fold.contradictions(*places, apart)):
             continue
         joined = deepcopy(fold)
         joined.join(*places)

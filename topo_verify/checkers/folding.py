@@ -60,7 +60,7 @@ class Ends:
         if degree > NARROW:
             self._wide[len(self._first)] = {}
         self._first.append(len(self._narrow))
-        self._narrow.extend(array("q", [-1]) * (degree if degree <= NARROW else 0))
+        self._narrow.extend([-1] * (degree if degree <= NARROW else 0))
 
     def get(self, node: int, dart: int) -> Place | None:
         """The other end of a dart, or None."""
@@ -125,7 +125,8 @@ class Fold:
         exit_place = self.find((here, dart + door))
         known = self.partner(exit_place)
         # the marker is at v0, whose dart 0 is marked
-        self.at = (known or (self._visit(percept), 0)) if marker is None else (0, -marker)
+        v0 = None if marker is None else self.find((0, -marker))
+        self.at = v0 or known or (self._visit(percept), 0)
         self._require_alike(self._seen[self.at[0]], percept)  # as the node that stands for it
         if self.at != known:
             self.join(exit_place, self.at)
@@ -183,7 +184,7 @@ class Fold:
         """The other ends of a dart: those drawn so far, or that of the fold."""
         if place not in drawn:
             end = self._ends.get(*place)
-            drawn[place] = {} if end is None else {self.look(end): self.find(end)}
+            drawn[place] = {} if end is None else {self._seen[end[0]].signature: self.find(end)}
         return drawn[place]
 
     def contradictions(self, one: Place, other: Place, apart: Sequence[Place]) -> Iterator[Met]:
@@ -228,9 +229,10 @@ class Fold:
             if self._seen[one].is_like(self._seen[other]):
                 yield from (((one, 0), (other, door)) for door in range(self.degree(one)))
 
-    def look(self, place: Place) -> tuple[int, bool]:
-        """The signature of a place."""
-        return self._seen[place[0]].signature
+    def are_apart(self, one: Place, other: Place) -> bool:
+        """Whether two places cannot be one dart at a glance: two turns of a vertex, or unlike."""
+        (a, i), (b, j) = self.find(one), self.find(other)
+        return i != j if a == b else not self._seen[a].is_like(self._seen[b])
 
     def degree(self, node: int) -> int:
         """The degree of a node."""
@@ -247,8 +249,8 @@ class Fold:
     def table(self, pendant_length: int = 1) -> Code:
         """The degrees, vertex by vertex from v0 on, and the other end of each dart.
 
-        A path of this many vertices hangs on every open dart. Without one, this is the code of the
-        only world that shows the history.
+        A path of this many vertices hangs on every open dart; if none does, its other end is -1.
+        Without an open dart, this is the code of the only world that shows the history.
         """
         if not self.degree(0):
             return (0,), ()
@@ -264,7 +266,7 @@ class Fold:
                 entries += filter(None, ends[-degree:])
         alpha = [-1 if end is None else number[end] for end in ends]
         for end in [dart for dart, other in enumerate(alpha) if other < 0]:
-            for degree in [2] * (pendant_length - 1) + [1]:
+            for degree in [*[2] * (pendant_length - 1), 1][:pendant_length]:
                 alpha[end] = len(alpha)
                 alpha += [end, -1][:degree]
                 degrees.append(degree)

@@ -4,7 +4,9 @@ Trusted. S is drawn from the declared augmentations, as far as they are true. It
 drawing is S at every moment; questions name an event.
 
     phi      S -> world: which dart of the world a dart of S is
+    across   world -> world: the other end of each edge
     number   world -> S: the inverse of phi
+    vertices the darts of each vertex of S, clockwise from its first
     alpha    S -> S: the other end of each explored edge
     born     the event at which a dart of S appeared     (S at event i: the darts born before i)
     joined   the event at which it was explored, or NEVER
@@ -16,7 +18,7 @@ import sys
 from typing import TypeGuard, cast
 
 from topo_verify.checkers.darts import KnownDart, WorldDart
-from topo_verify.robot.events import Augment
+from topo_verify.robot.events import Augment, MapData
 from topo_verify.robot.percept import Door, Percept
 from topo_verify.robot.simulator import exit_dart, first_percept, percepts
 from topo_verify.world.rooted_map import World
@@ -30,9 +32,10 @@ class MapInWorld:
     def __init__(self, world: World) -> None:
         self.world = world
         self._percepts = percepts(world) or (first_percept(world),)
-        self._across = cast("tuple[WorldDart, ...]", world.alpha)
+        self.across = cast("tuple[WorldDart, ...]", world.alpha)
         self.phi: dict[KnownDart, WorldDart] = {}
         self.number: dict[WorldDart, KnownDart] = {}
+        self.vertices: list[tuple[KnownDart, ...]] = []
         self.alpha: dict[KnownDart, KnownDart] = {}
         self.born: list[int] = []
         self.joined: list[int] = []
@@ -47,13 +50,19 @@ class MapInWorld:
 
     def beyond(self, dart: WorldDart, door: Door) -> WorldDart:
         """The reference dart in the world after leaving by a door."""
-        return self._across[exit_dart(self.world, dart, door)]
+        return self.across[exit_dart(self.world, dart, door)]
 
     def end(self, e: KnownDart) -> WorldDart:
         """The dart of the world at the other end of a dart of S."""
-        return self._across[self.phi[e]]
+        return self.across[self.phi[e]]
 
     # ------------------------------------------------------------ S
+
+    def is_world(self, delivered: MapData) -> bool:
+        """Whether S is the whole world, and was delivered as it was declared."""
+        edges = tuple([edge for edge in sorted(self.alpha.items()) if edge[0] < edge[1]])
+        is_whole = len(self.alpha) == len(self.world.alpha)
+        return is_whole and delivered == MapData(tuple(self.vertices), edges, 0)
 
     def grow(self, when: int, event: Augment) -> bool:
         """Let S grow by an augmentation; False, and no change, if it is not true here."""
@@ -72,9 +81,11 @@ class MapInWorld:
         return True
 
     def _add_vertex(self, entry: WorldDart, when: int) -> None:
-        first, degree = len(self.phi), self.seen_at(entry).degree
+        rotation = self.world.vertices[self.world.vertex_of[entry]]
+        first, place, degree = len(self.phi), self.world.place_of[entry], len(rotation)
         darts = cast("list[KnownDart]", [*range(first, first + degree)])
-        images = [WorldDart(exit_dart(self.world, entry, door)) for door in range(degree)]
+        images = cast("tuple[WorldDart, ...]", rotation[place:] + rotation[:place])
+        self.vertices.append(tuple(darts))
         self.phi |= zip(darts, images, strict=True)
         self.number |= zip(images, darts, strict=True)
         self.born += [when] * degree
@@ -87,8 +98,3 @@ class MapInWorld:
     def turn(self, dart: KnownDart, door: Door) -> KnownDart:
         """The dart of S behind a door for a robot with reference dart `dart` on S."""
         return self.number[WorldDart(exit_dart(self.world, self.phi[dart], door))]
-
-    def known(self, dart: WorldDart, when: int) -> KnownDart | None:
-        """The dart of S that this dart of the world is, if its vertex is known at event `when`."""
-        known = self.number.get(dart)
-        return known if known is not None and self.born[known] < when else None

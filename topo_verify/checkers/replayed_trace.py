@@ -7,18 +7,18 @@ they are true. Decisions after `illegal` or `spoiled` are not judged.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import cached_property
 
 import msgspec
 
+from topo_verify.checkers import entailment as ent
 from topo_verify.checkers.darts import KnownDart, WorldDart
-from topo_verify.checkers.entailment import Conclusion, FoldedTrace, decision_conclusions
 from topo_verify.checkers.excursions import Excursion, Records, Word
 from topo_verify.checkers.map_in_world import MapInWorld
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
-from topo_verify.world.rooted_map import World
+from topo_verify.world.rooted_map import Code, World
 
 
 class Round(msgspec.Struct, frozen=True):
@@ -31,6 +31,7 @@ class Round(msgspec.Struct, frozen=True):
         end: the other end of its edge in the world; None if the edge is not an unexplored dart of
             S.
         truth: that end as a dart of S, if its vertex is known.
+        crossing: that edge of the world, as in `ReplayedTrace.crossing`.
     """
 
     when: int
@@ -40,19 +41,7 @@ class Round(msgspec.Struct, frozen=True):
     sequences: tuple[Word, ...]
     end: WorldDart | None
     truth: KnownDart | None
-
-
-class Fate(msgspec.Struct, frozen=True):
-    """What became of an edge that was posed.
-
-    Attributes:
-        when, event: its last pose; or the augmentation, once S grew along it.
-        left: hypotheses without a fate since they were posed; none after a loop.
-    """
-
-    when: int
-    event: ev.Pose | ev.Augment
-    left: set[int]
+    crossing: WorldDart | None
 
 
 class ReplayedTrace:
@@ -66,19 +55,23 @@ class ReplayedTrace:
         kinds: the number of events of each type.
         map: S, drawn on the world.
         positions: the reference dart in the world after each event, up to an illegal move.
-        followed: the events up to an illegal move.
         illegal: the first move through a door that is not there.
         spoiled: the first augmentation that is false in this world.
         crossings: the crossed edges of the world, and at which event first.
+        rounds: every decision that can be judged: up to the first illegal move or false map.
+        fates: for each posed edge of the world its last pose, or the augmentation along it; in
+            the order of the poses.
+        left: for each such edge the hypotheses without a fate since they were posed; none after a
+            loop.
         false_percepts: an event, its percept, and the percept that the world shows.
     Raises:
         InputError: the events are in no such order.
     """
 
     def __init__(self, world: World, trace: Sequence[ev.Event], stopped: str | None = None) -> None:
-        ev.require_order(trace)
+        trace = ev.require_order(trace)
         self.world, self.trace, self.stopped = world, trace, stopped
-        self.fold = FoldedTrace(trace)
+        self.fold = ent.FoldedTrace(trace)
         self.kinds = Counter(map(type, trace))
         self.cost = self.kinds[ev.Move]
         self.map = MapInWorld(world)
@@ -86,90 +79,98 @@ class ReplayedTrace:
         self.illegal: int | None = None
         self.spoiled: int | None = None
         self.positions: list[WorldDart] = []
-        self.crossings: dict[int, int] = {}
+        self.crossings: dict[WorldDart, int] = {}
         self.false_percepts: list[tuple[int, Percept, Percept]] = []
-        self._walk()
-        self.followed = trace[: len(self.positions)]
+        self.rounds: list[Round] = []
+        self.fates: dict[WorldDart, Round] = {}
+        self.left: dict[WorldDart, set[int]] = {}
+        self._posed: Round | None = None  # the last pose, if S did not grow since
+        self._behind = Excursion()
+        self._replay()
 
-    def _walk(self) -> None:
+    def _replay(self) -> None:
         at = WorldDart(self.world.root or 0)
         seen = self.map.seen_at(at)
         for when, event in enumerate(self.trace):
-            if isinstance(event, ev.Move):
+            if type(event) is ev.Move:
                 if not 0 <= event.door < seen.degree:
                     self.illegal = when
                     return
                 at = self.map.beyond(at, event.door)
-                seen = self.map.seen_at(at)
-                self.crossings.setdefault(min(at, self.world.alpha[at]), when)
-            elif isinstance(event, ev.Augment) and self.spoiled is None:
-                self.spoiled = None if self.map.grow(when, event) else when
+                left, seen = seen, self.map.seen_at(at)
+                self._behind.move(event.door, left.degree, seen)
+                self.crossings.setdefault(self.crossing(at), when)
+            elif self.spoiled is None and isinstance(event, ev.DECISIONS):
+                self._decide(when, event, at)
             if (told := getattr(event, "percept", seen)) != seen:
                 self.false_percepts.append((when, told, seen))
             self.positions.append(at)
+
+    def _decide(self, when: int, event: ev.Decision, at: WorldDart) -> None:
+        decision = self._round(when, event, at)
+        self.rounds.append(decision)
+        behind = self._behind
+        if type(event) is ev.Pose:
+            self._posed = decision
+        elif type(event) is ev.Augment:
+            if not self.map.grow(when, event):
+                self.spoiled = when
+            elif decision.pose:  # it is true, so S has its dart
+                self.records.add(when, KnownDart(event.dart), behind.sequences)
+            self._posed, behind.sequences = None, ()
+        elif type(event) is ev.Reject and event.rule == "motion" and decision.word:
+            behind.sequences = (*behind.sequences, decision.word)
+        if decision.crossing is not None:
+            self._settle(decision.crossing, decision)
+
+    def _round(self, when: int, event: ev.Decision, at: WorldDart) -> Round:
+        posed = None if type(event) is ev.Pose else self._posed
+        pose = end = truth = crossing = None
+        if posed and posed.event.edge == event.edge:  # S is the same
+            pose, end, truth, crossing = posed.pose, posed.end, posed.truth, posed.crossing
+        elif self.map.is_open(event.edge, when):
+            end = self.map.end(event.edge)
+            truth, crossing = self.map.number.get(end), self.crossing(end)
+        if type(event) is ev.Pose:
+            pose, self._behind = event, Excursion(is_late=end != at)
+        behind = self._behind
+        return Round(when, event, pose, tuple(behind.word), behind.sequences, end, truth, crossing)
+
+    def _settle(self, crossing: WorldDart, decision: Round) -> None:
+        event, when = decision.event, decision.when
+        left = self.left.setdefault(crossing, set())
+        if type(event) is ev.Pose:
+            self.fates[crossing] = decision
+            left.update(event.hypotheses)
+        elif type(event) is not ev.Augment:
+            left.discard(event.hypothesis)
+        elif decision.pose and when != self.spoiled:
+            self.fates[crossing] = decision
+            left -= {h for h in left if event.kind == "loop" or not self.map.is_open(h, when)}
 
     @property
     def is_history(self) -> bool:
         """Whether the world has all doors and shows all percepts of the trace."""
         return self.illegal is None and not self.false_percepts
 
-    @cached_property
-    def rounds(self) -> tuple[Round, ...]:
-        """Every decision that can be judged: up to the first illegal move or false map."""
-        return tuple(self._rounds())
-
-    def _rounds(self) -> Iterator[Round]:
-        poses: dict[int, ev.Pose] = {}  # by its edge: the last pose, if S did not grow since
-        behind = Excursion()
-        for when, event in enumerate(self.followed):
-            if isinstance(event, ev.Move):
-                before, at = self.positions[when - 1 : when + 1]
-                behind.move(event.door, self.map.seen_at(before).degree, self.map.seen_at(at))
-            elif isinstance(event, ev.DECISIONS):
-                edge = event.edge
-                end = self.map.end(edge) if self.map.is_open(edge, when) else None
-                if isinstance(event, ev.Pose):
-                    poses, behind = {edge: event}, Excursion(is_late=end != self.positions[when])
-                truth = None if end is None else self.map.known(end, when)
-                pose, word = poses.get(edge), tuple(behind.word)
-                yield Round(when, event, pose, word, behind.sequences, end, truth)
-                if isinstance(event, ev.Augment):
-                    if when == self.spoiled:
-                        return
-                    if pose:  # it is true, so S has its dart
-                        self.records.add(when, KnownDart(event.dart), behind.sequences)
-                    poses, behind.sequences = {}, ()
-                elif isinstance(event, ev.Reject) and event.rule == "motion" and word:
-                    behind.sequences = (*behind.sequences, word)
-
-    def crossing(self, dart: WorldDart) -> int:
+    def crossing(self, dart: WorldDart) -> WorldDart:
         """The edge of the world that has this dart, by the lesser of its two."""
-        return min(dart, self.world.alpha[dart])
+        return min(dart, self.map.across[dart])
 
     @cached_property
-    def fates(self) -> dict[int, Fate]:
-        """What became of each posed edge of the world, in the order of the poses."""
-        fates: dict[int, Fate] = {}
-        for decision in self.rounds:
-            if decision.end is None:
-                continue
-            edge, event, when = self.crossing(decision.end), decision.event, decision.when
-            left: set[int] = fates[edge].left if edge in fates else set()
-            if isinstance(event, ev.Pose):
-                fates[edge] = Fate(when, event, left.union(event.hypotheses))
-            elif not isinstance(event, ev.Augment):
-                left.discard(event.hypothesis)
-            elif decision.pose and when != self.spoiled:
-                left = {h for h in left if event.kind == "new" and self.map.is_open(h, when)}
-                fates[edge] = Fate(when, event, left)
-        return fates
+    def code(self) -> Code | str | None:
+        """The code of the delivered map, or why it is not a map; None without one."""
+        finish = self.trace[-1]
+        if type(finish) is not ev.Finish:
+            return None
+        return self.world.code if self.map.is_world(finish.map) else ent.delivered_code(finish.map)
 
     @cached_property
-    def conclusions(self) -> dict[int, Conclusion]:
+    def conclusions(self) -> dict[int, ent.Conclusion]:
         """By event, whether each declared reject, confirm and augmentation follows; in order.
 
         A history that the world does not show proves nothing.
         """
-        folded = FoldedTrace(self.trace) if self.fold.read else self.fold
-        conclusions = decision_conclusions(folded) if self.is_history else ()
+        folded = ent.FoldedTrace(self.trace) if self.fold.read else self.fold
+        conclusions = ent.decision_conclusions(folded) if self.is_history else ()
         return {conclusion.when: conclusion for conclusion in conclusions}

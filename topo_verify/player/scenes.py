@@ -246,7 +246,7 @@ class Playback:
             )
 
     def _position(self, number: int) -> WorldDart | None:
-        return self.replayed.positions[number] if number < len(self.replayed.followed) else None
+        return self.replayed.positions[number] if number < len(self.replayed.positions) else None
 
     def _left_by(self, number: int, move: ev.Move) -> tuple[WorldDart | None, KnownDart | None]:
         before = self._position(number - 1)
@@ -257,7 +257,7 @@ class Playback:
 
     def _growth(self, number: int, event: ev.Augment) -> Growth:
         spoiled = self.replayed.spoiled
-        judged = number < len(self.replayed.followed) and (spoiled is None or number <= spoiled)
+        judged = number < len(self.replayed.positions) and (spoiled is None or number <= spoiled)
         true = number != spoiled if judged else None
         return Growth(event.edge, event.kind, event.dart, event.degree, true)
 

@@ -17,7 +17,7 @@ from codecs import BOM_UTF8
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from io import BytesIO
-from typing import Any, Literal, Protocol, get_args
+from typing import Any, Literal, Protocol, final, get_args
 
 import msgspec
 
@@ -92,6 +92,7 @@ class Policies(msgspec.Struct, frozen=True):
         printer.text(repr(self))
 
 
+@final
 class Start(_Event, frozen=True, kw_only=True):
     """The robot stands at the marker, its reference dart the marked one.
 
@@ -109,6 +110,7 @@ class Start(_Event, frozen=True, kw_only=True):
     stopped: str | msgspec.UnsetType = msgspec.UNSET
 
 
+@final
 class Move(_Event, frozen=True, gc=False):
     """The robot left by a door and senses a percept. Cost: one edge traversal."""
 
@@ -117,6 +119,7 @@ class Move(_Event, frozen=True, gc=False):
     purpose: Purpose | None = None
 
 
+@final
 class Pose(_Event, frozen=True):
     """The robot has crossed `edge`; these unexplored darts of S might be its other end."""
 
@@ -124,6 +127,7 @@ class Pose(_Event, frozen=True):
     hypotheses: tuple[MapDart, ...]
 
 
+@final
 class Reject(_Event, frozen=True):
     """The other end of `edge` is not `hypothesis`, because of the evidence."""
 
@@ -133,6 +137,7 @@ class Reject(_Event, frozen=True):
     evidence: Evidence
 
 
+@final
 class Confirm(_Event, frozen=True):
     """The other end of `edge` is `hypothesis`."""
 
@@ -141,6 +146,7 @@ class Confirm(_Event, frozen=True):
     rule: RuleName
 
 
+@final
 class Augment(_Event, frozen=True):
     """The map grows by a new vertex with first dart `dart`, or by a loop with other end `dart`."""
 
@@ -150,6 +156,7 @@ class Augment(_Event, frozen=True):
     degree: Number
 
 
+@final
 class Finish(_Event, frozen=True):
     """The mapper delivers its map and, optionally, its own count of the cost."""
 
@@ -162,8 +169,6 @@ Event = Start | Move | Pose | Reject | Confirm | Augment | Finish
 Trace = tuple[Event, ...]
 KINDS = frozenset(get_args(Event))
 DECISIONS = Pose, Reject, Confirm, Augment
-SIGHTS = Start, Move
-"""The kinds of events that have a percept."""
 
 
 class Robot(Protocol):
@@ -266,8 +271,13 @@ def _event(line: bytes, place: str) -> Event:
     return event
 
 
-def require_order(trace: Sequence[Event]) -> None:
-    """Raise InputError unless the trace begins with its only `start` and ends with any `finish`."""
+def require_order(trace: Sequence[Event]) -> Sequence[Event]:
+    """The trace, each event exactly of its kind, so that `type` tells them apart.
+
+    Raises:
+        InputError: the trace does not begin with its only `start` and end with any `finish`, or it
+            has something else in it.
+    """
     kinds = [*map(type, trace)]
     if (  # the usual case, quickly
         kinds[:1] == [Start]
@@ -275,12 +285,22 @@ def require_order(trace: Sequence[Event]) -> None:
         and Finish not in kinds[:-1]
         and KINDS.issuperset(kinds)
     ):
-        return
+        return trace
     for when, event in enumerate(trace or (None,)):
         ends = isinstance(event, Finish) and when + 1 < len(trace)
         if isinstance(event, Start) != (when == 0) or ends:
             rule = "a trace begins with its only 'start' and does not go on after 'finish'"
             raise InputError(f"event {when} of the trace is out of order: {rule}")
+        if not isinstance(event, Event):
+            kind = type(event).__name__
+            raise InputError(f"event {when} of the trace is a {kind}: expected an event")
+    return tuple(map(_plain, trace))
+
+
+def _plain(event: Event) -> Event:
+    """The event without what a subclass adds: no claim speaks of that."""
+    base: type[Event] = next(kind for kind in KINDS if isinstance(event, kind))
+    return base(**{name: getattr(event, name) for name in base.__struct_fields__})
 
 
 def _require_start(head: Event | None, name: str) -> None:

@@ -119,7 +119,7 @@ def _judged(world: World, trace: Sequence[Event]) -> Hashable | None:
     planar = any(isinstance(event, Reject) and event.rule == "planar" for event in trace)
     drawn = tuple(run.map.phi.values()), tuple(sorted(run.map.alpha))
     waiting = tuple(
-        (edge, tuple(sorted(fate.left)))
+        (edge, tuple(sorted(run.left[edge])))
         for edge, fate in run.fates.items()
         if isinstance(fate.event, Pose)
     )
