@@ -14,6 +14,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
+from itertools import chain, islice
 from math import isclose
 from typing import Any, NamedTuple, TypeVar, cast
 
@@ -25,19 +27,13 @@ from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
 
-_AXES = (
-    ("x", "y"),
-    ("lon", "lat"),
-    ("lng", "lat"),
-    ("long", "lat"),
-    ("longitude", "latitude"),
-)
-"""Names of the coordinates. Degrees only stretch a map, so clockwise orders stay the same."""
+_DEGREES = (("lon", "lat"), ("lng", "lat"), ("long", "lat"), ("longitude", "latitude"))
+"""Names of the coordinates in degrees. They only stretch a map: clockwise orders stay the same."""
 
 _ROUNDING = 1e-6
 """Relative difference of two positions of one node up to which they are the same."""
 
-PLACES = frozenset({"pos", "geometry", *(axis for axes in _AXES for axis in axes)})
+PLACES = frozenset({"pos", "x", "y", "geometry", *chain.from_iterable(_DEGREES)})
 """The attributes that say where a node lies."""
 
 NOT_READ = frozenset({"graphics", "viz", "coords", "coordinates", "location", "position", "point"})
@@ -111,29 +107,41 @@ def _named(label: Any) -> str:
 def position(attributes: Mapping[str, Any], subject: str) -> Point:
     """Where the node lies."""
     given = {name: value for name, value in attributes.items() if not is_blank(value)}
-    at: Point | None = None
-    if "pos" in given:
-        at = geometry.point(given["pos"], f"{subject}, pos")
-    for axes in _AXES:
-        if at is None and given.keys() >= {*axes}:
-            x, y = (geometry.number(given[axis], f"{subject}, {axis}") for axis in axes)
-            at = x, y
+    readings: list[Point] = []
+    if "pos" in given and not _is_word(given["pos"]):
+        readings.append(geometry.point(given["pos"], f"{subject}, pos"))
+    if given.keys() >= {"x", "y"}:
+        readings.append(_coordinates(given, ("x", "y"), subject))
     if "geometry" in given:
-        other = geometry.geometry_point(given["geometry"], f"{subject}, geometry")
-        at = at or other
-        pairs = zip(at, other, strict=True)
+        readings.append(geometry.geometry_point(given["geometry"], f"{subject}, geometry"))
+    # a map in metres may keep its degrees
+    degrees = [axes for axes in _DEGREES if given.keys() >= {*axes} and not readings]
+    readings += [_coordinates(given, axes, subject) for axes in degrees]
+    for other in readings[1:]:
+        pairs = zip(readings[0], other, strict=True)
         if not all(isclose(*pair, rel_tol=_ROUNDING, abs_tol=_ROUNDING) for pair in pairs):
             raise InputError(
-                f"{subject} lies at {at}, and at {other} by its 'geometry': give it one position"
+                f"{subject} lies at {readings[0]} and at {other}, by two of its attributes pos, x"
+                " and y, geometry: give it one position"
             )
-    if at is not None:
-        return at
+    if readings:
+        return readings[0]
     unread = next((name for name in given if _plain(name) in NOT_READ or name.startswith("<")), "")
     raise InputError(
         f"{subject} has no '{'y' if 'x' in given else 'x'}': the rotation comes from positions, so"
         " give each node x and y (y upwards), pos, lon and lat, or a POINT as geometry"
         + (f"; its {shown(unread, limit=60)!r} is not read" if unread else "")
     )
+
+
+def _coordinates(given: Mapping[str, Any], axes: tuple[str, str], subject: str) -> Point:
+    x, y = (geometry.number(given[axis], f"{subject}, {axis}") for axis in axes)
+    return x, y
+
+
+def _is_word(value: Any) -> bool:
+    """Whether a `pos` is a part of speech, as NOUN."""
+    return isinstance(value, str) and not re.search(r"\d", value)
 
 
 def course(
@@ -195,6 +203,7 @@ _LOOKS_DRAWN = re.compile(
 _NOT_POINTS = re.compile(r"[^\s\d.,;:()\[\]{}'\"+eExyzMLHVCSQTAmlhvcsqta-]")
 
 
+@lru_cache
 def _plain(name: str) -> str:
     return re.sub(r"[-_:\s]", "", name).lower()
 
@@ -229,7 +238,7 @@ def _holds_numbers(value: Any) -> bool:
 
 def _has_points(value: Any) -> bool:
     try:
-        rows = [_values(row) for row in list(value)[:2]]
+        rows = [_values(row) for row in islice(value, 2)]
     except TypeError:
         return False
     return len(rows) > 1 and all(len(row) > 1 and all(map(_is_number, row)) for row in rows)
