@@ -273,6 +273,14 @@ def test_a_drawing_in_node_link_json_needs_no_more_than_its_nodes_and_edges(
     assert node_link.decode(World, text).id == "m1/0"
 
 
+@pytest.mark.parametrize(
+    "edges", ['"links":[],"edges":[]', '"adjacency":[[{"id":0}]]', '"edge":[]']
+)
+def test_a_drawing_in_node_link_json_has_its_edges_in_one_place(edges: str) -> None:
+    with pytest.raises(InputError, match="expected its edges as 'edges', or 'links', got "):
+        node_link.decode(World, f'{{"nodes":[{{"id":0,"x":0,"y":0}}],{edges}}}')
+
+
 def test_directed_edges_of_node_link_json_are_merged() -> None:
     graph: nx.MultiDiGraph[tuple[int, int]] = nx.MultiDiGraph()
     graph.add_node((0, 0), pos=(0, 0))

@@ -75,7 +75,7 @@ def test_a_ring_is_a_line() -> None:
         None, True, 7, float("nan"), "", "north", b"\1\2\0\0\0", {}, {0: 0}, [], [0, 0],
         [[0, 0], 1], [[0]], [[0, 0, 0, 0, 0]], [[0, "x"]], [[0, float("nan")]], [[0, float("inf")]],
         [[True, 0], [0, 0]], [[0, 1e13]], [[10**5000, 0]], [[1j, 0]], [None], [(None, 0)],
-        np.zeros((0, 2)), np.array(5), np.array([1.0, 2.0]), np.array([[np.nan, 0], [1, 1]]),
+        {(0, 0), (1, 0)}, np.zeros((0, 2)), np.array(5), np.array([1.0, 2.0]), np.array([[np.nan, 0], [1, 1]]),
         SimpleNamespace(coords=None), SimpleNamespace(coords=[]),
         "POINT (0 0)", "POLYGON ((0 0, 1 0, 1 1, 0 0))", "LINESTRING EMPTY", "LINESTRING Z EMPTY",
         "LINESTRING ()", "LINESTRING (0 0, 1)", "LINESTRING (0 0, , 1 0)",

@@ -51,6 +51,8 @@ def test_world_json_says_how_a_file_of_node_link_json_is_called() -> None:
         ('"target":1', '"target":"1"', "edge 0 has the end '1', expected the id of a node"),
         ('"source":0', '"source":9', "edge 0 has the end 9, expected the id of a node"),
         ('"darts":[0,1]', '"darts":[0,1,2]', r"`array` of length 2.* - at `\$.edges\[0\].darts`"),
+        ('"edges":', '"edge":', "expected its edges as 'edges', or 'links', got neither"),
+        ('"edges":', '"links":[],"edges":', "expected its edges as 'edges', or 'links', got both"),
         ('"key":0', '"key":' + "[" * 100000, "nested too deeply|not valid JSON"),
         ('"rotation":[0]', '"rotation":[9223372036854775808]', r"`\$.nodes\[0\].rotation"),
     ],

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from contextlib import suppress
 from typing import Any, Final, cast
 
@@ -169,7 +170,7 @@ def row_of(value: Any, subject: str) -> list[Any]:
     fields = _fields(value)
     if {"x", "y"} <= fields.keys():
         return [fields["x"], fields["y"]]
-    if not isinstance(value, str | bytes | Mapping):
+    if not isinstance(value, str | bytes | Mapping | AbstractSet):  # a set has no order
         with suppress(TypeError):  # numpy's arrays without a dimension
             return list(cast("Iterable[Any]", value))
     raise InputError(

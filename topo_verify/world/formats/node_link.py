@@ -133,13 +133,23 @@ def _drawn(cls: type[W], data: _Drawing, name: str, stem: str, largest_part: Not
                 )
             nodes[key] = node
     edges: list[GraphEdge] = []
-    for place, edge in enumerate(data.edges or data.links or ()):
+    for place, edge in enumerate(_edges(data, name)):
         with flaws:
             subject = f"{name}: edge {place}"
             start, end = (_key(edge, side, subject) for side in ("source", "target"))
             label = (start, end, *([edge["key"]] if "key" in edge else []))
             edges.append(GraphEdge(start, end, edge, data.directed, label))
     return drawn_graph.as_world(cls, nodes, edges, flaws, name=stem, largest_part=largest_part)
+
+
+def _edges(data: _Drawing | _NodeLink, name: str) -> tuple[Any, ...]:
+    given = [rows for rows in (data.edges, data.links) if not isinstance(rows, UnsetType)]
+    if len(given) != 1:
+        raise InputError(
+            f"{name}: expected its edges as 'edges', or 'links', got"
+            f" {'both' if given else 'neither'}: give one of the two"
+        )
+    return given[0]
 
 
 def _key(fields: Mapping[str, Any], field: str, subject: str) -> Any:
@@ -172,7 +182,7 @@ def _rotated(cls: type[W], data: _NodeLink, name: str, stem: str) -> W:
     if len(number) < len(data.nodes):
         raise InputError(f"{name}: two nodes have one id: give each a distinct id")
     edges: list[RotatedEdge] = []
-    for place, edge in enumerate(data.edges or data.links or ()):
+    for place, edge in enumerate(_edges(data, name)):
         ends = [_hashable(end, f"{name}: edge {place}") for end in (edge.source, edge.target)]
         for end in ends:
             if end not in number:
