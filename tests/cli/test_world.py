@@ -205,6 +205,9 @@ def test_convert_keeps_the_largest_part_and_says_what_it_leaves_out(
     assert (done.exit_code, "'a', 'b'" in done.stderr) == (0, True)
     assert World.load(folder / "one.json").vertex_names == ("c", "d", "e")
     assert call("world convert two.nx.json --largest-part --quiet").stderr == ""
+    shown = call("world show two.nx.json --largest-part --format json")
+    assert json.loads(shown.stdout)["results"][0]["vertex_names"] == ["c", "d", "e"]
+    assert "'a', 'b'" in shown.stderr
 
 
 @pytest.mark.parametrize(

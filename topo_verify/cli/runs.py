@@ -91,13 +91,17 @@ def named_world(
     return NamedWorld(world, text, marker)
 
 
-def named_worlds(texts: Sequence[str], marker: int | None = None) -> list[NamedWorld]:
+def named_worlds(
+    texts: Sequence[str],
+    marker: int | None = None,
+    largest_part: Callable[[str], None] | None = None,
+) -> list[NamedWorld]:
     """The worlds that the user names, all read before any is used."""
     if texts.count("-") > 1:
         raise InputError(
             "expected '-' at most once, since standard input holds one world; name files instead"
         )
-    return [named_world(text, marker) for text in texts]
+    return [named_world(text, marker, largest_part=largest_part) for text in texts]
 
 
 def _saved(world: World) -> str:

@@ -45,6 +45,13 @@ def world() -> None:
     """Show, list, convert, count, sample and draw worlds."""
 
 
+_largest_part = click.option(
+    "--largest-part",
+    is_flag=True,
+    help="Of a drawing in several parts keep the one with the most vertices, and say what is left"
+    " out.",
+)
+
 # ---------------------------------------------------------------- show
 
 
@@ -94,6 +101,7 @@ class ShowEntry(msgspec.Struct, frozen=True):
     group=world,
 )
 @click.argument("worlds", nargs=-1, required=True, metavar="WORLD...")
+@_largest_part
 @options.marker
 @click.option(
     "--twin",
@@ -109,6 +117,7 @@ def show(
     *,
     worlds: tuple[str, ...],
     marker: int | None,
+    largest_part: bool,
     model: MarkerModel | None,
     file: str | None,
 ) -> int:
@@ -122,7 +131,7 @@ def show(
         )
 
     def shown() -> Iterator[Result[ShowEntry]]:
-        for at in named_worlds(worlds, marker):
+        for at in named_worlds(worlds, marker, output.note if largest_part else None):
             yield Result(_shown(at, None if model is None else twin_entry(at.world, model, file)))
 
     return output.run("world-show", shown, _show)
@@ -215,12 +224,7 @@ class ConvertEntry(msgspec.Struct, frozen=True):
 @click.option(
     "-o", "file", default="-", metavar="FILE", help="Write to FILE.  [default: standard output]"
 )
-@click.option(
-    "--largest-part",
-    is_flag=True,
-    help="Of a drawing in several parts keep the one with the most vertices, and say what is left"
-    " out.",
-)
+@_largest_part
 @options.marker
 def convert(
     output: Output,
