@@ -118,7 +118,7 @@ def test_a_csv_table_is_a_log(results: Results, table: str) -> None:
         ),
         (
             'door,degree,marker,note\n,2,0,"a\nb"\n',
-            "row 3: expected 4 cells, as in the row of titles, got 1; a cell may not go on",
+            "row 2: expected cells of a table: unexpected end of data; a cell in quotes",
         ),
         (
             "door,degree,marker\n,1,0\n0,1",
@@ -138,6 +138,7 @@ def test_a_csv_table_is_a_log(results: Results, table: str) -> None:
             "sep=;\ndoor,degree,marker\n",
             "t.csv, row 2: expected the columns door, degree, marker, got no 'door'",
         ),
+        ('door,degree,marker\n,2,0\n0,2,"\n1,2,1\n', "row 3: expected cells of a table"),
         ("sep=;\nsep=;\n", "row 2: expected the columns"),
         ("sep=;\n", "t.csv: expected a row with the percept at the start"),
         ("door,degree,marker\n,2.5,0\n", "row 2: expected a whole number from 0 to 1000000 as deg"),

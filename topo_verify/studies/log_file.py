@@ -133,9 +133,11 @@ def table_events(lines: Iterable[bytes], name: str) -> Iterator[tuple[int, Event
                 continue
         place = f"{name}, row {number}"
         try:
-            (row,) = csv.reader([text], delimiter=separator)
+            (row,) = csv.reader([text], delimiter=separator, strict=True)
         except csv.Error as error:
-            raise InputError(f"{place}: expected cells of a table: {error}") from error
+            raise InputError(
+                f"{place}: expected cells of a table: {error}; a cell in quotes ends in its row"
+            ) from error
         cells = [cell.strip() for cell in row]
         if not any(cells):
             continue
@@ -147,8 +149,6 @@ def table_events(lines: Iterable[bytes], name: str) -> Iterator[tuple[int, Event
             mend = "is the file cut?"
             if text.startswith("#"):
                 mend = "a table has no comments: delete the row"
-            elif text.count('"') % 2:
-                mend = "a cell may not go on in the next row: write it in one"
             raise InputError(
                 f"{place}: expected {plural(len(titles), 'cell')}, as in the row of titles, got"
                 f" {len(cells)}; {mend}"

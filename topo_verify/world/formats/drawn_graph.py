@@ -3,7 +3,7 @@
 A node lies at its `pos`, its `x` and `y`, its `geometry` (a point), or its `lon` and `lat`. An edge
 runs along its `geometry`, past its `bends` (OGDF: the points between its ends), or straight.
 
-An edge whose polyline were overlooked would leave its vertex in another direction. So an attribute
+If a polyline were overlooked, its edge would leave the vertex in another direction. So an attribute
 that holds points but is not read is refused by its name: the name is known for it, or the value
 looks like points.
 
@@ -162,7 +162,7 @@ def course(
     subject = f"{subject}, bends"
     row = bends.replace(",", " ").split() if isinstance(bends, str) else bends
     row = geometry.row_of(row, subject)
-    if all(isinstance(value, str | int | float) for value in row):
+    if all(isinstance(value, str) or not hasattr(value, "__len__") for value in row):
         if len(row) % 2:
             raise InputError(f"{subject} has {len(row)} numbers, expected x y x y …: give both")
         row = [*zip(row[::2], row[1::2], strict=True)]

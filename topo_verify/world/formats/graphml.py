@@ -1,7 +1,7 @@
 """GraphML: worlds with their rotation, and drawings as OSMnx and NetworkX write them.
 
 A graph whose data `format` is `topo-verify/graph` carries its rotation (rotated.py). Any other
-graph is a **drawing** (embedding.py): nodes with `x` and `y`, edges perhaps with a `geometry`.
+graph is a **drawing** (drawn_graph.py): nodes with `x` and `y`, edges perhaps with a `geometry`.
 
 Why not `networkx.read_graphml`? It expands entities, and builds the whole tree before it can refuse
 anything. It keeps the last of two nodes, data or edges with one id, adds a node where an edge ends
