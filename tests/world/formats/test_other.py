@@ -149,3 +149,10 @@ def test_a_format_that_nothing_tells_is_refused_with_those_that_are_read(
 def test_a_world_may_have_a_name_with_any_ending(tmp_path: Path) -> None:
     (tmp_path / "m4.629").write_text(families.cycle(3).to_json())
     assert World.load(tmp_path / "m4.629") == families.cycle(3)
+
+
+@pytest.mark.parametrize("text", ["#", "/**/", "<!---->", "<??>", " ", "//", "Creator "])
+def test_a_long_beginning_is_looked_through_once(text: str, tmp_path: Path) -> None:
+    """A pattern that backtracks would not end."""
+    (tmp_path / "t.bin").write_text(text * 2000 + "!")
+    assert "is of no format that is read" in sentence_of(tmp_path / "t.bin")

@@ -48,7 +48,7 @@ def _planar(graph: str) -> str:
     )
 
 
-_XML = r"(?:\s|<\?.*?\?>|<!--.*?-->)*<(?:\w+:)?"
+_XML = r"(?:\s++|(?><\?.*?\?>)|(?><!--.*?-->))*+<(?:\w++:)?"
 _VIZ = (
     ", {n: (p['x'], p['y']) for n, d in g.nodes(data=True)"
     " for p in [d.get('viz', {}).get('position', d)]}"
@@ -72,14 +72,14 @@ _FORMATS = (
     _Format(
         "GML",
         (".gml",),
-        r"(?:\s|#[^\n]*|(?:Creator|Version|Comment)[^\n]*)*graph\s*\[",
+        r"(?:\s++|#[^\n]*+|(?:Creator|Version|Comment)[^\n]*+)*+graph\s*+\[",
         _drawing("nx.read_gml(FILE, label='id')"),
     ),
     _Format("GEXF", (".gexf",), _XML + "gexf", _drawing("nx.read_gexf(FILE)", _VIZ)),
     _Format(
         "DOT",
         (".dot", ".gv"),
-        r"(?:\s|//[^\n]*|#[^\n]*|/\*.*?\*/)*(?:strict\s+)?(?:di)?graph\b[^\[{]*\{",
+        r"(?:\s++|//[^\n]*+|#[^\n]*+|(?>/\*.*?\*/))*+(?:strict\s++)?(?:di)?graph\b[^\[{]*+\{",
         _planar("nx.nx_pydot.read_dot(FILE)"),
     ),
     _Format("graph6", (".g6",), ">>graph6<<", _planar("nx.read_graph6(FILE)")),
