@@ -46,7 +46,8 @@ def number(value: Any, subject: str, most: float = FARTHEST) -> float:
     """The value as a coordinate, at most `most` either way."""
     with suppress(TypeError, ValueError, OverflowError):
         coordinate = float(value)
-        if abs(coordinate) <= most and not isinstance(value, bool):
+        is_python = isinstance(value, bool) or (isinstance(value, str) and "_" in value)
+        if abs(coordinate) <= most and not is_python:  # other programs have no True and no 1_000
             return coordinate + 0.0  # not -0.0
     # long integers cannot be printed
     got = "an integer" if type(value) is int else repr(value)
