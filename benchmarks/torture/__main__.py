@@ -122,7 +122,7 @@ def main() -> int:
     parser.add_argument("--workers", type=int, default=os.cpu_count())
     asked = parser.parse_args()
     adopt()
-    if missed := [*planted.unseen(), *intrusion.unseen()]:
+    if missed := [*planted.unseen(), *intrusion.unseen(), *endings.unseen()]:
         sys.exit(f"the torture does not see these planted faults: {', '.join(missed)}")
     began = monotonic()
     fork = multiprocessing.get_context("fork")

@@ -196,6 +196,29 @@ def _match(pattern: str, text: str) -> str:
     return found[1] if found else "nothing"
 
 
+def unseen() -> list[str]:
+    """The ends of a command whose forms do not agree, and that the trials do not see."""
+    page, badge = "<p>Exit code 0: ", "<title>basic: EXHAUSTED, all</title>"
+    both = {"r.html", "r.svg"}
+    planted = {
+        "a JSON with another exit code": (3, '{"exit": 0, "ok": false}', "", ""),
+        "a page with another exit code": (3, '{"exit": 3, "ok": false}', page, ""),
+        "a badge with another verdict": (3, '{"exit": 3, "ok": false}', "", badge),
+        "an end without output and sentence": (0, "", "", ""),
+        "an end by a signal": (-2, "", "", ""),
+        "a file without output": (3, "", page, badge),
+    }
+    missed: list[str] = []
+    with TemporaryDirectory() as folder:
+        os.chdir(folder)
+        for what, (code, stdout, html, svg) in planted.items():
+            Path("r.html").write_text(html or f"<p>Exit code {code}: ")
+            Path("r.svg").write_text(svg or "<title>basic: UNKNOWN, none</title>")
+            if objection(Ended(code, stdout, "", 0, both), "json") is None:
+                missed.append(what)
+    return missed
+
+
 def trials(name: str, seeds: list[str]) -> Count:
     """Signal a command by these seeds."""
     count = Count()

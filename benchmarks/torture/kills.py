@@ -203,7 +203,7 @@ def helper_killed(name: str, seed: str) -> str | None:
             return f"a helper was killed: exit code {done.code}: {done.stdout[-300:]} {done.stderr}"
         if done.code == 0 and results(done.stdout) != true:
             return f"a helper was killed, and then: {_first_difference(done.stdout, true)}"
-        return _remains(name, done, killed=False)
+        return _remains(name, done, killed=True)
 
 
 def trials(name: str, seeds: list[str]) -> Count:

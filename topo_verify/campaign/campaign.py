@@ -36,7 +36,7 @@ from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.campaign.tally import Counts, Notable, Tally
 from topo_verify.campaign.targets import targets
 from topo_verify.campaign.worker import Beat, function_at
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, WriteError
 from topo_verify.programs.foreign import Foreign
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
@@ -496,7 +496,7 @@ class _Order:
                     if self._campaign.stop.reached(tally):
                         return
                 next(finished, None)
-        except KeyboardInterrupt as cut:
+        except (KeyboardInterrupt, WriteError) as cut:
             if isinstance(cut, Interrupted):
                 self._ahead[cut.shard.edges, cut.shard.start] = cut.result
             for shard in self._shards():

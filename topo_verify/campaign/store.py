@@ -38,7 +38,7 @@ from topo_verify.campaign.identity import (
 )
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import Tally, notable
-from topo_verify.errors import InputError, plural, shown
+from topo_verify.errors import InputError, WriteError, plural, shown
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
@@ -190,9 +190,9 @@ class Store:
         return len(old)
 
     def require_file(self) -> None:
-        """Raise an InputError if the file was removed or replaced meanwhile."""
+        """Raise a WriteError if the file was removed or replaced meanwhile."""
         if self._inode() != self._file:
-            raise InputError(
+            raise WriteError(
                 f"store {self.path}: the file was removed or replaced while it was in use, and what"
                 " it recorded is lost: start again, and leave the file alone"
             )
@@ -461,16 +461,18 @@ def explained(path: str) -> Generator[None]:
         raise changed(path, f"the database ({shown(str(error))})") from error
     except sqlite3.Error as error:
         message = shown(str(error))
+        refusal = InputError
         if "locked" in message:
             message = "another process has it open: wait for its end, or name another file"
         elif "not a database" in message:
             message = "it is no store of topo-verify: name another file"
         elif "readonly" in message or "read-only" in message:
-            message = "it cannot be written: name a file that can"
+            message, refusal = "it cannot be written: name a file that can", WriteError
         elif "unable to open" in message:
             message = "it cannot be opened: name a file in a folder that can be written"
         elif "full" in message or "I/O" in message:
             message += "; what was recorded before is kept: make room and start again"
+            refusal = WriteError
         else:
             message += "; name another file or folder, or remove this one"
-        raise InputError(f"store {path}: {message}") from error
+        raise refusal(f"store {path}: {message}") from error

@@ -21,7 +21,7 @@ from topo_verify.cli import arena_files as files
 from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import judged, named_world, target_title, unjudged
-from topo_verify.errors import InputError, plural
+from topo_verify.errors import InputError, WriteError, plural
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
@@ -114,7 +114,7 @@ def arena(
     def entries() -> Iterator[Result[LeagueEntry]]:
         try:
             _play(output, league, folder, processors() if workers is None else workers)
-        except KeyboardInterrupt:
+        except (KeyboardInterrupt, WriteError):
             yield from map(_result, league.entries())
             raise
         table = league.entries()

@@ -102,9 +102,9 @@ def compare(
             runs = baseline_runs(target, named, len(then.entries), limits=limits, store=kept)
             rows = options.stored_rows(output, [runs], workers, kept)
             entry = join(then, target, rows, tolerance=tolerance, name=baseline)
+            yield Result(entry, failed=entry.regressed, incomplete=entry.undecided > 0)
             if output.exhibits:
                 _run_again(output, then, target, entry)
-        yield Result(entry, failed=entry.regressed, incomplete=entry.undecided > 0)
 
     return output.run("compare", compared, _show, account=_account, in_process=mappers.in_process)
 

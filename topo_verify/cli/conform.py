@@ -21,7 +21,7 @@ from topo_verify.campaign.targets import each_text, one_target, target_arguments
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result
-from topo_verify.errors import InputError, plural
+from topo_verify.errors import InputError, WriteError, plural
 from topo_verify.player.recording import PlayedRun
 from topo_verify.player.scenes import Playback
 from topo_verify.player.walk import parting
@@ -181,20 +181,20 @@ def _tried(
             runs = MapperCampaign(study.campaign, CorpusWorlds(study.corpus), _kept(study, store))
             for row in options.stored_rows(output, [runs], workers, store):
                 study.enter(row)
-    except KeyboardInterrupt:
-        # Before raising: `Output` prints it, then exits 3.
+    except (KeyboardInterrupt, WriteError):
+        # Before raising: `Output` prints it, then exits 3, or 2 if the store is full.
         yield from map(_result, study.level_results())
         raise
     levels = tuple(study.level_results())
+    yield from map(_result, levels)  # an interruption from here on keeps them
     if output.style != "json" and not batch:
         output.found.walk(_failing_run(study, levels))
     if output.exhibits:
         for exhibit in _exhibits(study, levels, batch=batch):
             output.found.show(exhibit)
-    for level in levels:
-        if output.style != "json" or output.exhibits:
+    if output.style != "json" or output.exhibits:
+        for level in levels:
             shared.update(_shared(study, level))
-        yield _result(level)
 
 
 def _kept(study: Conform, store: Store | None) -> StoredCampaign | None:

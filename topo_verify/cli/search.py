@@ -20,7 +20,7 @@ from topo_verify.campaign.work import processors
 from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import unjudged
-from topo_verify.errors import InputError, plural
+from topo_verify.errors import InputError, WriteError, plural
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
@@ -192,14 +192,15 @@ def _searched(
     try:
         one_search.work(output.progress)
         one_search.run_again(output.progress)
-    except KeyboardInterrupt:
-        # Before raising: `Output` prints it, then exits 3.
+    except (KeyboardInterrupt, WriteError):
+        # Before raising: `Output` prints it, then exits 3, or 2 if the ledger is full.
         yield result()
         raise
     if campaign.engine == "compiled":
         known = output.timing.setdefault("engine", {"engine": 0.0, "checkers": 0.0})
         known["engine"] += one_search.seconds.engine
         known["checkers"] += one_search.seconds.checkers
+    yield result()  # an interruption from here on keeps it
     entry = one_search.entry()
     reports = None if campaign.ways is None else partial(reports_of, campaign)
     for example in (entry.counterexample, *(claim.smallest for claim in entry.claims)):
@@ -209,7 +210,6 @@ def _searched(
                 *(example.world, example.claim, campaign.limits, example.message),
                 reports=reports,
             )
-    yield result()
 
 
 @contextmanager

@@ -47,10 +47,10 @@ def verify(
         tell = output.progress
         for part in campaign.verify(loaded, quick=quick, seed=seed, limits=limits, tell=tell):
             incomplete = part.verdict == "UNKNOWN"
+            yield Result(part, failed=part.verdict == "REFUTED", incomplete=incomplete)
             if part.findings:
                 for first in _first_of_each(part):
                     output.found.run_again(loaded, first.world, first.claim, limits, first.message)
-            yield Result(part, failed=part.verdict == "REFUTED", incomplete=incomplete)
 
     others = campaign.left_out(loaded)
     head = tuple(map(Text, _head(loaded, seed, others)))
