@@ -14,14 +14,16 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from unittest.mock import Mock
 from xml.etree import ElementTree as ET
 
 import pytest
 
 from tests.cli.conftest import Call, Program, interrupted
+from topo_verify.cli import runs
 
 ENDS = """
-import os, signal
+import os, signal, time
 from topo_verify.algorithms import CATALOGUE
 
 explore = CATALOGUE["basic"]
@@ -59,6 +61,15 @@ def waits(robot):
     except KeyboardInterrupt:
         while True:
             pass
+
+def parent(name):
+    def mapper(robot):
+        os.kill(os.getppid(), getattr(signal, name))
+        time.sleep(2)
+        return explore(robot)
+    return mapper
+
+terminates, hangs_up, kills, exits = map(parent, ("SIGTERM", "SIGHUP", "SIGKILL", "SIGQUIT"))
 
 class Loses:
     def __del__(self):
@@ -281,6 +292,16 @@ def test_a_signal_from_outside_exits_3(folder: Path, by: signal.Signals) -> None
     assert (json.loads(out)["exit"] == 3) if by == signal.SIGHUP else (out == "")
 
 
+def test_a_failing_claim_outlives_an_interruption_of_its_repetition(
+    call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(runs.FoundRuns, "run_again", Mock(side_effect=KeyboardInterrupt))
+    for line in ("search mappers.py:guesses --edges 2 --workers 0", "verify mappers.py:guesses"):
+        done = call(f"{line} --in-process --format json")
+        assert done.exit_code == json.loads(done.stdout)["exit"] == 1
+        assert json.loads(done.stdout)["results"][0]["verdict"] == "REFUTED"
+
+
 # ---------------------------------------------------------------- what cannot be written
 
 
@@ -354,6 +375,9 @@ def test_a_failing_claim_is_seen_though_another_file_cannot_be_written(
 # ---------------------------------------------------------------- helpers and stops
 
 
+ON_LINUX = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the command has no child")
+
+
 def _processes(of: int) -> list[int]:
     found = [
         int(word)
@@ -375,8 +399,35 @@ def _await(condition: Callable[[], bool]) -> None:
     raise AssertionError("it does not come")
 
 
+@ON_LINUX
+@pytest.mark.parametrize("mapper", ["terminates", "hangs_up", "kills", "exits"])
+@pytest.mark.parametrize(
+    "line",
+    [
+        "explore m1/0 --target ends.py:{}",
+        "search ends.py:{} --edges 1 --workers 1",
+        "conform ends.py:{} --worlds edges<=1 --workers 1",
+    ],
+)
+def test_a_mapper_that_ends_our_process_from_outside_decides_nothing(
+    folder: Path, line: str, mapper: str
+) -> None:
+    code, _, error = ran(folder, *line.format(mapper).split())
+    assert code == 3, error
+
+
+def test_sigterm_in_a_callback_from_c_code_prints_no_traceback(folder: Path) -> None:
+    code = """
+import ctypes, signal
+from topo_verify.programs import interruption
+interruption.end_at_sigterm()
+ctypes.CFUNCTYPE(None)(lambda: signal.raise_signal(signal.SIGTERM))()
+"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=folder, capture_output=True, check=True)
+    assert done.stderr == b""
+
+
 SLEEPS = ("search", "mappers.py:starts_and_sleeps", "--edges", "2", "--move-timeout", "60")
-ON_LINUX = pytest.mark.skipif(sys.platform != "linux", reason="/proc tells of processes")
 
 
 @ON_LINUX

@@ -18,6 +18,7 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Collection
+from contextlib import suppress
 
 from topo_verify.programs import interruption, isolation
 
@@ -25,7 +26,7 @@ INCOMPLETE = 3
 
 
 def run(work: Callable[[], int], say: Callable[[str], None]) -> int:
-    """The exit code that `work` returns in a child; 3 and a sentence if the child returns none."""
+    """In a child, what `work` returns; this process exits with that, or with 3 and a sentence."""
     if sys.platform != "linux" or threading.active_count() > 1:
         interruption.listen()
         return work()
@@ -45,7 +46,7 @@ def run(work: Callable[[], int], say: Callable[[str], None]) -> int:
         os.close(sender)
         status = _awaited(child, heard)
         os.set_blocking(receiver, False)  # what a mapper has started may hold the other end
-        return _reported(receiver, status, say)
+        os._exit(_reported(receiver, status, say))  # the child leaves what this process entered
     os.close(receiver)
     isolation.end_with(here)
     here = os.getpid()
@@ -55,8 +56,9 @@ def run(work: Callable[[], int], say: Callable[[str], None]) -> int:
         code = work()
     except KeyboardInterrupt:  # between two statements
         code = INCOMPLETE
-    if os.getpid() == here:  # a mapper may have forked
-        os.write(sender, b"%d" % code)
+    if os.getpid() == here:  # a mapper may have forked, or closed all files
+        with suppress(OSError):
+            os.write(sender, b"%d" % code)
     return code
 
 
