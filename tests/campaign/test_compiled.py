@@ -25,6 +25,7 @@ from topo_verify.campaign.run import CompiledAlgorithm, Engine
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.tally import Tally
 from topo_verify.campaign.targets import targets
+from topo_verify.campaign.worker import no_beat
 from topo_verify.checkers import CLAIMS
 from topo_verify.faults import FAULTS
 from topo_verify.programs.loader import Target
@@ -121,7 +122,7 @@ def test_several_algorithms_that_fail_are_counted_as_the_checkers_count_them(
     mappers = [Target(text, FAULTS[fault]) for text, fault in WRONG.items()]
     shard = Shard(edges, start, stop)
     ours = examine_by_checkers(wrong, mappers, shard)
-    theirs = examine_compiled(wrong, mappers, shard, lambda _runs: None)
+    theirs = examine_compiled(wrong, mappers, shard, no_beat)
     assert plain(theirs.tally) == plain(ours.tally)
     for result in (ours, theirs):
         failing = [row for row in result.rows if row.failed]
@@ -133,7 +134,7 @@ def test_several_algorithms_that_fail_are_counted_as_the_checkers_count_them(
 
 def made(asked: Campaign, shard: Shard) -> ShardResult:
     """A shard that the compiled engine has examined."""
-    return examine_compiled(asked, asked.load(), shard, lambda _runs: None)
+    return examine_compiled(asked, asked.load(), shard, no_beat)
 
 
 def judged_again(asked: Campaign, monkeypatch: pytest.MonkeyPatch) -> set[int]:
@@ -292,7 +293,7 @@ def test_what_the_engine_leaves_open_the_checkers_decide(monkeypatch: pytest.Mon
 def test_ctrl_c_keeps_the_slices_that_are_done(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(shards, "SLICE", 100)
 
-    def beat(worlds: int) -> None:
+    def beat(worlds: int, *_at_work: object) -> None:
         if worlds == 300:
             raise KeyboardInterrupt
 

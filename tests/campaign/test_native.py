@@ -14,6 +14,7 @@ from topo_verify.campaign.campaign import Shard
 from topo_verify.campaign.identity import source_hash
 from topo_verify.campaign.pool import Pool
 from topo_verify.campaign.targets import one_target
+from topo_verify.campaign.worker import no_beat
 from topo_verify.compiled import available
 from topo_verify.errors import InputError
 from topo_verify.robot.limits import Limits
@@ -88,7 +89,7 @@ def test_a_note_names_the_world_of_an_endless_loop_once(tmp_path: Path) -> None:
     campaign = search_campaign(mappers, edges=2, limits=Limits(move_timeout=1.1))
     notes: list[str] = []
     run = pooled(1, note=notes.append)
-    ((_, result),) = run(campaign, iter([Shard(2, 7, 8)]), lambda _number: None)
+    ((_, result),) = run(campaign, iter([Shard(2, 7, 8)]), no_beat)
     assert result.tally.timeouts == 1
     (note,) = notes
     assert note.startswith("m2/7: no result of the mapper for ")

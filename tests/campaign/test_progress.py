@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import cast
 
 import pytest
 
 from topo_verify.campaign import progress as module
 from topo_verify.campaign.progress import Progress, ProgressRate, duration
+from topo_verify.campaign.targets import one_target
 from topo_verify.errors import InputError
+from topo_verify.robot.limits import Limits
+from topo_verify.studies.baseline.record import baseline_runs
+from topo_verify.studies.corpus import CorpusWorlds, corpus_from
 
 Report = tuple[str, int, int]
 
@@ -94,3 +99,55 @@ def test_without_a_listener_nothing_happens(clock: list[float]) -> None:
 )
 def test_durations_are_told_as_people_do(seconds: float, words: str) -> None:
     assert duration(seconds) == words
+
+
+def test_a_world_that_holds_up_all_others_is_named_with_its_moves(clock: list[float]) -> None:
+    reports: list[Report] = []
+    progress = ProgressRate("basic", 10, listener(reports))
+    clock[0] += 1
+    progress.in_flight(9)
+    clock[0] += 1
+    progress.in_flight(9, "family:lattice(60,60)", 500)
+    clock[0] += module.SLOW
+    progress.in_flight(9, "family:lattice(60,60)", 1500)
+    clock[0] += 1
+    progress.in_flight(9)  # it is judged
+    early, *late = (text for text, _, _ in reports[1:])
+    assert "lattice" not in early
+    for text in late:
+        assert "family:lattice(60,60): 1500 moves" in text
+        assert "left" not in text
+
+
+SLOW_MAPPER = """
+from time import sleep
+from topo_verify import CATALOGUE
+
+class Slow:
+    def __init__(self, robot):
+        self._robot, self.declare = robot, robot.declare
+    percept = property(lambda self: self._robot.percept)
+    def move(self, *given):
+        sleep(0.2)
+        return self._robot.move(*given)
+
+def explore(robot):
+    return CATALOGUE["basic"](Slow(robot))
+"""
+
+
+@pytest.mark.parametrize("workers", [0, 1])
+def test_it_is_named_in_this_process_and_in_workers(
+    workers: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "SLOW", 0.1)
+    (tmp_path / "slow.py").write_text(SLOW_MAPPER)
+    reports: list[Report] = []
+    target = one_target(f"{tmp_path / 'slow.py'}:explore")
+    runs = baseline_runs(target, CorpusWorlds(corpus_from(["m3/14"])), 1, limits=Limits())
+    (row,) = runs.rows(workers, listener(reports))
+    named = [text for text, _, _ in reports if "m3/14: " in text]
+    assert named
+    moves = [int(text.rpartition(": ")[2].split()[0]) for text in named]
+    assert moves == sorted(moves)
+    assert 0 < moves[-1] <= row.cost

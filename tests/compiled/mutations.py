@@ -72,7 +72,7 @@ class Mutation:
             for _ in range(draw.randrange(1, 6)):
                 events.insert(place, ev.Move(draw.randrange(3), Percept(1, None)))
         elif how == 4:
-            silent = tuple(draw.sample(KINDS, draw.choice((1, 1, 2))))
+            silent = draw.sample(KINDS, draw.choice((1, 1, 2)))
             since = draw.choice((0, place))
             events[since:] = [event for event in events[since:] if type(event) not in silent]
         else:

@@ -152,7 +152,7 @@ def _examined(
     mappers: Sequence[Target],
     identity: Identity | None,
     shard: c.Shard,
-    beat: Callable[[int], None],
+    beat: Beat,
     look: Look | None = None,
 ) -> c.ShardResult:
     if campaign.engine == "compiled" and isinstance(campaign.worlds, c.Ranks):

@@ -35,13 +35,13 @@ from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.campaign.tally import Counts, Notable, Tally
 from topo_verify.campaign.targets import targets
-from topo_verify.campaign.worker import Beat, function_at
+from topo_verify.campaign.worker import Beat, function_at, no_beat
 from topo_verify.errors import InputError, WriteError
 from topo_verify.programs.foreign import Foreign
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
 from topo_verify.programs.program import OPTIONS, Program
-from topo_verify.robot.limits import Limits
+from topo_verify.robot.limits import Limits, telling_moves
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.pruned import ranked_tables
@@ -284,7 +284,7 @@ class ShardResult(msgspec.Struct, frozen=True):
 ShardResults = Generator[tuple[Shard, ShardResult]]
 """Shards, each with its result."""
 
-InFlight = Callable[[int], None]
+InFlight = Beat
 """Receives, from time to time, the number of finished runs in unfinished shards."""
 
 
@@ -303,7 +303,7 @@ def examine(
     campaign: Campaign,
     mappers: Sequence[Target],
     shard: Shard,
-    beat: Beat = lambda _runs: None,
+    beat: Beat = no_beat,
     look: Look | None = None,
     known: Checks | None = None,
 ) -> ShardResult:
@@ -324,8 +324,9 @@ def examine(
             for target in mappers:
                 tell = partial(beat, done)
                 once = partial(_attempt, campaign, world, name, checks, tell, ours=target.mapper)
-                for run in ways(target, world, once):
-                    world_rows.append(row_of(run, name, place, len(world_rows), look))
+                with telling_moves(partial(beat, done, name)):
+                    for run in ways(target, world, once):
+                        world_rows.append(row_of(run, name, place, len(world_rows), look))
                 done += 1
             counts.enter(world_rows)
             if campaign.keep == "all":
@@ -517,7 +518,7 @@ class _Order:
     def examine_again(self, store: ShardMemory) -> None:
         """Examine some stored shards again, since no list of what a mapper rests on is complete."""
         drawn = self._drawn_again(store)
-        with closing(self._backend(self._campaign, drawn, lambda _runs: None)) as examined:
+        with closing(self._backend(self._campaign, drawn, no_beat)) as examined:
             for shard, result in examined:
                 known = store.get(shard)
                 if known is not None and known.tally.digest != result.tally.digest:

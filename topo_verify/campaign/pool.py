@@ -25,7 +25,7 @@ from typing import Generic, Self
 import msgspec
 
 from topo_verify.campaign.work import BY_SIGNAL, Loss, Piece, Pieces, ResultT, TaskT, Work
-from topo_verify.campaign.worker import TaskDone, WorkerFailed, WorkerProcess, WorkerReady
+from topo_verify.campaign.worker import Beat, TaskDone, WorkerFailed, WorkerProcess, WorkerReady
 from topo_verify.errors import InputError, InternalError
 
 TURN = 0.2
@@ -38,7 +38,8 @@ class Pool(Generic[TaskT, ResultT]):
     On leaving, idle workers end by themselves; busy ones get SIGTERM, then SIGKILL.
 
     Args:
-        in_flight: receives, from time to time, the number of items done in unfinished tasks.
+        in_flight: receives, from time to time, the number of items done in unfinished tasks, and
+            the name and the moves of the item that takes longest.
         watched: receives, several times a second, each task with its worker and the seconds since
             the worker's last heartbeat.
         folder: where workers are started; default: the current folder.
@@ -52,7 +53,7 @@ class Pool(Generic[TaskT, ResultT]):
         work: Work[TaskT, ResultT],
         size: int,
         *,
-        in_flight: Callable[[int], None] | None = None,
+        in_flight: Beat | None = None,
         watched: Callable[[TaskT, WorkerProcess, float], None] | None = None,
         folder: str | None = None,
     ) -> None:
@@ -118,7 +119,13 @@ class Pool(Generic[TaskT, ResultT]):
                 self._lose(worker, silence)
                 break  # it takes long, and may end the work
         if self._in_flight is not None:
-            self._in_flight(sum(worker.items for worker in self._at))
+            slowest = max(self._at, key=WorkerProcess.silence, default=None)
+            items = sum(worker.items for worker in self._at)
+            name, moves = ("", 0) if slowest is None else slowest.heartbeat.at_work()
+            if name:
+                self._in_flight(items, name, moves)
+            else:
+                self._in_flight(items)
 
     def _hear(self, worker: WorkerProcess) -> None:
         messages = worker.hear()

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from math import inf
 from time import monotonic
 
-from topo_verify.errors import InputError
+from topo_verify.errors import InputError, plural
 
 Progress = Callable[[str, int, int], None]
 """A progress callback: (what is done, how fast and how long; amount done; total)."""
@@ -18,6 +18,10 @@ def no_progress(_work: str, _done: int, _total: int) -> None:
 
 INTERVAL = 0.1
 """Least seconds between two calls of a progress callback."""
+
+
+SLOW = 2.0
+"""Seconds without a finished world after which the one that runs is named."""
 
 
 class ProgressRate:
@@ -36,6 +40,8 @@ class ProgressRate:
         self._work, self._total, self._report = work, total, report
         self._begin = monotonic()
         self._reported = -inf
+        self._advanced = self._begin
+        self._at_work = "", 0
         self._known = 0  # worlds that a ledger knew: they took no time, so the rate leaves them out
         self._most = 0  # an open shard that ends early, or is begun again, takes back no progress
         self.done = 0
@@ -50,19 +56,34 @@ class ProgressRate:
         self.done += worlds
         self.in_flight(0)
 
-    def in_flight(self, worlds: int) -> None:
-        """Report the end, and else if it is not too soon; `worlds` of open shards are finished."""
+    def in_flight(self, worlds: int, name: str = "", moves: int = 0, /) -> None:
+        """Report the end, and else if it is not too soon.
+
+        Args:
+            worlds: those finished in open shards.
+            name, moves: of a world that runs. It is named if it holds up all others.
+        """
         now = monotonic()
-        done = self._most = max(self._most, min(self._known + self.done + worlds, self._total))
+        done = max(self._most, min(self._known + self.done + worlds, self._total))
+        if done > self._most:
+            self._most, self._advanced, self._at_work = done, now, ("", 0)
+        if name:  # kept while the run is judged
+            self._at_work = name, moves
+        name, moves = self._at_work
         fresh = done - self._known
         soon = done < self._total and now < self._reported + INTERVAL
+        is_slow = bool(name) and now > self._advanced + SLOW
         if self._report is None or soon:
             return
         self._reported = now
         text = self._work
         if fresh and now > self._begin:
             rate = fresh / (now - self._begin)
-            text += f", {rate:,.0f} worlds/s, {duration((self._total - done) / rate)} left"
+            text += f", {rate:,.0f} worlds/s"
+            if not is_slow:
+                text += f", {duration((self._total - done) / rate)} left"
+        if is_slow:
+            text += f", {name}: {plural(moves, 'move')}"
         self._report(text, done, self._total)
 
 

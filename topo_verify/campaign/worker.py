@@ -2,8 +2,8 @@
 
     in          the key and the job, then the tasks: a JSON value a line
     out         a sealed message a line: WorkerReady, TaskDone …, perhaps WorkerFailed
-    heartbeat   three words in a file: finished items of the task, a number that grows,
-                milliseconds until the next heartbeat is due (0: as usual)
+    heartbeat   words in a file: finished items of the task, a number that grows, milliseconds
+                until the next heartbeat is due (0: as usual); moves and name of the item at work
 
 - **A worker ends with its parent.** It is a fork of the launcher, which sees its control end. On
   Linux the kernel kills a worker with the launcher, because a mapper in C code lets no thread
@@ -34,7 +34,7 @@ from queue import SimpleQueue
 from secrets import token_hex
 from tempfile import TemporaryFile
 from time import monotonic, sleep
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, Protocol
 
 import msgspec
 
@@ -43,8 +43,19 @@ from topo_verify.programs import interruption
 from topo_verify.programs.launcher import launch
 from topo_verify.robot.stopwatch import Stopwatch, tasks_of
 
-Beat = Callable[[int], None]
-"""Called in the course of a task, before anything slow: (items finished so far)."""
+
+class Beat(Protocol):
+    """Called in the course of a task: with the finished items, before anything slow.
+
+    Or, while an item is at work, with its name and its moves, too.
+    """
+
+    def __call__(self, items: int, name: str = "", moves: int = 0, /) -> None: ...  # noqa: D102
+
+
+def no_beat(_items: int, _name: str = "", _moves: int = 0, /) -> None:
+    """Do nothing: a `Beat`."""
+
 
 Handler = Callable[[bytes, Beat], Any]
 """Does one task, given as JSON; msgspec must be able to write the result as JSON."""
@@ -89,6 +100,12 @@ class WorkerFailed(msgspec.Struct, frozen=True, tag=True):
 WorkerMessage = WorkerReady | TaskDone | WorkerFailed
 
 
+NAMED = 200
+"""The most bytes of an item's name in a heartbeat."""
+
+NAME = slice(64, 64 + NAMED)
+
+
 class Heartbeat:
     """The heartbeat, in shared memory, so that machine code can write it at `address`.
 
@@ -99,13 +116,18 @@ class Heartbeat:
         self.file = file
         os.ftruncate(file, mmap.PAGESIZE)
         self._memory = mmap.mmap(file, mmap.PAGESIZE)
-        self._words = (ctypes.c_int64 * 3).from_buffer(self._memory)
+        self._words = (ctypes.c_int64 * 4).from_buffer(self._memory)
         self.address = ctypes.addressof(self._words)
 
-    def __call__(self, items: int) -> None:
-        """Report the finished items, before the next one begins."""
-        self._words[0] = items
-        self._words[1] += 1
+    def __call__(self, items: int, name: str = "", moves: int = 0, /) -> None:
+        """Report the finished items, before the next one begins; or its name and moves so far."""
+        if name:
+            self._words[3] = moves
+            self._memory[NAME] = name.encode(errors="replace")[:NAMED].ljust(NAMED)
+        else:
+            self._words[0] = items
+            self._words[1] += 1
+            self._memory[NAME] = b" " * NAMED
 
     @contextmanager
     def within(self, seconds: float) -> Generator[None]:
@@ -118,8 +140,12 @@ class Heartbeat:
 
     def read(self) -> tuple[int, int, float]:
         """Finished items, beats, and seconds until the next beat is due."""
-        items, count, due = self._words
+        items, count, due, _ = self._words
         return items, count, due / 1000
+
+    def at_work(self) -> tuple[str, int]:
+        """The name of the item at work, and its moves; "" if it began just now."""
+        return self._memory[NAME].decode(errors="ignore").rstrip(), self._words[3]
 
 
 class Seal:

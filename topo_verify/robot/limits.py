@@ -16,7 +16,7 @@ import gc
 import signal
 import threading
 from collections.abc import Callable, Generator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from inspect import currentframe
 from types import FrameType
@@ -161,7 +161,17 @@ def within(limits: Limits, cost: Callable[[], int], work: Callable[[], T]) -> T:
 
 
 _running = threading.local()
-"""Per thread: `watch`, the stopwatch of the running mapper."""
+"""Per thread: `watch`, the stopwatch of the running mapper; `tell`, which receives its moves."""
+
+
+@contextmanager
+def telling_moves(tell: Callable[[int], None]) -> Generator[None]:
+    """Within the block, tell the moves of a mapper that runs, several times within each limit."""
+    _running.tell = tell
+    try:
+        yield
+    finally:
+        _running.tell = None
 
 
 @contextmanager
@@ -178,6 +188,7 @@ class _Watch:
     def __init__(self, limits: Limits, cost: Callable[[], int], clock: Stopwatch) -> None:
         self.limits, self.cost = limits, cost
         self.clock = clock
+        self.tell: Callable[[int], None] | None = getattr(_running, "tell", None)
         self.moved = 0.0
         self.seen = 0
         self.struck: TimeLimitExceeded | None = None
@@ -185,6 +196,9 @@ class _Watch:
     def overdue(self) -> TimeLimitExceeded | None:
         """Why the mapper must stop now, if it must."""
         now, cost = self.clock.seconds(), self.cost()
+        if self.tell is not None:
+            with suppress(Exception):  # it would be raised in the mapper
+                self.tell(cost)
         if cost != self.seen:
             self.seen, self.moved = cost, now
         if now > self.limits.world_timeout:
