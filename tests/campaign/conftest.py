@@ -23,8 +23,9 @@ def few_worlds_run_again(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The current folder of the test; it holds mappers.py."""
-    shutil.copy(Path(__file__).parent / "mappers.py", tmp_path)
+    """The current folder of the test; it holds mappers.py and misdeeds.py."""
+    for name in ("mappers.py", "misdeeds.py"):
+        shutil.copy(Path(__file__).parent / name, tmp_path)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", [*sys.path])  # a mapper's folder is put there
     return tmp_path

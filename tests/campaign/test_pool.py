@@ -130,7 +130,7 @@ def test_a_world_whose_worker_was_killed_is_not_run_again(monkeypatch: pytest.Mo
     lost = len(found.lost)
     assert (found.verdict, found.total - found.checked) == ("UNKNOWN", lost)
     assert lost > 0
-    assert found.run_again == again.RunAgain(found.checked, found.checked)
+    assert found.run_again == again.RunAgain(found.checked, found.checked, same=found.checked)
 
 
 def test_all_worlds_that_kill_their_workers_are_found() -> None:
@@ -222,15 +222,18 @@ def test_a_worker_that_is_killed_once_leaves_the_verdict_open() -> None:
     assert [(one.world, one.how) for one in found.lost] == [("m3/21", "signal 9")]
 
 
-def test_a_shard_whose_worker_was_killed_is_not_kept_in_a_store(folder: Path) -> None:
+def test_a_lost_worker_is_remembered_by_a_store(folder: Path) -> None:
     mappers = targets("mappers.py:killed_once")
     identity = search_campaign(mappers, edges=3).identity(source_hash(mappers))
-    for verdict, known in (("UNKNOWN", 0), ("EXHAUSTED", 66)):
+    for known in (0, 86):
         with Store("search.db") as store:
             memory = store.campaign(identity, Loaded())
             study = search_of("mappers.py:killed_once", edges=3, workers=1, store=memory)
             study.work()
-            assert (study.entry().verdict, study.entry().from_ledger) == (verdict, known)
+            study.run_again()
+            entry = study.entry()
+            assert (entry.verdict, entry.checked, entry.from_ledger) == ("UNKNOWN", 85, known)
+            assert [one.world for one in entry.lost] == ["m3/21"]
     assert (folder / "done").exists()
 
 

@@ -67,6 +67,7 @@ def searched(campaign: Campaign = BASIC, *, workers: int = 0) -> SearchEntry:
     with opened(campaign) as known:
         study = Search(campaign, campaign.load(), pooled(workers, ()), known)
         study.work()
+        study.run_again()
         return msgspec.structs.replace(study.entry(), from_ledger=0)
 
 
@@ -122,10 +123,26 @@ def test_a_search_that_goes_on_examines_shards_of_every_size_again(
     assert again != examined_again(monkeypatch, seeded)
 
 
-def test_a_shard_with_an_undecided_world_is_not_kept() -> None:
-    campaign = planned("mappers.py:strolls", 1, limits=Limits(world_timeout=0.01))
-    searched(campaign)
-    assert shards() == []
+QUICK = Limits(move_timeout=0.3)
+
+
+@pytest.mark.parametrize("deed", ["at_8_skip", "at_8_kill", "at_8_hang"])
+def test_an_undecided_world_stays_undecided(deed: str) -> None:
+    campaign = planned(f"misdeeds.py:{deed}", 2, limits=QUICK, in_process=False)
+    once = searched(campaign)
+    assert (once.verdict, once.checked) == ("UNKNOWN", 11)
+    assert len(shards()) == 2
+    assert searched(campaign).verdict == "UNKNOWN"
+
+
+@pytest.mark.parametrize("name", ["killed_once", "stalls_once"])
+def test_a_run_that_was_ended_when_a_search_was_resumed_counts(name: str) -> None:
+    campaign = planned(f"mappers.py:{name}", 3, limits=QUICK, in_process=False)
+    Path("done").touch()
+    assert searched(campaign).verdict == "EXHAUSTED"
+    Path("done").unlink()
+    resumed = searched(campaign)
+    assert (resumed.verdict, [lost.world for lost in resumed.lost]) == ("UNKNOWN", ["m3/21"])
 
 
 def test_a_mapper_that_does_something_else_now_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -23,7 +23,7 @@ from itertools import pairwise
 import msgspec
 
 from topo_verify.campaign import campaign as c
-from topo_verify.campaign.attempt import OUTSIDE, Look, lost_row
+from topo_verify.campaign.attempt import Look, lost_row
 from topo_verify.campaign.cluster import Cluster, ClusterPool
 from topo_verify.campaign.identity import Identity, merged, require_equal, source_hash
 from topo_verify.campaign.pool import Pool
@@ -172,7 +172,7 @@ def _examined(
             return result
         (wrong,) = row.findings
         findings = (msgspec.structs.replace(wrong, message=cause),)
-        return _with_loss(result, msgspec.structs.replace(row, findings=findings))
+        return c.with_loss(result, msgspec.structs.replace(row, findings=findings))
 
 
 def calls_native(campaign: c.Campaign) -> bool:
@@ -257,7 +257,7 @@ def _with_our_memory(
             lost = msgspec.structs.replace(
                 row, findings=(), undecided=SHORT_OF_MEMORY, lost=SHORT_OF_MEMORY
             )
-            again = _with_loss(again, lost)
+            again = c.with_loss(again, lost)
     return again
 
 
@@ -378,7 +378,7 @@ def _lost_in_native_code(campaign: c.Campaign, shard: c.Shard, loss: Loss) -> c.
     row = _row_at(campaign, shard, 0, str(loss), external=True)
     if row is None or result.tally.failing or result.tally.undecided:
         return result
-    return _with_loss(result, row)
+    return c.with_loss(result, row)
 
 
 def _open(campaign: c.Campaign, shard: c.Shard) -> c.ShardResult:
@@ -469,30 +469,8 @@ def _survived(
             or (failing and campaign.stop.failing == 1 and row.place > min(failing))
         ):
             continue
-        result = _with_loss(result, row)
+        result = c.with_loss(result, row)
     return result
-
-
-def _with_loss(result: c.ShardResult, row: Row) -> c.ShardResult:
-    """The result with a lost worker's row, in the place of the run that passed."""
-    rows: list[Row] = []
-    for known in result.rows:
-        if (known.place, known.mapper, known.turn) == (row.place, row.mapper, row.turn):
-            row = _passed_later(known, row)
-        else:
-            rows.append(known)
-    rows = sorted([*rows, row], key=lambda row: (row.edges, row.place, row.turn))
-    tally = result.tally.amended(row)
-    return msgspec.structs.replace(result, tally=tally, rows=tuple(rows))
-
-
-def _passed_later(known: Row, lost: Row) -> Row:
-    if lost.undecided is None:
-        return msgspec.structs.replace(
-            known, ended=lost.ended, stopped=lost.stopped, findings=lost.findings
-        )
-    why = f"its worker was lost ({lost.lost}), {OUTSIDE}"
-    return msgspec.structs.replace(known, undecided=why, lost=lost.lost)
 
 
 # ---------------------------------------------------------------- one campaign a mapper

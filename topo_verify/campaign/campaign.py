@@ -28,7 +28,8 @@ from typing import Any, Literal, Protocol
 
 import msgspec
 
-from topo_verify.campaign.attempt import Attempt, Look, attempt, row_of
+from topo_verify.algorithms import Algorithm, Steered
+from topo_verify.campaign.attempt import OUTSIDE, Attempt, Look, attempt, row_of
 from topo_verify.campaign.judge import CheckedTraces, Checks
 from topo_verify.campaign.progress import Progress, ProgressRate
 from topo_verify.campaign.row import Row
@@ -55,6 +56,9 @@ ENGINE_SHARD = 100_000
 
 MAX_TIMEOUTS = 3
 """Time-outs, and in some studies failing worlds, after which a mapper's other worlds are left."""
+
+ROW = 1000
+"""Number of worlds that a search runs in one process in shuffled order; all, if there are fewer."""
 
 AGAIN = 200
 """Least number of stored worlds that a resumed campaign examines again."""
@@ -131,11 +135,39 @@ class Ranks(msgspec.Struct, frozen=True, tag="ranks"):
 
     def shards(self) -> Iterator[Shard]:
         """The shards; they depend on the class alone, so another campaign finds them in a store."""
-        for edges, worlds in self.totals().items():
-            ranks = rank_order.count(edges)
-            width = max(1, ranks * self.shard // max(1, worlds))
+        for edges, ranks, width in self._widths():
             for start in range(0, ranks, width):
                 yield Shard(edges, start, min(start + width, ranks))
+
+    def drawn(self, seed: int, number: int) -> list[str]:
+        """The ids of `number` worlds, or of all, in an order drawn by the seed.
+
+        They are those of a few drawn shards, since ranks outside of the class cannot be skipped.
+        """
+        lots = Random(f"{seed} row")
+        sizes = [
+            (edges, ranks, width, -(-ranks // width)) for edges, ranks, width in self._widths()
+        ]
+        shards = sum(size for *_, size in sizes)
+        row: list[str] = []
+        for place in lots.sample(range(shards), min(shards, number)):
+            if len(row) >= number:
+                break
+            at = place
+            for edges, ranks, width, size in sizes:
+                if at < size:
+                    shard = Shard(edges, at * width, min((at + 1) * width, ranks))
+                    row += [name for _, name, _ in self.worlds(shard)]
+                    break
+                at -= size
+        lots.shuffle(row)
+        return row[:number]
+
+    def _widths(self) -> Iterator[tuple[int, int, int]]:
+        """Of each size: the edges, the number of ranks, and of ranks in a shard."""
+        for edges, worlds in self.totals().items():
+            ranks = rank_order.count(edges)
+            yield edges, ranks, max(1, ranks * self.shard // max(1, worlds))
 
     def worlds(self, shard: Shard) -> Iterator[tuple[int, str, World]]:
         """Rank, id and world of each world in a shard."""
@@ -296,6 +328,28 @@ class Interrupted(KeyboardInterrupt):
         self.shard, self.result = shard, result
 
 
+def with_loss(result: c.ShardResult, row: Row) -> c.ShardResult:
+    """The result with a lost worker's row, in the place of the run that passed."""
+    rows: list[Row] = []
+    for known in result.rows:
+        if (known.place, known.mapper, known.turn) == (row.place, row.mapper, row.turn):
+            row = _passed_later(known, row)
+        else:
+            rows.append(known)
+    rows = sorted([*rows, row], key=lambda row: (row.edges, row.place, row.turn))
+    tally = result.tally.amended(row)
+    return msgspec.structs.replace(result, tally=tally, rows=tuple(rows))
+
+
+def _passed_later(known: Row, lost: Row) -> Row:
+    if lost.undecided is None:
+        return msgspec.structs.replace(
+            known, ended=lost.ended, stopped=lost.stopped, findings=lost.findings
+        )
+    why = f"its worker was lost ({lost.lost}), {OUTSIDE}"
+    return msgspec.structs.replace(known, undecided=why, lost=lost.lost)
+
+
 # ---------------------------------------------------------------- the loop
 
 
@@ -312,6 +366,13 @@ def examine(
     `look` replaces the campaign's, `known` the checkers.
     """
     counts, kept, rows = Counts(), Notable(campaign.seed), list[Row]()
+    row = drawn_row(campaign) if _is_run_again(campaign, mappers) else ()
+    first_runs: dict[str, str] = {}
+
+    def result() -> ShardResult:
+        tally = msgspec.structs.replace(counts.tally(), first_runs=first_runs)
+        return ShardResult(tally, (*rows, *kept.rows()))
+
     if look is None and campaign.look is not None:
         look = function_at(campaign.look)(*campaign.asked)
     ways: Ways = _one_way if campaign.ways is None else function_at(campaign.ways)
@@ -329,6 +390,8 @@ def examine(
                         world_rows.append(row_of(run, name, place, len(world_rows), look))
                 done += 1
             counts.enter(world_rows)
+            if name in row:
+                first_runs[name] = world_rows[0].digest
             if campaign.keep == "all":
                 rows += world_rows
             else:
@@ -336,8 +399,31 @@ def examine(
             if campaign.stop.reached(counts):
                 break
     except KeyboardInterrupt:
-        raise Interrupted(shard, ShardResult(counts.tally(), (*rows, *kept.rows()))) from None
-    return ShardResult(counts.tally(), (*rows, *kept.rows()))
+        raise Interrupted(shard, result()) from None
+    return result()
+
+
+def drawn_row(campaign: Campaign) -> dict[str, None]:
+    """The worlds of the class that one process runs again, in this order."""
+    assert isinstance(campaign.worlds, Ranks)
+    # The reference's shards, since the engine's are too large to list.
+    return _row(campaign.worlds.edges, campaign.worlds.kind, campaign.seed)
+
+
+@cache
+def _row(edges: int, kind: str, seed: int) -> dict[str, None]:
+    return dict.fromkeys(Ranks(edges, kind).drawn(seed, ROW))
+
+
+def _is_run_again(campaign: Campaign, mappers: Sequence[Target]) -> bool:
+    """Whether a search runs worlds of this campaign again: not for the catalogue."""
+    is_search = isinstance(campaign.worlds, Ranks) and campaign.keep == "notable"
+    return is_search and len(mappers) == 1 and not is_of_catalogue(mappers[0])
+
+
+def is_of_catalogue(target: Target) -> bool:
+    """Whether the mapper is an algorithm of the catalogue, which remembers nothing."""
+    return isinstance(target.mapper, Algorithm | Steered)
 
 
 def _attempt(
@@ -439,6 +525,7 @@ class _Order:
         self._store = store
         self._ahead: dict[tuple[int, int], ShardResult] = {}
         self._finished = Tally()
+        self._ended_again: dict[tuple[int, int], list[Row]] = {}
         total = sum(campaign.worlds.totals().values())
         self._rate = ProgressRate(", ".join(campaign.mappers), total, tell)
 
@@ -456,6 +543,10 @@ class _Order:
             if known is None:
                 yield shard
             else:
+                for row in self._ended_again.get((shard.edges, shard.start), ()):
+                    why = row.lost or row.stopped
+                    lost = msgspec.structs.replace(row, findings=(), undecided=why, lost=why)
+                    known = with_loss(known, lost)
                 self._ahead[shard.edges, shard.start] = known
                 self._rate.known(known.tally.worlds)
 
@@ -510,18 +601,30 @@ class _Order:
     def _take(self, shard: Shard, result: ShardResult) -> None:
         self._ahead[shard.edges, shard.start] = result
         self._finished += result.tally
-        # A shard with undecided worlds is examined anew next time.
-        if self._store is not None and not (result.tally.lost or result.tally.undecided):
+        if self._store is not None and self._is_kept(result.tally):
             self._store.put(shard, result)
         self._rate.finished(result.tally.worlds)
 
+    def _is_kept(self, tally: Tally) -> bool:
+        """Whether a store keeps a result: no later run replaces an earlier one.
+
+        In a list, where no verdict is about all worlds, what the machine may have ended is left.
+        """
+        return isinstance(self._campaign.worlds, Ranks) or not (tally.lost or tally.timeouts)
+
     def examine_again(self, store: ShardMemory) -> None:
-        """Examine some stored shards again, since no list of what a mapper rests on is complete."""
+        """Examine some stored shards again, since no list of what a mapper rests on is complete.
+
+        A run that the machine may have ended now leaves its world undecided.
+        """
         drawn = self._drawn_again(store)
         with closing(self._backend(self._campaign, drawn, no_beat)) as examined:
             for shard, result in examined:
                 known = store.get(shard)
-                if known is not None and known.tally.digest != result.tally.digest:
+                ended = [row for row in result.rows if row.lost or row.timed_out]
+                if ended:
+                    self._ended_again[shard.edges, shard.start] = ended
+                elif known is not None and known.tally.digest != result.tally.digest:
                     raise InputError(
                         f"store {store.path}: examined again, some world of m{shard.edges}/"
                         f"{shard.start} … {shard.stop - 1} has another verdict, other doors or"
@@ -541,8 +644,10 @@ class _Order:
             if shard.edges in sizes and worlds >= AGAIN:
                 continue
             known = store.get(shard)
-            # How far a run comes in its time depends on the machine.
-            if known is not None and known.tally.worlds and not known.tally.timeouts:
+            # What is undecided stays so. How far a run comes in its time depends on the machine.
+            if known is None or known.tally.timeouts or known.tally.undecided:
+                continue
+            if known.tally.worlds:
                 sizes.add(shard.edges)
                 worlds += known.tally.worlds
                 yield shard

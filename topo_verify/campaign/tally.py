@@ -63,6 +63,7 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
         claims: for each failing claim, the number of worlds.
         digest: a hash of all results, whatever the order of the worlds.
         by_checkers: worlds that the checkers judged again after another engine.
+        first_runs: the digest of the run in each world that is to be run again in a row.
     """
 
     worlds: int = 0
@@ -79,6 +80,7 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
     digest: str = ""
     by_checkers: int = 0
     choices: PolicyCosts = PolicyCosts()
+    first_runs: dict[str, str] = {}
 
     def __add__(self, other: Tally) -> Tally:
         return Tally(*map(added, msgspec.structs.astuple(self), msgspec.structs.astuple(other)))

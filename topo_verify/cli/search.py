@@ -28,6 +28,7 @@ from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.search import search as study
+from topo_verify.studies.search.again import RunAgain
 from topo_verify.studies.search.choices import CHOICES, Choices, reports_of
 from topo_verify.world.enumeration.classes import WorldClass
 
@@ -334,23 +335,34 @@ def shown(entry: study.SearchEntry, *, worst: bool = False) -> Iterator[Block]:
         rest = (f"and {more} more: --format json has them",) if more > 0 else ()
         named = tuple(f"{lost.world}: {lost.how}" for lost in entry.lost[:SHOWN])
         yield Bullets((*named, *rest))
-    if entry.run_again is not None and entry.run_again.others:
-        others = entry.run_again.others
-        yield Text(
-            "Run again, alone or in another order, it takes other doors in"
-            f" {_some(others, len(others))}: it draws lots, or keeps something from world to world."
-            " Seed it anew in each world, and the verdict can stand."
-        )
-    elif entry.run_again is not None and entry.verdict != "REFUTED":
-        alone, row = entry.run_again.worlds, entry.run_again.row
-        yield Text(
-            f"Run again: {plural(alone, 'world')} alone, {row} in a row, without another result."
-        )
+    if entry.run_again is not None:
+        yield from _run_again(entry.run_again)
     if entry.engine != "reference":
         yield Text(f"judged by {entry.judged_by}: {plural(entry.by_checkers, 'world')}")
     yield from _counterexamples(entry)
     if entry.verdict != "REFUTED":
         yield from unjudged(entry.target, "these worlds", entry.judgements)
+
+
+def _run_again(again: RunAgain) -> Iterator[Block]:
+    end = "" if again.whole else "; then it was interrupted, and worlds are missing"
+    yield Text(
+        f"Run again: {plural(again.worlds, 'world')} alone, {again.row} in a row; of these worlds"
+        f" {again.same} the same, {again.other} other, {again.undecided} not decided{end}."
+    )
+    if again.others:
+        yield Text(
+            f"Run again, alone or in another order, it does not do the same in"
+            f" {_some(again.others, len(again.others))}: it takes other doors, or declines a world"
+            " that it mapped. It draws lots, or keeps something from world to world. Seed it anew"
+            " in each world, and the verdict can stand."
+        )
+    if again.undecided_worlds:
+        yield Text(
+            "Run again, a time limit or SIGKILL ended it in"
+            f" {_some(again.undecided_worlds, again.undecided)}: perhaps the machine is busy or"
+            " short of memory, or the mapper keeps memory from world to world."
+        )
 
 
 def _every(entry: study.SearchEntry, *, worst: bool) -> Iterator[Block]:

@@ -10,12 +10,19 @@ import pytest
 
 from tests.helpers import worlds
 from tests.programs.programs import served
-from topo_verify.campaign.campaign import ENGINE_SHARD, Ranks
+from topo_verify.campaign.campaign import ENGINE_SHARD, Ranks, drawn_row
 from topo_verify.campaign.targets import targets
 from topo_verify.cli import main
 from topo_verify.programs.foreign import Foreign
+from topo_verify.robot.limits import Limits
 from topo_verify.studies.search import again
-from topo_verify.studies.search.search import SearchEntry, search, search_campaign
+from topo_verify.studies.search.choices import SHARD
+from topo_verify.studies.search.search import (
+    SearchEntry,
+    SearchInterrupted,
+    search,
+    search_campaign,
+)
 
 
 @pytest.fixture(autouse=True)
@@ -89,14 +96,14 @@ def test_a_mapper_that_fails_now_and_then_is_not_said_to_remember(folder: Path, 
 @pytest.mark.usefixtures("folder")
 def test_the_row_has_every_world_once_and_an_order_drawn_by_the_seed() -> None:
     campaign = search_campaign(targets("mappers.py:right"), edges=3)
-    rows = [again.row_of(msgspec.structs.replace(campaign, seed=seed)) for seed in (0, 0, 1)]
+    rows = [[*drawn_row(msgspec.structs.replace(campaign, seed=seed))] for seed in (0, 0, 1)]
     assert rows[0] == rows[1] != rows[2]
     every = [world.id for world in worlds([1, 2, 3])]
     assert sorted(rows[0]) == sorted(rows[2]) == sorted(every)
     of_three = [[name for name in row if name.startswith("m3/")] for row in (rows[0], every)]
     assert of_three[0] != of_three[1]
     whole = msgspec.structs.replace(campaign, worlds=Ranks(5, shard=ENGINE_SHARD))
-    assert again.row_of(whole) == again.row_of(msgspec.structs.replace(whole, worlds=Ranks(5)))
+    assert drawn_row(whole) == drawn_row(msgspec.structs.replace(whole, worlds=Ranks(5)))
 
 
 @pytest.mark.usefixtures("folder")
@@ -109,7 +116,41 @@ def test_a_mapper_that_draws_lots_leaves_the_verdict_open(
     found = searched("draws")
     assert (found.verdict, found.checked, found.counterexample) == ("UNKNOWN", 86, None)
     assert found.run_again is not None
-    assert found.run_again.others
+    assert found.run_again.other == len(found.run_again.others) > 0
+
+
+@pytest.mark.parametrize(
+    ("deed", "outcome"), [("skip", "other"), ("kill", "undecided"), ("hang", "undecided")]
+)
+def test_no_run_that_was_made_again_is_passed_over(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, deed: str, outcome: str
+) -> None:
+    """The search plays 86 worlds in two processes, and the row 86 in one."""
+    monkeypatch.setitem(SHARD, "reference", 20)
+    found = search(
+        f"misdeeds.py:from_80_{deed}", edges=3, workers=2, limits=Limits(move_timeout=0.3)
+    )
+    assert (found.verdict, found.checked, found.counterexample) == ("UNKNOWN", 86, None)
+    numbers = found.run_again
+    assert numbers is not None
+    assert (numbers.row, numbers.same + getattr(numbers, outcome)) == (86, 86)
+    assert getattr(numbers, outcome) > 0
+
+
+def test_an_interrupted_repetition_leaves_the_verdict_open(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(words: str, done: int, _total: int) -> None:
+        if words.endswith("run again") and done:
+            raise KeyboardInterrupt
+
+    with pytest.raises(SearchInterrupted) as cut:
+        search("mappers.py:right", edges=3, tell=interrupted)
+    entry = cut.value.entry
+    assert (entry.verdict, entry.checked) == ("UNKNOWN", 86)
+    assert entry.run_again is not None
+    assert (entry.run_again.whole, entry.run_again.row) == (False, 0)
+    assert 0 < entry.run_again.same < 50
 
 
 @pytest.mark.usefixtures("folder")
@@ -119,7 +160,8 @@ def test_a_mapper_that_does_the_same_each_time_is_judged_as_before(name: str, ve
     assert found.verdict == verdict
     failing = sum(size.failing for size in found.by_edges)
     row = 0 if failing else 86
-    assert found.run_again == again.RunAgain(min(50, failing) + min(50, 86 - failing), row)
+    alone = min(50, failing) + min(50, 86 - failing)
+    assert found.run_again == again.RunAgain(alone, row, same=max(alone, row))
     assert "not-deterministic" not in [one.claim for one in found.claims]
 
 

@@ -3,11 +3,17 @@
 The counterexample (`REPEATS` times; once if it was out of time, and not if the search tried it
 in a fresh process then), up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed,
 are run again, each in a fresh process. If none fails, one process runs `ROW` worlds in a shuffled
-order.
+order. No run replaces an earlier one: each world that is run again is one of
+
+    same        every run ended as in the search, with the same doors and cost
+    other       another verdict, other doors, another cost; or it was declined in one run only
+    undecided   the machine may have ended a run: SIGKILL, or a time limit
+
+and only `same` leaves a search EXHAUSTED. Of the others
 
     a failing world passes alone    `not-deterministic`
     another world fails alone       `not-deterministic`, too; likewise in the row
-    other doors, another cost       no finding, since mappers may draw lots; the verdict is open
+    otherwise                       no finding, since mappers may draw lots; the verdict is open
 
 The smallest such world is repeated `REPEATS` times. Only what is the same each time is named as
 the cause: that the world fails alone, or that it passes alone and fails after certain worlds. If
@@ -15,14 +21,16 @@ the mapper tosses a fair coin, a world is named alone in 3 of 100 searches.
 
 What this does not show: a memory that none of the drawn worlds reveals. If a share p of the
 worlds would differ alone, it is noticed with probability 1 - (1 - p)^SAMPLE: a tenth in 99.5 of
-100 searches, a hundredth in 39.
+100 searches, a hundredth in 39. Of a run by the compiled engine only those doors and costs are
+compared that the checkers saw.
 """
 
 from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator, Sequence
-from random import Random
+from contextlib import closing
+from typing import Literal
 
 import msgspec
 
@@ -30,7 +38,7 @@ from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import calls_native, here
 from topo_verify.campaign.progress import Progress, no_progress
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.tally import SAMPLE, sample_key
+from topo_verify.campaign.tally import SAMPLE, Tally, sample_key
 from topo_verify.campaign.targets import target_arguments
 from topo_verify.checkers import Finding
 from topo_verify.programs.foreign import Foreign
@@ -40,7 +48,7 @@ from topo_verify.world.rooted_map import World
 
 MOST = SAMPLE
 
-ROW = 1000
+ROW = c.ROW
 
 REPEATS = 5
 """Runs in which a world does the same before a cause is named."""
@@ -78,14 +86,28 @@ class RunAgain(msgspec.Struct, frozen=True):
     Attributes:
         worlds: number of worlds run alone, each in a fresh process.
         row: number of worlds run one after the other in one process.
-        failures: those with another verdict.
-        others: those where only doors or costs differed.
+        same, other, undecided: number of worlds in which every run ended as in the search; in
+            which one ended differently; in which the machine may have ended one.
+        failures: those of the other worlds with another verdict.
+        others: the rest of them: other doors, another cost, or declined in one run only.
+        undecided_worlds: their ids.
+        whole: no repetition that was due is missing.
     """
 
     worlds: int = 0
     row: int = 0
+    same: int = 0
+    other: int = 0
+    undecided: int = 0
     failures: tuple[Unlike, ...] = ()
     others: tuple[str, ...] = ()
+    undecided_worlds: tuple[str, ...] = ()
+    whole: bool = True
+
+    @property
+    def is_same(self) -> bool:
+        """Whether every repetition was made and ended as in the search."""
+        return self.whole and not (self.other or self.undecided)
 
     @property
     def rows(self) -> tuple[Row, ...]:
@@ -103,43 +125,115 @@ class RunAgain(msgspec.Struct, frozen=True):
         )
 
 
-def run_again(campaign: c.Campaign, rows: Sequence[Row], tell: Progress | None = None) -> RunAgain:
-    """Run some worlds of a search again, given its notable rows."""
-    before = _drawn(rows, campaign)
-    tell = tell or no_progress
+Outcome = Literal["same", "other", "undecided"]
 
-    def report(_work: str, done: int, _total: int) -> None:
-        tell(f"{campaign.mappers[0]}, worlds run again", done, 2 * MOST + REPEATS + ROW)
 
-    repeated = [row for row in before[:1] if row.failed and not row.timed_out]
-    runs = repeated * (REPEATS - 1) + before
-    alone = _rows(campaign, [row.world for row in runs], _alone, report)
-    unlike: dict[str, tuple[Row, Row]] = {}
-    others: list[str] = []
-    for row, now in zip(runs, alone, strict=True):
-        if now.late or now.lost:
-            continue
-        if bool(row.failed) != bool(now.failed):
-            unlike[row.world] = row, now
-        elif not row.timed_out and now.digest != row.digest:
-            others += [row.world] if row.world not in others else []
-    smallest_first = sorted(unlike.values(), key=lambda pair: (pair[0].edges, pair[0].place))
-    failures = [
-        _failure(campaign, row, now, repeat=not number)
-        for number, (row, now) in enumerate(smallest_first)
-    ]
-    if failures or any(row.failed for row in rows):  # refuted already
-        return RunAgain(len(before), 0, tuple(failures), tuple(others))
-    known = {row.world: row for row in rows}
-    lost = {row.world for row in rows if row.lost}
-    names = [name for name in row_of(campaign) if name not in lost]
-    in_row = _rows(campaign, names, _one_process, report, stop=c.Stop(failing=1))
-    for number, now in enumerate(in_row, 1):
-        if now.failed:
-            failures.append(_failure_in_row(campaign, names[:number], now))
-        elif now.undecided is None and now.digest != known.get(now.world, now).digest:
-            others += [now.world] if now.world not in others else []
-    return RunAgain(len(before), len(in_row), tuple(failures), tuple(others))
+class Repetition:
+    """Worlds of a search that are run again: `run`, once; `result` at any time.
+
+    Args:
+        rows: the notable rows of the search.
+        tally: its sums over all worlds.
+    """
+
+    def __init__(self, campaign: c.Campaign, rows: Sequence[Row], tally: Tally) -> None:
+        self._campaign, self._rows, self._tally = campaign, rows, tally
+        self._known = {row.world: row for row in rows}
+        self._outcomes: dict[str, Outcome] = {}
+        self._failures: dict[str, Unlike] = {}
+        self._alone: set[str] = set()
+        self._in_row = 0
+        self._is_whole = False
+
+    def result(self) -> RunAgain:
+        """What the runs show so far."""
+        failures = sorted(self._failures.values(), key=lambda unlike: (unlike.edges, unlike.rank))
+        worlds: dict[Outcome, list[str]] = {"same": [], "other": [], "undecided": []}
+        for world, outcome in self._outcomes.items():
+            worlds[outcome].append(world)
+        return RunAgain(
+            len(self._alone),
+            self._in_row,
+            *map(len, worlds.values()),
+            tuple(failures),
+            tuple(world for world in worlds["other"] if world not in self._failures),
+            tuple(worlds["undecided"]),
+            self._is_whole,
+        )
+
+    def run(self, tell: Progress | None = None) -> None:
+        """Run the worlds again."""
+        tell = tell or no_progress
+
+        def report(_work: str, done: int, _total: int) -> None:
+            tell(f"{self._campaign.mappers[0]}, worlds run again", done, 2 * MOST + REPEATS + ROW)
+
+        self._run_alone(report)
+        if not self._failures and not any(row.failed for row in self._rows):  # else refuted
+            self._run_row(report)
+        self._is_whole = True
+
+    def _run_alone(self, report: Progress) -> None:
+        campaign = self._campaign
+        drawn = _drawn(self._rows, campaign)
+        repeated = [row for row in drawn[:1] if row.failed and not row.timed_out]
+        runs = repeated * (REPEATS - 1) + drawn
+        unlike: dict[str, tuple[Row, Row]] = {}
+        again = _runs(campaign, [row.world for row in runs], _alone, report)
+        for row, now in zip(runs, again, strict=True):
+            self._alone.add(row.world)
+            if bool(row.failed) != bool(now.failed) and not now.undecided:
+                unlike[row.world] = row, now
+                self._failures[row.world] = _unrepeated(campaign, row, now)
+                self._note(row.world, "other")
+            else:
+                self._note(row.world, compared(row, row.digest, now))
+        if unlike:
+            row, now = min(unlike.values(), key=lambda pair: (pair[0].edges, pair[0].place))
+            self._failures[row.world] = _failure(campaign, row, now)
+
+    def _run_row(self, report: Progress) -> None:
+        campaign, known = self._campaign, self._known
+        lost = {row.world for row in self._rows if row.lost}
+        names = [name for name in [*c.drawn_row(campaign)][:ROW] if name not in lost]
+        for now in _runs(campaign, names, _one_process, report, stop=c.Stop(failing=1)):
+            self._in_row += 1
+            if now.failed:
+                self._note(now.world, "other")
+                before = names[: self._in_row]
+                self._failures[now.world] = _failure_in_row(campaign, before, now)
+                return
+            row = known.get(now.world)
+            digest = self._tally.first_runs.get(now.world, row and row.digest)
+            if digest is None and now.undecided and not self._tally.undecided:
+                self._note(now.world, "undecided" if _by_machine(now) else "other")
+            else:
+                self._note(now.world, compared(row, digest, now))
+
+    def _note(self, world: str, outcome: Outcome) -> None:
+        known = self._outcomes.get(world, "same")
+        if known != "other":
+            self._outcomes[world] = known if outcome == "same" else outcome
+
+
+def compared(row: Row | None, digest: str | None, now: Row) -> Outcome:
+    """What a second run of a mapper in a world is beside the first one.
+
+    Args:
+        row: of the first run, if it was kept.
+        digest: of the first run, if it is known.
+    """
+    if _by_machine(now) or (row is not None and _by_machine(row)):
+        is_failing = row is not None and row.failed and now.failed
+        return "same" if is_failing else "undecided"
+    if digest is None:  # a claim is not decided, or the world is right as it was
+        return "undecided" if now.undecided else "same"
+    return "same" if now.digest == digest else "other"
+
+
+def _by_machine(row: Row) -> bool:
+    """Whether something else than the mapper may have ended a run."""
+    return row.lost is not None or row.timed_out
 
 
 def _drawn(rows: Sequence[Row], campaign: c.Campaign) -> list[Row]:
@@ -161,35 +255,23 @@ def _drawn(rows: Sequence[Row], campaign: c.Campaign) -> list[Row]:
     return first
 
 
-def row_of(campaign: c.Campaign) -> list[str]:
-    """Shuffled worlds of the class, the same for either engine."""
-    assert isinstance(campaign.worlds, c.Ranks)
-    lots = Random(f"{campaign.seed} row")
-    # The reference's shards: the engine's are too large to list.
-    shards = list(c.Ranks(campaign.worlds.edges, campaign.worlds.kind).shards())
-    row: list[str] = []
-    for shard in lots.sample(shards, len(shards)):
-        if len(row) >= ROW:
-            break
-        row += [name for _, name, _ in campaign.worlds.worlds(shard)]
-    lots.shuffle(row)
-    return row[:ROW]
-
-
 # ---------------------------------------------------------------- runs
 
 
-def _rows(
+def _runs(
     campaign: c.Campaign,
     worlds: Sequence[str],
     backend: c.Backend,
     tell: Progress = no_progress,
     stop: c.Stop | None = None,
-) -> list[Row]:
+) -> Iterator[Row]:
+    """The rows, each as soon as it is made."""
     listed = c.ListedWorlds(len(worlds))
     once = msgspec.structs.replace(campaign, worlds=listed, keep="all", stop=stop or c.Stop())
     named = [(name, World.from_id(name)) for name in worlds]
-    return [row for _, result in c.results(once, backend, named, tell=tell) for row in result.rows]
+    with closing(c.results(once, backend, named, tell=tell)) as results:
+        for _, result in results:
+            yield from result.rows
 
 
 def _alone(
@@ -230,17 +312,19 @@ def _program(text: str) -> Program:
 # ---------------------------------------------------------------- findings
 
 
-def _failure(campaign: c.Campaign, row: Row, now: Row, *, repeat: bool) -> Unlike:
+def _failure(campaign: c.Campaign, row: Row, now: Row) -> Unlike:
     if row.failed:
-        if repeat:
-            how = "a claim fails here only after other worlds, and alone none does"
-            return _after_others(campaign, row, how, _before(campaign, row))
-        return _unlike(campaign, row, "it failed in the search, and passed alone", row.findings[0])
-    how = "it passed in the search, and failed alone"
-    if repeat:
-        always = all(again.failed for again in _repeated_alone(campaign, row.world))
-        how = "it passed after other worlds, and alone it fails" if always else VARIES
+        how = "a claim fails here only after other worlds, and alone none does"
+        return _after_others(campaign, row, how, _before(campaign, row))
+    always = all(again.failed for again in _repeated_alone(campaign, row.world))
+    how = "it passed after other worlds, and alone it fails" if always else VARIES
     return _unlike(campaign, row, how, now.findings[0])
+
+
+def _unrepeated(campaign: c.Campaign, row: Row, now: Row) -> Unlike:
+    if row.failed:
+        return _unlike(campaign, row, "it failed in the search, and passed alone", row.findings[0])
+    return _unlike(campaign, row, "it passed in the search, and failed alone", now.findings[0])
 
 
 def _failure_in_row(campaign: c.Campaign, names: Sequence[str], now: Row) -> Unlike:
@@ -268,7 +352,7 @@ def _after_others(campaign: c.Campaign, row: Row, how: str, before: Sequence[str
 
 
 def _repeated_alone(campaign: c.Campaign, world: str) -> list[Row]:
-    return _rows(campaign, [world] * REPEATS, _alone)
+    return [*_runs(campaign, [world] * REPEATS, _alone)]
 
 
 def _unlike(campaign: c.Campaign, row: Row, how: str, failure: Finding) -> Unlike:
@@ -285,7 +369,7 @@ def _reproduced(campaign: c.Campaign, world: str, before: Sequence[str]) -> str 
     number = 1
     while before and number <= LONGEST:
         row = [*before[-number:], world]
-        if all(_rows(campaign, row, _one_process)[-1].failed for _ in range(REPEATS)):
+        if all([*_runs(campaign, row, _one_process)][-1].failed for _ in range(REPEATS)):
             words = ["topo-verify", "explore", *row]
             target = target_arguments(campaign.mappers[0])
             words += target if len(target) > 1 else ("--target", *target)

@@ -11,7 +11,6 @@ from contextlib import nullcontext
 import msgspec
 from msgspec.structs import astuple
 
-from topo_verify.algorithms import Algorithm, Steered
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import calls_native, clustered, here, pooled
 from topo_verify.campaign.cluster import both_given, connected
@@ -26,7 +25,7 @@ from topo_verify.errors import InputError, InternalError, ShortTraceback, plural
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.programs.program import Program
 from topo_verify.robot.limits import Limits, given_limits
-from topo_verify.studies.search.again import CLAIM, RunAgain, run_again
+from topo_verify.studies.search.again import CLAIM, Repetition, RunAgain
 from topo_verify.studies.search.choices import SHARD, WAYS, Choices, require_choices
 from topo_verify.studies.search.states.every import Decider, decided_by, judged_by
 from topo_verify.world.enumeration.classes import WorldClass
@@ -286,11 +285,10 @@ def search(  # noqa: PLR0913  an argument an option
             backend = clustered(cluster)
         else:
             backend = here(mappers) if local else pooled(workers)
-        study = Search(campaign, mappers, backend)
+        study = Search(campaign, mappers, backend, repeats=isinstance(target, str))
         try:
             study.work(tell)
-            if isinstance(target, str):
-                study.run_again(tell)
+            study.run_again(tell)
         except KeyboardInterrupt:
             raise SearchInterrupted(study.entry()) from None
     return study.entry()
@@ -321,7 +319,11 @@ def _require_texts(mappers: Sequence[Target]) -> None:
 
 
 class Search:
-    """A search in steps: `work`, then `entry`, also if the work was cut off."""
+    """A search in steps: `work`, `run_again`, then `entry`, also if they were cut off.
+
+    Args:
+        repeats: some worlds are run again, if there is a TARGET to start the mapper from.
+    """
 
     def __init__(
         self,
@@ -329,8 +331,11 @@ class Search:
         mappers: Sequence[Target],
         backend: c.Backend,
         store: c.ShardMemory | None = None,
+        *,
+        repeats: bool = True,
     ) -> None:
         assert isinstance(campaign.worlds, c.Ranks)
+        self._repeats = repeats and len(mappers) == 1 and not c.is_of_catalogue(mappers[0])
         self.campaign, self.mappers, self._backend, self._store = campaign, mappers, backend, store
         self.worlds = campaign.worlds
         self.totals = self.worlds.totals()
@@ -362,10 +367,13 @@ class Search:
                 )
 
     def run_again(self, tell: Progress | None = None) -> None:
-        """Run some worlds again, if there is a TARGET to start the mapper from."""
-        catalogue = isinstance(self.mappers[0].mapper, Algorithm | Steered)
-        if len(self.mappers) == 1 and not catalogue:
-            self.again = run_again(self.campaign, self.rows, tell)
+        """Run some worlds again, if that is due; after Ctrl-C `entry` has the runs before it."""
+        if self._repeats:
+            repetition = Repetition(self.campaign, self.rows, self.tally)
+            try:
+                repetition.run(tell)
+            finally:
+                self.again = repetition.result()
 
     # ------------------------------------------------------------ what was found
 
@@ -430,9 +438,13 @@ class Search:
     def _verdict(self, *, whole: bool) -> Verdict:
         if self.failing:
             return "REFUTED"
-        if not whole or self.tally.lost or (self.again is not None and self.again.others):
+        if not whole or self.tally.lost or (self._repeats and not self._is_repeated):
             return "UNKNOWN"
         return "SAMPLED" if self._decided_by == "model" else "EXHAUSTED"
+
+    @property
+    def _is_repeated(self) -> bool:
+        return self.again is not None and self.again.is_same
 
     def _claims(self) -> tuple[FailingClaim, ...]:
         rows = [row for row in self.rows if row.failed]

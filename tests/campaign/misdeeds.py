@@ -1,0 +1,113 @@
+"""Mappers that are right but for certain calls, counted in their process.
+
+misdeeds.py:from_80_skip              declines from its 80th world on
+misdeeds.py:at_20_map_from_60_hang    a wrong map once, then it hangs
+python misdeeds.py from_80_skip       the same as a program behind the pipe
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+from topo_verify import CATALOGUE, Robot
+from topo_verify.programs.library import Skipped
+from topo_verify.robot.percept import Percept
+
+DEEDS = ("map", "nothing", "skip", "error", "hang", "kill", "doors", "cost")
+
+calls = 0
+
+
+class Declined(Exception):
+    """A program's message `error`."""
+
+
+def done(deed: str, robot: Robot) -> Any:
+    """What a misdeed delivers, if it delivers anything."""
+    match deed:
+        case "map":
+            return {"vertices": [[]], "edges": [], "marker": None}
+        case "skip":
+            raise Skipped("not today")
+        case "error":
+            raise Declined("not today")
+        case "hang":
+            time.sleep(60)
+        case "kill":
+            os.kill(os.getpid(), signal.SIGKILL)
+        case "doors":
+            return CATALOGUE["basic"].with_policies(pick="last", order="newest")(robot)
+        case "cost":
+            robot.move(0)
+            robot.move(0)
+            return CATALOGUE["basic"](robot)
+    return None
+
+
+def __getattr__(name: str) -> Callable[[Robot], Any]:
+    words = name.split("_")
+    if words[0] not in ("at", "from"):
+        raise AttributeError(name)
+    plan = [
+        (when, int(number), deed)
+        for when, number, deed in zip(words[::3], words[1::3], words[2::3], strict=True)
+    ]
+
+    def explore(robot: Robot) -> Any:
+        global calls
+        calls += 1
+        for when, number, deed in plan:
+            if calls == number or (when == "from" and calls > number):
+                return done(deed, robot)
+        return CATALOGUE["basic"](robot)
+
+    return explore
+
+
+class Piped:
+    """The robot behind the pipe."""
+
+    def __init__(self, percept: dict[str, Any]) -> None:
+        self.percept = Percept(percept["degree"], percept["marker"])
+
+    def move(self, door: int, _purpose: object = None) -> Percept:
+        """Leave by a door."""
+        tell({"type": "move", "door": door})
+        percept = json.loads(sys.stdin.readline())
+        self.percept = Percept(percept["degree"], percept["marker"])
+        return self.percept
+
+    def declare(self, _event: object) -> None:
+        """Declare nothing."""
+
+
+def tell(message: dict[str, Any]) -> None:
+    """Write one message."""
+    print(json.dumps(message), flush=True)  # noqa: T201  the protocol
+
+
+if __name__ == "__main__":
+    mapper = __getattr__(sys.argv[1])
+    for line in sys.stdin:
+        start = json.loads(line)
+        if start["type"] == "stop":
+            break
+        try:
+            survey = mapper(Piped(start["percept"]))  # type: ignore[arg-type]
+        except (Skipped, Declined) as why:
+            tell({"type": "skip" if isinstance(why, Skipped) else "error", "why": str(why)})
+            continue
+        if survey is None:
+            sys.exit(1)
+        vertices, edges, marker = (
+            survey.values()
+            if isinstance(survey, dict)
+            else (survey.vertices, survey.edges, survey.marker)
+        )
+        tell({"type": "done", "map": {"vertices": vertices, "edges": edges, "marker": marker}})
