@@ -7,6 +7,7 @@ python misdeeds.py from_80_skip       the same as a program behind the pipe
 
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import signal
@@ -21,7 +22,7 @@ from topo_verify.robot.percept import Percept
 
 DEEDS = ("map", "nothing", "skip", "error", "hang", "kill", "doors", "cost")
 
-calls = 0
+calls = itertools.count(1)
 
 
 class Declined(Exception):
@@ -60,10 +61,9 @@ def __getattr__(name: str) -> Callable[[Robot], Any]:
     ]
 
     def explore(robot: Robot) -> Any:
-        global calls
-        calls += 1
+        call = next(calls)
         for when, number, deed in plan:
-            if calls == number or (when == "from" and calls > number):
+            if call == number or (when == "from" and call > number):
                 return done(deed, robot)
         return CATALOGUE["basic"](robot)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from tests.programs.natives import HOSTILE_NUMBA, ROOT, built, hostile
+from tests.programs.natives import HOSTILE_NUMBA, ROOT, built, hostile, misdeeds
 from topo_verify.campaign.backend import CampaignJob, pooled, remade
 from topo_verify.campaign.campaign import Shard
 from topo_verify.campaign.identity import source_hash
@@ -130,6 +130,29 @@ def test_a_crash_that_does_not_recur_leaves_its_world_undecided(tmp_path: Path) 
     entry = search(hostile(tmp_path, "once"), edges=2)
     assert entry.verdict == "UNKNOWN"
     assert entry.lost
+
+
+@pytest.mark.parametrize(
+    "plan",
+    [
+        "at 40 skip",
+        "at 40 map at 41 skip",
+        "at 40 map at 41 skip at 42 skip",
+        "from 20 map at 60 skip at 61 skip at 62 skip from 63 doors",
+    ],
+)
+@pytest.mark.parametrize("keep_going", [False, True])
+def test_a_second_pass_over_a_slice_replaces_no_run(
+    plan: str, keep_going: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MISDEEDS", plan)
+    entry = search(misdeeds(tmp_path), edges=3, keep_going=keep_going)
+    assert entry.verdict in ("UNKNOWN", "REFUTED")
+
+
+def test_a_library_that_declines_the_same_worlds_each_time_does_the_same(tmp_path: Path) -> None:
+    entry = search(hostile(tmp_path, "nothing"), edges=2, keep_going=True)
+    assert (entry.verdict, entry.lost) == ("UNKNOWN", ())
 
 
 def test_a_dask_cluster_comes_to_the_same_and_refuses_another_library(tmp_path: Path) -> None:

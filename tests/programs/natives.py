@@ -13,6 +13,7 @@ from topo_verify.programs.library import header_text
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "native_c" / "mapper.c"
 HOSTILE = ROOT / "tests" / "programs" / "hostile.c"
+MISDEEDS = ROOT / "tests" / "campaign" / "misdeeds.c"
 HOSTILE_NUMBA = ROOT / "tests" / "programs" / "hostile_numba.py"
 
 
@@ -30,3 +31,8 @@ def built(folder: Path, *options: str, source: Path = EXAMPLE) -> str:
 def hostile(folder: Path, deed: str) -> str:
     """The TARGET of a mapper that does this in worlds whose marker is at a place of degree 4."""
     return built(folder, f"-DDEED={deed}", source=HOSTILE)
+
+
+def misdeeds(folder: Path) -> str:
+    """The TARGET of the mapper that does what MISDEEDS says in certain calls of a process."""
+    return built(folder, f"-I{EXAMPLE.parent}", source=MISDEEDS)

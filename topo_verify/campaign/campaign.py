@@ -328,7 +328,7 @@ class Interrupted(KeyboardInterrupt):
         self.shard, self.result = shard, result
 
 
-def with_loss(result: c.ShardResult, row: Row) -> c.ShardResult:
+def with_loss(result: ShardResult, row: Row) -> ShardResult:
     """The result with a lost worker's row, in the place of the run that passed."""
     rows: list[Row] = []
     for known in result.rows:

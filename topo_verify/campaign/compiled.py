@@ -13,8 +13,10 @@ In these worlds both engines must agree on every event; otherwise topo-verify ha
 campaign ends.
 
 The engine calls a **native mapper** (`--library`) in place of an algorithm; for the checkers it
-runs in its own process. If the two disagree, it may behave differently each time: all worlds of the
-slice are undecided, except the one where they disagree if a claim fails there by the checkers.
+runs in its own process. A slice with an undecided world is bisected and run again down to that
+world, which runs behind the pipe; the counts of both passes must be equal. If two runs disagree, the
+mapper may behave differently each time: all worlds of the slice are undecided, except the one where
+they disagree if a claim fails there by the checkers.
 
 What this does not show: the engine alone judged the other worlds. If it is wrong in a share p of
 all worlds, n steps show it with a probability of at least 1 - (1 - p)^n.
@@ -53,6 +55,9 @@ SAMPLE = 1000
 
 STEP = (1, 1, 1, 2)
 """Worlds in such a step. A second world is not the first after a pause."""
+
+DECLINED_ONCE = "it was undecided when the engine called it, and delivered a map behind the pipe"
+"""Why a world is undecided that the mapper declined in one of two runs."""
 
 SLICE = 50_000
 """Ranks examined between two heartbeats. The counts of each slice begin empty."""
@@ -142,7 +147,7 @@ class _CompiledShard:
         for start in range(self._shard.start, self._shard.stop, SLICE):
             self._beats()
             ranks = self._ranks(start, min(start + SLICE, self._shard.stop))
-            self._tally += self._slice(ranks)
+            self._tally += self._slice(ranks)[1]
             self._known, self._alone = {}, set()
             if self._campaign.stop.reached(self._tally):
                 break
@@ -150,24 +155,24 @@ class _CompiledShard:
     def _ranks(self, start: int, stop: int) -> c.Shard:
         return c.Shard(self._shard.edges, start, stop)
 
-    def _slice(self, ranks: c.Shard) -> Tally:
+    def _slice(self, ranks: c.Shard) -> tuple[Snapshot, Tally]:
+        """The counts of the engine, and the tally that stands."""
         begin = process_time()
         with self._watched():
             *snapshots, end = _snapshots(self._campaign, ranks, self._calls)
         self._beats()
         self._seconds += c.EngineSeconds(engine=process_time() - begin)
-        if end.tally.undecided:
-            return self._undecided(ranks)
-        begin = process_time()
+        if end.tally.undecided and ranks.stop == ranks.start + 1:
+            return end, self._undecided_world(ranks, end)
         try:
+            if end.tally.undecided:
+                return end, self._bisected(ranks, end)
             self._check(ranks, snapshots, end)
         except _Disagreement as wrong:
             if self._calls is None:
                 raise
-            return self._unlike(ranks, wrong)
-        finally:
-            self._seconds += c.EngineSeconds(checkers=process_time() - begin)
-        return end.tally
+            return end, self._unlike(ranks, wrong)
+        return end, end.tally
 
     def _watched(self) -> AbstractContextManager[None]:
         if not isinstance(self._beat, Heartbeat) or self._calls is None:
@@ -176,6 +181,18 @@ class _CompiledShard:
 
     def _check(self, ranks: c.Shard, snapshots: list[Snapshot], end: Snapshot) -> None:
         """Have the checkers judge the worlds that the counts name, and the sample."""
+        begin = process_time()
+        try:
+            self._check_steps(ranks, snapshots, end)
+            for which in range(len(self._mappers)):
+                self._beats()
+                self._require_named(which, end)
+            if self._calls is not None and end.rank >= 0:
+                self._judged(0, end.rank)  # the last world of the class is among these
+        finally:
+            self._seconds += c.EngineSeconds(checkers=process_time() - begin)
+
+    def _check_steps(self, ranks: c.Shard, snapshots: list[Snapshot], end: Snapshot) -> None:
         if not snapshots and end.tally.worlds > max(STEP):
             why = "the engine made no pause"
             raise _Disagreement(f"m{ranks.edges}/{ranks.start}", why, end.rank)
@@ -183,11 +200,6 @@ class _CompiledShard:
             self._beats()
             first = ranks.start if before is None else before.rank + 1
             self._require_same(before, behind, self._ranks(first, behind.rank + 1))
-        for which in range(len(self._mappers)):
-            self._beats()
-            self._require_named(which, end)
-        if self._calls is not None and end.rank >= 0:
-            self._judged(0, end.rank)  # the last world of the class is among these
 
     def _unlike(self, ranks: c.Shard, wrong: _Disagreement) -> Tally:
         """The tally of a slice in which engine and checkers disagree."""
@@ -205,16 +217,45 @@ class _CompiledShard:
             tally += Tally(undecided=1, lost=1)
         return tally
 
-    def _undecided(self, ranks: c.Shard) -> Tally:
-        """The tally of a slice with a world that the checkers must decide."""
+    def _bisected(self, ranks: c.Shard, end: Snapshot) -> Tally:
+        """The tally of a slice with a world that the checkers must decide.
+
+        Raises a _Disagreement if a second pass by the engine counts anything else.
+        """
         middle = (ranks.start + ranks.stop) // 2
-        if middle > ranks.start:
-            first = self._slice(self._ranks(ranks.start, middle))
-            if self._campaign.stop.reached(first):
-                return first
-            return first + self._slice(self._ranks(middle, ranks.stop))
-        self._checked.add(ranks.start)
-        result = c.examine(self._campaign, self._mappers, ranks)
+        first_end, first = self._slice(self._ranks(ranks.start, middle))
+        if self._campaign.stop.reached(first):
+            return first
+        second_end, second = self._slice(self._ranks(middle, ranks.stop))
+        again = first_end.tally
+        if end.rank >= middle:  # else the first pass stopped before
+            again += second_end.tally
+        self._require_equal(ranks, end, _fields(again))
+        return first + second
+
+    def _require_equal(self, ranks: c.Shard, end: Snapshot, again: dict[str, object]) -> None:
+        known = _fields(end.tally)
+        for name in {**known, **again}:
+            if known.get(name) != again.get(name):
+                where = f"m{ranks.edges}/{ranks.start} … {ranks.stop - 1}"
+                difference = f"{name}: {known.get(name)} at first, {again.get(name)} run again"
+                rank = min((*end.named[0].failing, max(end.rank, ranks.start)))
+                raise _Disagreement(f"{where}, {self._campaign.mappers[0]}", difference, rank)
+
+    def _undecided_world(self, alone: c.Shard, end: Snapshot) -> Tally:
+        """The tally of a world that the engine leaves open, by a run behind the pipe.
+
+        That run decides only if the engine had no room. Else both count: no machine declines a
+        world, so a mapper that now delivers a map does not do the same each time.
+        """
+        self._checked.add(alone.start)
+        result = c.examine(self._campaign, self._mappers, alone)
+        is_decided = not (result.tally.failing or result.tally.undecided)
+        if self._calls is not None and is_decided and not end.without_room:
+            ((place, name, world),) = self._worlds.worlds(alone)
+            text, limits = self._mappers[0].text, self._campaign.limits
+            row = lost_row(world, place, name, text, limits, DECLINED_ONCE, external=True)
+            result = c.with_loss(result, row)
         self._rows |= {(row.place, row.turn): row for row in result.rows}
         return result.tally
 

@@ -73,12 +73,13 @@ class Snapshot(NamedTuple):
     """The sums from the start of the range to this rank (-1: none), and each algorithm's worlds.
 
     `tally.undecided` counts runs; the tally's digest sums 64-bit hashes of ranks, verdicts, costs
-    and doors.
+    and doors. `without_room` counts undecided runs of a native mapper for which there was no room.
     """
 
     rank: int
     tally: Tally
     named: tuple[NotableWorlds, ...]
+    without_room: int = 0
 
 
 def examine_range(  # noqa: PLR0913  all that is asked of the engine
@@ -147,6 +148,7 @@ class CompiledRange:
         self.walk.level, self.walk.stop_at_first, self.walk.rank = claims, stop_at_first, -1
         self.table = np.zeros(len(self.names) * tally.COLUMNS, np.int64)
         self.undecided = [0] * len(self.names)
+        self.without_room = 0
         for row, name in enumerate(self.names):
             counts = tally.CountWords(self.table, row * tally.COLUMNS)
             if calls is not None:
@@ -195,7 +197,7 @@ class CompiledRange:
     def _judge_by_checkers(self) -> None:
         row, case = int(self.walk.row), layout.CaseWords(self.judge)
         world, name = self._world(), self.names[row]
-        run = self._run_again(world, name, row)
+        run = self._last_run(world, name, row)
         case.cost, case.doors_hash = run.cost, doors_hash(run.events)
         events = (Start(percept=first_percept(world)), *run.events)
         judgements = check(world, events, run.stopped)[: len(self.claims)]
@@ -205,15 +207,20 @@ class CompiledRange:
         statuses = {judgement.status for judgement in judgements}
         self.undecided[row] += "undecided" in statuses and "failed" not in statuses
 
-    def _run_again(self, world: World, name: str, row: int) -> CompiledRun:
-        """The last run, made again with more room if it did not fit."""
+    def _last_run(self, world: World, name: str, row: int) -> CompiledRun:
+        """The last run; one that did not fit is made again with more room."""
         if self.calls is not None:
-            from topo_verify.compiled.native_run import is_open, made_by
+            from topo_verify.compiled.native_run import has_declined, is_open, made_by
 
             run = made_by(self.space, world)
-            if is_open(self.space):
+            if has_declined(self.space):
+                self.undecided[row] += 1
+            elif is_open(self.space):
+                known = run.events
                 run, decides = self.calls.run(world)
-                self.undecided[row] += not decides
+                is_same = run.events[: len(known)] == known
+                self.without_room += is_same and not decides
+                self.undecided[row] += not (is_same and decides)
             return run
         algorithm, fault = self._fault(name)[1], self.faults.get(name, "")
         if self.space[self.layout.at("stop")] < ws.STOP_FULL:
@@ -231,7 +238,8 @@ class CompiledRange:
         words = self.table.tolist()
         rows = [tally.CountWords(words, row * tally.COLUMNS) for row in range(len(self.names))]
         total = sum(map(self._tally, count(), rows), Tally())
-        return Snapshot(int(self.walk.rank), total, tuple(map(self._named, rows)))
+        named = tuple(map(self._named, rows))
+        return Snapshot(int(self.walk.rank), total, named, self.without_room)
 
     def _tally(self, place: int, row: tally.CountWords) -> Tally:
         """What one algorithm adds: of failing worlds, those where none before it fails."""

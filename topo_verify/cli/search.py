@@ -359,9 +359,9 @@ def _run_again(again: RunAgain) -> Iterator[Block]:
         )
     if again.undecided_worlds:
         yield Text(
-            "Run again, a time limit or SIGKILL ended it in"
-            f" {_some(again.undecided_worlds, again.undecided)}: perhaps the machine is busy or"
-            " short of memory, or the mapper keeps memory from world to world."
+            f"Run again, it is not decided in {_some(again.undecided_worlds, again.undecided)}:"
+            " SIGKILL or a time limit ended it there, or it declined. Perhaps the machine is busy"
+            " or short of memory, or the mapper keeps memory from world to world."
         )
 
 

@@ -160,6 +160,10 @@ def warm() -> None:
     _addresses()
 
 
+def has_declined(space: Row) -> bool:
+    return bool(space[_at("stop")] == ws.STOP_SKIP)
+
+
 def is_open(space: Row) -> bool:
     """Did the mapper decline, or had it no room?"""
     return bool(space[_at("stop")] >= ws.STOP_SKIP)

@@ -122,8 +122,9 @@ def test_a_mapper_that_draws_lots_leaves_the_verdict_open(
 @pytest.mark.parametrize(
     ("deed", "outcome"), [("skip", "other"), ("kill", "undecided"), ("hang", "undecided")]
 )
+@pytest.mark.usefixtures("folder")
 def test_no_run_that_was_made_again_is_passed_over(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, deed: str, outcome: str
+    monkeypatch: pytest.MonkeyPatch, deed: str, outcome: str
 ) -> None:
     """The search plays 86 worlds in two processes, and the row 86 in one."""
     monkeypatch.setitem(SHARD, "reference", 20)
@@ -137,9 +138,8 @@ def test_no_run_that_was_made_again_is_passed_over(
     assert getattr(numbers, outcome) > 0
 
 
-def test_an_interrupted_repetition_leaves_the_verdict_open(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+@pytest.mark.usefixtures("folder")
+def test_an_interrupted_repetition_leaves_the_verdict_open() -> None:
     def interrupted(words: str, done: int, _total: int) -> None:
         if words.endswith("run again") and done:
             raise KeyboardInterrupt
