@@ -456,7 +456,9 @@ def toy_work(*, job: str = "", silence: float = 60.0, attempts: int = 2) -> Work
         lost=lost,
         silence=silence,
         attempts=attempts,
-        division=Division(cut, join=lambda parts: [*chain(*parts)], last=lambda part: 99 in part),
+        division=Division(
+            cut, join=lambda parts: [*chain(*parts)], last=lambda parts, _losses: 99 in parts[-1]
+        ),
     )
 
 

@@ -53,6 +53,9 @@ PARTS = 16
 _LAST = sys.maxsize
 """Stands for the number of the last run of a shard."""
 
+MAX_LOSSES = 8
+"""Workers that a native mapper may cost in one shard, beside those of given-up worlds."""
+
 MACHINES = "the Dask worker was lost, each time"
 
 SHORT_OF_MEMORY = "the mapper raised MemoryError there, and here it did not"
@@ -224,7 +227,7 @@ def _work(job: CampaignJob, ours: Loaded | None = None) -> Work[c.Shard, c.Shard
         division=Division(
             cut=partial(_cut, campaign),
             join=partial(_joined, campaign),
-            last=lambda result: campaign.stop.reached(result.tally),
+            last=partial(_is_last, campaign),
         ),
         remote=Remote(
             remade=f"{__name__}:{remade.__name__}",
@@ -234,6 +237,13 @@ def _work(job: CampaignJob, ours: Loaded | None = None) -> Work[c.Shard, c.Shard
             require_ours=require_ours,
         ),
     )
+
+
+def _is_last(campaign: c.Campaign, parts: list[c.ShardResult], losses: int) -> bool:
+    """Whether the campaign ends in these parts of a shard, which lost this number of workers."""
+    if calls_native(campaign) and losses >= MAX_LOSSES:
+        return True
+    return campaign.stop.reached(sum((part.tally for part in parts), Tally()))
 
 
 def _with_our_memory(
@@ -292,6 +302,7 @@ def serve(job: bytes) -> Generator[Handler]:
         yield handle
     finally:
         c.close(mappers)
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)  # nothing is left to close
 
 
 # ---------------------------------------------------------------- pieces of shards
@@ -470,6 +481,10 @@ def _survived(
         ):
             continue
         result = c.with_loss(result, row)
+    # The campaign ends here.
+    if calls_native(campaign) and len(losses) - 2 * len(given_up) >= MAX_LOSSES:
+        tally = result.tally + Tally(lost=c.MAX_LOST)
+        result = msgspec.structs.replace(result, tally=tally)
     return result
 
 

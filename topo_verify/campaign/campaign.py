@@ -54,6 +54,9 @@ BLOCK = 10_000
 ENGINE_SHARD = 100_000
 """Worlds in a shard of the compiled engine, about half a second of work."""
 
+MAX_LOST = 3
+"""Worlds that may cost a worker each until a native mapper's other worlds are left."""
+
 MAX_TIMEOUTS = 3
 """Time-outs, and in some studies failing worlds, after which a mapper's other worlds are left."""
 
@@ -211,18 +214,26 @@ class Stop(msgspec.Struct, frozen=True):
 
     Attributes:
         still: all worlds so far, and at least so many, ended in a mapper that stood still.
+        lost: worlds that cost a worker each.
     """
 
     failing: int | None = None
     timeouts: int | None = None
     still: int | None = None
+    lost: int | None = None
 
     def reached(self, numbers: Tally | Counts) -> bool:
         """Whether these numbers end the campaign."""
         fails = self.failing is not None and numbers.failing >= self.failing
         slow = self.timeouts is not None and numbers.timeouts >= self.timeouts
         hangs = numbers.worlds == numbers.timeouts and not numbers.undecided
-        return fails or slow or (self.still is not None and hangs and numbers.worlds >= self.still)
+        costly = self.lost is not None and numbers.lost >= self.lost
+        return (
+            fails
+            or slow
+            or costly
+            or (self.still is not None and hangs and numbers.worlds >= self.still)
+        )
 
 
 class Campaign(msgspec.Struct, frozen=True, kw_only=True):

@@ -14,9 +14,9 @@ campaign ends.
 
 The engine calls a **native mapper** (`--library`) in place of an algorithm; for the checkers it
 runs in its own process. A slice with an undecided world is bisected and run again down to that
-world, which runs behind the pipe; the counts of both passes must be equal. If two runs disagree, the
-mapper may behave differently each time: all worlds of the slice are undecided, except the one where
-they disagree if a claim fails there by the checkers.
+world, which runs behind the pipe; the counts of both passes must be equal. If two runs disagree,
+the mapper may behave differently each time: all worlds of the slice are undecided, except the one
+where they disagree if a claim fails there by the checkers.
 
 What this does not show: the engine alone judged the other worlds. If it is wrong in a share p of
 all worlds, n steps show it with a probability of at least 1 - (1 - p)^n.

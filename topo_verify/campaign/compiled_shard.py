@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from topo_verify.campaign.compiled_checks import ALL_CLAIMS, STATUSES
 from topo_verify.campaign.tally import Costs, Pairs, Tally
+from topo_verify.campaign.worker import native_code_runs
 from topo_verify.checkers import CLAIMS, Status, check
 from topo_verify.compiled import require, tally
 from topo_verify.compiled import workspace as ws
@@ -183,6 +184,8 @@ class CompiledRange:
     def _walk(self) -> int:
         """Examine worlds until the walk pauses or ends; return which."""
         walk, rows = compiled(tally.examine_worlds, self.layout), len(self.names)
+        if self.calls is not None:
+            native_code_runs()
         while True:
             state: int = walk(self.space, self.worlds, self.judge, self.control, self.table, rows)
             if self.calls is not None:

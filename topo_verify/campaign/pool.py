@@ -25,7 +25,14 @@ from typing import Generic, Self
 import msgspec
 
 from topo_verify.campaign.work import BY_SIGNAL, Loss, Piece, Pieces, ResultT, TaskT, Work
-from topo_verify.campaign.worker import Beat, TaskDone, WorkerFailed, WorkerProcess, WorkerReady
+from topo_verify.campaign.worker import (
+    Beat,
+    TaskDone,
+    WorkerDamaged,
+    WorkerFailed,
+    WorkerProcess,
+    WorkerReady,
+)
 from topo_verify.errors import InputError, InternalError
 
 TURN = 0.2
@@ -139,13 +146,20 @@ class Pool(Generic[TaskT, ResultT]):
                 case TaskDone(result):
                     piece = self._at.pop(worker)
                     self._pieces.finish(piece, msgspec.json.decode(result, type=self._work.result))
+                case WorkerDamaged(text):
+                    self._lose(worker, None, text)
+                    return
                 case WorkerFailed(text, bug):
                     raise InternalError(f"in a worker: {text}") if bug else InputError(text)
 
-    def _lose(self, worker: WorkerProcess, silence: float | None) -> None:
-        """The worker died or hung: retry its piece, then cut it, then give it up."""
+    def _lose(self, worker: WorkerProcess, silence: float | None, said: str = "") -> None:
+        """The worker died or hung: retry its piece, then cut it, then give it up.
+
+        `said`: the exception of a worker that native code may have damaged.
+        """
         self._workers.remove(worker)
         status = worker.kill()
+        status = said or status
         piece = self._at.pop(worker, None)
         if piece is None:  # it was idle, so no task is to blame
             return

@@ -69,12 +69,13 @@ class Division(Generic[TaskT, ResultT]):
     Attributes:
         cut: the pieces, given the number of items finished before the loss; fewer than two: none.
         join: one result from those of the pieces, in order.
-        last: whether the pieces behind one with this result are dropped.
+        last: whether the pieces behind those with these results are dropped, given the number of
+            workers that were lost with the task, without the last two of each given-up piece.
     """
 
     cut: Callable[[TaskT, int], Sequence[TaskT]]
     join: Callable[[list[ResultT]], ResultT]
-    last: Callable[[ResultT], bool]
+    last: Callable[[list[ResultT], int], bool]
 
 
 @dataclass(frozen=True)
@@ -180,10 +181,12 @@ class Pieces(Generic[TaskT, ResultT]):
         whole, division = piece.whole, self._work.division
         if division is not None:
             unfinished = [other for other in whole.pieces if not other.results]
-            if unfinished and not division.last(result):
+            results = [*chain(*(other.results for other in whole.pieces))]
+            losses = len(whole.losses) - 2 * len(whole.given_up)
+            if unfinished and not division.last(results, losses):
                 self.queue.append(unfinished[0])
                 return
-            result = division.join([*chain(*(other.results for other in whole.pieces))])
+            result = division.join(results)
         if whole.losses:
             result = self._work.survived(result, whole.losses, whole.given_up)
         self.finished.append((whole.task, result))

@@ -1,7 +1,8 @@
 """One worker of a `Pool`: the process, which does tasks, and its parent's handle on it.
 
     in          the key and the job, then the tasks: a JSON value a line
-    out         a sealed message a line: WorkerReady, TaskDone …, perhaps WorkerFailed
+    out         a sealed message a line: WorkerReady, TaskDone …, perhaps WorkerFailed or
+                WorkerDamaged
     heartbeat   words in a file: finished items of the task, a number that grows, milliseconds
                 until the next heartbeat is due (0: as usual); moves and name of the item at work
 
@@ -97,7 +98,13 @@ class WorkerFailed(msgspec.Struct, frozen=True, tag=True):
     bug: bool
 
 
-WorkerMessage = WorkerReady | TaskDone | WorkerFailed
+class WorkerDamaged(msgspec.Struct, frozen=True, tag=True):
+    """An exception after native code had run: that may have damaged this process."""
+
+    text: str
+
+
+WorkerMessage = WorkerReady | TaskDone | WorkerFailed | WorkerDamaged
 
 
 NAMED = 200
@@ -306,7 +313,24 @@ def _work(
         beat(0)
         while (task := lines.get()) is not None:
             beat(0)
-            send(TaskDone(msgspec.Raw(msgspec.json.encode(handle(task, beat)))))
+            try:
+                send(TaskDone(msgspec.Raw(msgspec.json.encode(handle(task, beat)))))
+            except ConnectionError:
+                raise
+            except Exception as error:
+                if not _native_code:
+                    raise
+                with suppress(Exception):
+                    send(WorkerDamaged(f"{type(error).__name__}: {error}"))
+                os._exit(1)  # no code of ours is safe here, not even that which ends a process
+
+
+_native_code: list[bool] = []
+
+
+def native_code_runs() -> None:
+    """Say that native code begins to run in this process; an exception from now on may be its."""
+    _native_code[:] = [True]
 
 
 def _send(out: BinaryIO, seal: Seal, process: int, message: WorkerMessage) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 import click
 
 from topo_verify.campaign.backend import clustered, here, pooled
-from topo_verify.campaign.campaign import Backend, Campaign
+from topo_verify.campaign.campaign import MAX_LOST, Backend, Campaign
 from topo_verify.campaign.cluster import Cluster, both_given, connected
 from topo_verify.campaign.run import Engine, is_native
 from topo_verify.campaign.store import Store, StoredCampaign
@@ -335,6 +335,8 @@ def shown(entry: study.SearchEntry, *, worst: bool = False) -> Iterator[Block]:
         rest = (f"and {more} more: --format json has them",) if more > 0 else ()
         named = tuple(f"{lost.world}: {lost.how}" for lost in entry.lost[:SHOWN])
         yield Bullets((*named, *rest))
+        if entry.target.startswith(LIBRARY) and len(entry.lost) >= MAX_LOST:
+            yield Text(f"After {MAX_LOST} such worlds the library is given up.")
     if entry.run_again is not None:
         yield from _run_again(entry.run_again)
     if entry.engine != "reference":

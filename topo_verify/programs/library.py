@@ -9,6 +9,7 @@ What this does not show: that the function keeps to its own memory.
 from __future__ import annotations
 
 import ctypes
+import mmap
 import os
 import resource
 from collections.abc import Callable
@@ -34,6 +35,9 @@ MOST_DARTS = 1 << 20
 """Most vertices, and darts, of a delivered map."""
 
 REFUSED = -1
+
+_READ_ONLY = 1
+"""PROT_READ."""
 
 CONTRADICTIONS = (
     None,
@@ -151,19 +155,28 @@ class NativeMapper:
 
     def __init__(self, function: Any) -> None:
         self._function = function
-        self._flush = ctypes.CDLL(None).fflush
+        system: Any = ctypes.CDLL(None)
+        self._flush = system.fflush
         self._callbacks = {
             name: kind(self._guarded(getattr(self, f"_{name}")))
             for name, kind in _CALLBACKS.items()
         }
+        # Read-only, as in the compiled engine: a mapper that writes there is ended.
+        self._page = mmap.mmap(-1, mmap.PAGESIZE, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+        self._native = _NativeRobot.from_buffer(self._page)
+        self._native.version = VERSION
+        for name, callback in self._callbacks.items():
+            setattr(self._native, name, callback)
+        address = ctypes.c_void_p(ctypes.addressof(self._native))
+        locked = system.mprotect(address, ctypes.c_size_t(mmap.PAGESIZE), _READ_ONLY)
+        assert locked == 0, "a whole page of our own"
 
     def __call__(self, robot: Robot) -> object:
         """Run the function; return the map that it delivered."""
         self._robot = robot
         self._stopped: BaseException | None = None
         self._map: dict[str, object] | None = None
-        native_robot = _NativeRobot(VERSION, None, *self._callbacks.values())
-        self._function(ctypes.byref(native_robot))
+        self._function(ctypes.byref(self._native))
         self._flush(None)
         if self._stopped is not None:
             raise self._stopped

@@ -228,7 +228,10 @@ def search_campaign(  # noqa: PLR0913  an argument an option
         limits=limits,
         in_process=in_process,
         engine=engine,
-        stop=c.Stop(failing=None if keep_going else 1),
+        stop=c.Stop(
+            failing=None if keep_going else 1,
+            lost=c.MAX_LOST if any(map(is_native, mappers)) else None,
+        ),
         keep="notable",
         ways=WAYS[choices],
         seed=seed,
