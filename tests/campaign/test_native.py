@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import shlex
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import msgspec
@@ -10,9 +13,10 @@ import pytest
 
 from tests.programs.natives import HOSTILE_NUMBA, ROOT, built, hostile, misdeeds
 from topo_verify.campaign.backend import CampaignJob, pooled, remade
-from topo_verify.campaign.campaign import Shard
+from topo_verify.campaign.campaign import MAX_LOST, Shard
 from topo_verify.campaign.identity import source_hash
 from topo_verify.campaign.pool import Pool
+from topo_verify.campaign.run import Engine
 from topo_verify.campaign.targets import one_target
 from topo_verify.campaign.worker import no_beat
 from topo_verify.compiled import available
@@ -112,6 +116,22 @@ def test_a_misdeed_of_a_numba_function_convicts_it_in_its_world(deed: str) -> No
     assert MISDEEDS[deed] in entry.counterexample.message
 
 
+def test_a_numba_function_that_starts_threads_comes_to_a_verdict(tmp_path: Path) -> None:
+    mapper = tmp_path / "parallel.py"
+    mapper.write_text(
+        "import sys, numba, numpy as np\n"
+        f"sys.path.insert(0, {str(ROOT / 'examples' / 'native_numba')!r})\n"
+        "import mapper\n"
+        "@numba.njit(parallel=True)\n"
+        "def explore(robot):\n"
+        "    row = np.zeros(100)\n"
+        "    for i in numba.prange(100):\n"
+        "        row[i] = i\n"
+        "    mapper.explore(robot)\n"
+    )
+    assert search(f"{mapper}:explore", edges=3).verdict == "EXHAUSTED"
+
+
 def test_a_numba_function_comes_to_what_basic_comes_to() -> None:
     ours = search(f"{ROOT}/examples/native_numba/mapper.py:explore", edges=4)
     theirs = search("basic", edges=4, engine="compiled")
@@ -148,6 +168,45 @@ def test_a_second_pass_over_a_slice_replaces_no_run(
     monkeypatch.setenv("MISDEEDS", plan)
     entry = search(misdeeds(tmp_path), edges=3, keep_going=keep_going)
     assert entry.verdict in ("UNKNOWN", "REFUTED")
+
+
+@pytest.mark.parametrize("deed", ["files", "memory"])
+def test_what_native_code_takes_from_its_worker_is_no_bug_of_ours(
+    deed: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MISDEEDS", f"at 9 {deed}")
+    entry = search(misdeeds(tmp_path), edges=2)
+    assert (entry.verdict, entry.counterexample) == ("UNKNOWN", None)
+    assert entry.lost
+
+
+def test_a_library_that_costs_its_worker_in_each_world_is_given_up(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MISDEEDS", "from 1 engine")
+    entry = search(misdeeds(tmp_path), edges=2)
+    assert (entry.verdict, entry.checked) == ("UNKNOWN", 0)
+    assert MAX_LOST <= len(entry.lost) < entry.total
+
+
+@pytest.mark.parametrize("engine", ["compiled", "reference"])
+def test_the_robot_is_read_only_in_either_engine(
+    engine: Engine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MISDEEDS", "at 1 robot")
+    entry = search(misdeeds(tmp_path), edges=1, engine=engine)
+    assert entry.counterexample is not None
+    assert (entry.verdict, entry.counterexample.world) == ("REFUTED", "m1/0")
+
+
+def test_a_signal_to_the_parent_of_a_worker_is_an_interruption(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In a process of its own: afterwards no worker can be started."""
+    monkeypatch.setenv("MISDEEDS", "at 9 parent")
+    words = ["-m", "topo_verify", "search", *shlex.split(misdeeds(tmp_path)), "--edges", "2"]
+    done = subprocess.run([sys.executable, *words], capture_output=True, check=False)
+    assert done.returncode == 3
 
 
 def test_a_library_that_declines_the_same_worlds_each_time_does_the_same(tmp_path: Path) -> None:

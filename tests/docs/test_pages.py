@@ -103,7 +103,7 @@ def printed(line: str) -> str:
 
 def steady(text: str) -> str:
     """A text without what differs here: seconds, the solver's version, worlds run again."""
-    text = re.sub(r"Run again: \d+ worlds? alone, \d+ in a row", "Run again: N", text)
+    text = re.sub(r"Run again: \d+ worlds? alone, \d+ in a row: \d+ same", "Run again: N", text)
     return re.sub(r"z3 [\d.…]+", "z3 VERSION", re.sub(r"\d+\.\d\d s\b", "0.00 s", text))
 
 

@@ -302,7 +302,7 @@ def serve(job: bytes) -> Generator[Handler]:
         yield handle
     finally:
         c.close(mappers)
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)  # nothing is left to close
+        interruption.end_at_once()  # nothing is left to close
 
 
 # ---------------------------------------------------------------- pieces of shards

@@ -34,6 +34,7 @@ from topo_verify.campaign.worker import (
     WorkerReady,
 )
 from topo_verify.errors import InputError, InternalError
+from topo_verify.programs.launcher import require_launcher
 
 TURN = 0.2
 """Seconds between two looks at the heartbeats."""
@@ -53,6 +54,7 @@ class Pool(Generic[TaskT, ResultT]):
     Raises (by `run`):
         InputError: a worker refuses its input, or another process speaks for it.
         InternalError: there is a bug of ours in a worker.
+        HelperLost: a signal ended the process that starts workers.
     """
 
     def __init__(
@@ -159,6 +161,7 @@ class Pool(Generic[TaskT, ResultT]):
         """
         self._workers.remove(worker)
         status = worker.kill()
+        require_launcher()
         status = said or status
         piece = self._at.pop(worker, None)
         if piece is None:  # it was idle, so no task is to blame

@@ -20,7 +20,7 @@ from topo_verify.campaign.work import processors
 from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import unjudged
-from topo_verify.errors import InputError, WriteError, plural
+from topo_verify.errors import HelperLost, InputError, WriteError, plural
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loaded import watch
 from topo_verify.programs.loader import Target
@@ -193,7 +193,7 @@ def _searched(
     try:
         one_search.work(output.progress)
         one_search.run_again(output.progress)
-    except (KeyboardInterrupt, WriteError):
+    except (HelperLost, KeyboardInterrupt, WriteError):
         # Before raising: `Output` prints it, then exits 3, or 2 if the ledger is full.
         yield result()
         raise
@@ -349,8 +349,8 @@ def shown(entry: study.SearchEntry, *, worst: bool = False) -> Iterator[Block]:
 def _run_again(again: RunAgain) -> Iterator[Block]:
     end = "" if again.whole else "; then it was interrupted, and worlds are missing"
     yield Text(
-        f"Run again: {plural(again.worlds, 'world')} alone, {again.row} in a row; of these worlds"
-        f" {again.same} the same, {again.other} other, {again.undecided} not decided{end}."
+        f"Run again: {plural(again.worlds, 'world')} alone, {again.row} in a row:"
+        f" {again.same} same, {again.other} other, {again.undecided} undecided{end}."
     )
     if again.others:
         yield Text(
@@ -361,7 +361,7 @@ def _run_again(again: RunAgain) -> Iterator[Block]:
         )
     if again.undecided_worlds:
         yield Text(
-            f"Run again, it is not decided in {_some(again.undecided_worlds, again.undecided)}:"
+            f"Run again, it is undecided in {_some(again.undecided_worlds, again.undecided)}:"
             " SIGKILL or a time limit ended it there, or it declined. Perhaps the machine is busy"
             " or short of memory, or the mapper keeps memory from world to world."
         )

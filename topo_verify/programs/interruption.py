@@ -44,6 +44,11 @@ def end_at_sigterm() -> None:
     sys.unraisablehook = _lost
 
 
+def end_at_once() -> None:
+    """Let SIGTERM end this worker as it ends any process."""
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
 def _leave(_number: int, _frame: FrameType | None) -> None:
     _State.noted = True
     raise SystemExit

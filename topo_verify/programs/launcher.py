@@ -178,18 +178,22 @@ _forked: list[bool] = []
 def _launcher() -> _Launcher:
     with _starting:
         if _launchers and _launchers[-1].owner == os.getpid():
-            last = _launchers[-1]
-            if not last.lost:
-                return last
-            if last.foreign:
-                raise HelperLost(
-                    "the process that starts workers was killed, and none can be started beside"
-                    " a mapper: start the command again"
-                )
+            require_launcher()
+            if not _launchers[-1].lost:
+                return _launchers[-1]
         launcher = _Launcher()
         _launchers.append(launcher)
         atexit.register(launcher.close)
         return launcher
+
+
+def require_launcher() -> None:
+    """Raise HelperLost if the launcher was killed after a program was started."""
+    if _launchers and _launchers[-1].foreign and _launchers[-1].lost:
+        raise HelperLost(
+            "a signal ended the process that starts workers, and none can be started beside a"
+            " mapper: start the command again"
+        )
 
 
 # ---------------------------------------------------------------- in the launcher
