@@ -2,8 +2,8 @@
 
 A process may be killed through the mapper's fault or by the out-of-memory killer (SIGKILL), and a
 mapper may stand still, or its machine, so the world is tried again. If the mapper fails again, the
-first run counts. If it passes, a crash is still a finding; SIGKILL, and a move that took too long,
-leave the world undecided.
+first run counts. Else a crash is still a finding; SIGKILL, and a move that took too long, leave the
+world undecided, as they do if the second run is undecided.
 """
 
 from __future__ import annotations
@@ -107,7 +107,8 @@ def attempt(  # noqa: PLR0913  an argument an option
     if signal is None and not stood_still:
         return first
     second = once()
-    if not second.report.ok:
+    machine = stood_still or signal == "SIGKILL"
+    if not (second.report.ok or (machine and undecided(second.run, second.report))):
         return first
     if stood_still:
         return replace(second, lost=first.run.stopped)

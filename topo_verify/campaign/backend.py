@@ -252,7 +252,7 @@ def _with_our_memory(
     """The result of a worker; if a mapper lacked memory there, the result of a process of ours.
 
     A worker may have less memory. So a MemoryError refutes only if the mapper fails here, too;
-    otherwise the world is undecided.
+    otherwise the world is undecided. What else failed there stays a finding.
     """
     short = [
         row for row in result.rows if any(_MEMORY_ERROR.search(f.message) for f in row.findings)
@@ -262,12 +262,13 @@ def _with_our_memory(
     with Pool(work, 1) as pool:
         ((_, again),) = pool.run([shard])
     still = {(row.place, row.mapper) for row in again.rows if row.findings or row.undecided}
-    for row in short:
-        if (row.place, row.mapper) not in still:
-            lost = msgspec.structs.replace(
-                row, findings=(), undecided=SHORT_OF_MEMORY, lost=SHORT_OF_MEMORY
-            )
-            again = c.with_loss(again, lost)
+    for row in result.rows:
+        if (row.place, row.mapper) in still or not row.failed:
+            continue
+        why = SHORT_OF_MEMORY if row in short else None
+        findings = () if why else row.findings
+        lost = msgspec.structs.replace(row, findings=findings, undecided=why, lost=why)
+        again = c.with_loss(again, lost)
     return again
 
 

@@ -163,6 +163,15 @@ def test_a_mapper_that_stands_still_once_leaves_its_world_undecided() -> None:
     assert lost.how.startswith("the mapper did not move for 0.5 s; it was at ")
 
 
+@pytest.mark.usefixtures("folder")
+@pytest.mark.parametrize(("first", "second"), [("kill", "skip"), ("hang", "skip")])
+def test_a_mapper_that_was_ended_and_then_declines_is_undecided(first: str, second: str) -> None:
+    """Killed or still in the fifth world of a process, it declines the first one of a fresh one."""
+    target = f"misdeeds.py:at_5_{first}_at_1_{second}"
+    study = searched(target, edges=2, in_process=False, limits=Limits(move_timeout=0.4))
+    assert (study.entry().verdict, study.tally.failing) == ("UNKNOWN", 0)
+
+
 def test_an_interrupted_search_says_how_far_it_came_and_keeps_the_result() -> None:
     runs = 0
 
@@ -297,6 +306,14 @@ def test_a_mapper_that_lacks_memory_in_a_worker_once_is_undecided() -> None:
     found = search("mappers.py:lacks_memory_once", edges=3, keep_going=True, workers=1)
     assert (found.verdict, found.checked, found.counterexample) == ("UNKNOWN", 85, None)
     assert [(one.world, one.how) for one in found.lost] == [("m3/21", SHORT_OF_MEMORY)]
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_wrong_map_counts_though_a_worker_lacked_memory_behind_it() -> None:
+    study = searched("mappers.py:errs_then_lacks_memory", edges=3, keep_going=True, workers=1)
+    entry = study.entry()
+    assert (entry.verdict, [size.failing for size in entry.by_edges]) == ("REFUTED", [0, 0, 1])
+    assert [one.how for one in entry.lost] == [SHORT_OF_MEMORY]
 
 
 @pytest.mark.usefixtures("folder")

@@ -392,7 +392,7 @@ class Search:
 
     @property
     def failing(self) -> list[Row]:
-        """The failing rows in order; rows of runs again replace the first ones."""
+        """The failing rows in order; a world that is not the same stands there as that."""
         rows = {(row.edges, row.place, row.turn): row for row in self.rows if row.failed}
         for row in () if self.again is None else self.again.rows:
             rows[row.edges, row.place, row.turn] = row
