@@ -99,7 +99,7 @@ if __name__ == "__main__":
         if start["type"] == "stop":
             break
         try:
-            survey = mapper(Piped(start["percept"]))  # type: ignore[arg-type]
+            survey = mapper(Piped(start["percept"]))
         except (Skipped, Declined) as why:
             tell({"type": "skip" if isinstance(why, Skipped) else "error", "why": str(why)})
             continue

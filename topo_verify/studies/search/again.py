@@ -152,13 +152,15 @@ class Repetition:
         for world, outcome in self._outcomes.items():
             worlds[outcome].append(world)
         return RunAgain(
-            len(self._alone),
-            self._in_row,
-            *map(len, worlds.values()),
-            tuple(failures),
-            tuple(world for world in worlds["other"] if world not in self._failures),
-            tuple(worlds["undecided"]),
-            self._is_whole,
+            worlds=len(self._alone),
+            row=self._in_row,
+            same=len(worlds["same"]),
+            other=len(worlds["other"]),
+            undecided=len(worlds["undecided"]),
+            failures=tuple(failures),
+            others=tuple(world for world in worlds["other"] if world not in self._failures),
+            undecided_worlds=tuple(worlds["undecided"]),
+            whole=self._is_whole,
         )
 
     def run(self, tell: Progress | None = None) -> None:
@@ -204,7 +206,9 @@ class Repetition:
                 self._failures[now.world] = _failure_in_row(campaign, before, now)
                 return
             row = known.get(now.world)
-            digest = self._tally.first_runs.get(now.world, row and row.digest)
+            digest = self._tally.first_runs.get(now.world)
+            if digest is None and row is not None:
+                digest = row.digest
             if digest is None and now.undecided and not self._tally.undecided:
                 self._note(now.world, "undecided" if _by_machine(now) else "other")
             else:
