@@ -62,7 +62,7 @@ def _with_another_end(trace: tuple[Event, ...]) -> tuple[Event, ...]:
     return (*trace[:-1], msgspec.structs.replace(finish, cost=1.0))
 
 
-class NamedMove(Move, frozen=True, tag="move"):
+class NamedMove(Move, frozen=True, tag="move"):  # type: ignore[misc]  # pyright: ignore[reportGeneralTypeIssues]  what Python lets pass
     """A move of another type, written in the same way."""
 
 

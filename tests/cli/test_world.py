@@ -22,6 +22,17 @@ from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.pruned import ranked_tables
 
 
+def test_what_a_reader_remarks_is_a_note_that_is_printed_once(call: Call) -> None:
+    Path("two.net.xml").write_text(
+        '<net><junction id="a" x="0" y="0"/><junction id="b" x="9" y="0"/>'
+        '<edge id="there" from="a" to="b"/><edge id="back" from="b" to="a"/></net>'
+    )
+    for line in ("world show two.net.xml two.net.xml", "world convert two.net.xml"):
+        (note,) = call(line).stderr.splitlines()
+        assert note.startswith("topo-verify: two.net.xml: merged 1 ")
+        assert call(f"{line} --quiet").stderr == ""
+
+
 def test_show_has_the_promised_fields(results: Results) -> None:
     envelope = results("world show m3/14")
     assert envelope["format"] == "topo-verify/world-show"

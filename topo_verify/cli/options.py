@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import sys
 from collections.abc import Callable, Generator, Iterator, Sequence
@@ -90,7 +91,7 @@ def command(
             **kwargs: Any,
         ) -> int:
             output = Output(style, quiet=quiet)
-            with redirect_stdout(sys.stderr):  # what a mapper prints
+            with redirect_stdout(sys.stderr), _remarks(output):  # what a mapper prints
                 output.ask(report=report, junit=junit, badge=badge)
                 return run(output, **kwargs)
 
@@ -99,6 +100,28 @@ def command(
         return command
 
     return decorate
+
+
+@contextmanager
+def _remarks(output: Output) -> Generator[None]:
+    """Print what readers of files log as notes, each sentence once."""
+    said: set[str] = set()
+
+    class Notes(logging.Handler):
+        def emit(self, record: logging.LogRecord) -> None:
+            sentence = record.getMessage()
+            if sentence not in said:  # a file may be read twice
+                said.add(sentence)
+                output.note(sentence)
+
+    logger, notes = logging.getLogger("topo_verify"), Notes()
+    logger.addHandler(notes)
+    logger.setLevel(logging.INFO)
+    try:
+        yield
+    finally:
+        logger.setLevel(logging.NOTSET)
+        logger.removeHandler(notes)
 
 
 OUTPUT_OPTIONS: list[click.Parameter] = [

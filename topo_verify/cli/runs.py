@@ -71,12 +71,13 @@ def named_world(
     text: str,
     marker: int | None = None,
     stdin: bytes | None = None,
-    largest_part: Callable[[str], None] | None = None,
+    *,
+    largest_part: bool = False,
 ) -> NamedWorld:
     """The world that the user names; `stdin` is standard input, if already read.
 
     Args:
-        largest_part: keep only the largest part of a drawing, and tell this function the rest.
+        largest_part: keep only the largest part of a drawing, and remark what is left out.
     """
     stream = None if stdin is None else BytesIO(stdin)
     world = resolve_world(text, stdin=stream, largest_part=largest_part)
@@ -94,7 +95,8 @@ def named_world(
 def named_worlds(
     texts: Sequence[str],
     marker: int | None = None,
-    largest_part: Callable[[str], None] | None = None,
+    *,
+    largest_part: bool = False,
 ) -> list[NamedWorld]:
     """The worlds that the user names, all read before any is used."""
     if texts.count("-") > 1:

@@ -131,7 +131,7 @@ def show(
         )
 
     def shown() -> Iterator[Result[ShowEntry]]:
-        for at in named_worlds(worlds, marker, output.note if largest_part else None):
+        for at in named_worlds(worlds, marker, largest_part=largest_part):
             yield Result(_shown(at, None if model is None else twin_entry(at.world, model, file)))
 
     return output.run("world-show", shown, _show)
@@ -239,7 +239,7 @@ def convert(
 
     def converted() -> Iterator[Result[ConvertEntry]]:
         kind = to or ("json" if file == "-" else written_format(file))
-        at = named_world(world, marker, largest_part=output.note if largest_part else None)
+        at = named_world(world, marker, largest_part=largest_part)
         content = None if file != "-" else encoded(at.world, kind)
         if content is None:
             save(at.world, file, kind)

@@ -20,14 +20,11 @@ import os
 from html import escape
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
-
-if TYPE_CHECKING:
-    from topo_verify.world.formats.embedding import Note
 
 W = TypeVar("W", bound=World)
 
@@ -76,12 +73,12 @@ def load(
     path: str | PathLike[str],
     *,
     graph: int | None = None,
-    largest_part: Note | None = None,
+    largest_part: bool = False,
 ) -> W:
     """The world in the file; `World.load` documents the arguments.
 
     Args:
-        largest_part: keep only the largest part of a drawing, and tell this function the rest.
+        largest_part: keep only the largest part of a drawing, and remark what is left out.
     """
     from topo_verify.world.formats import other
 
@@ -101,7 +98,7 @@ def decoded(
     name: str,
     stem: str = "",
     graph: int | None = None,
-    largest_part: Note | None = None,
+    largest_part: bool = False,
 ) -> W:
     """The world in the bytes, which are of this kind, or planar_code with its head."""
     from topo_verify.world.formats import graphml, node_link, planar_code, sumo, world_json

@@ -13,16 +13,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, TypeVar, cast
+from typing import IO, TypeVar, cast
 
 from topo_verify.errors import InputError, close_name, shown
 from topo_verify.world import io
 from topo_verify.world.families import FAMILIES
 from topo_verify.world.formats import files, world_json
 from topo_verify.world.rooted_map import World
-
-if TYPE_CHECKING:
-    from topo_verify.world.formats.embedding import Note
 
 T = TypeVar("T")
 
@@ -134,7 +131,7 @@ _FAMILY = CallSyntax("family of worlds", "family:", "family:lattice(3,4,seed=7)"
 
 
 def resolve_world(
-    text: str, *, stdin: IO[bytes] | None = None, largest_part: Note | None = None
+    text: str, *, stdin: IO[bytes] | None = None, largest_part: bool = False
 ) -> World:
     """The world that the text names; `-` reads `stdin`.
 

@@ -136,14 +136,16 @@ def test_other_exceptions_pass_through_the_flaws() -> None:
 PARTS: Nodes = [("p", 50, 0), ("q", 60, 0), *SQUARE, ("alone", 5, 5)]
 
 
-def test_the_largest_part_is_kept_and_the_rest_is_told(drawn: Drawn) -> None:
+def test_the_largest_part_is_kept_and_the_rest_is_told(
+    drawn: Drawn, caplog: pytest.LogCaptureFixture
+) -> None:
     file = drawn(PARTS, [("p", "q"), *AROUND])
     refusal_of(file)
-    told: list[str] = []
-    world = io.load(World, file, largest_part=told.append)
+    caplog.set_level("INFO")
+    world = io.load(World, file, largest_part=True)
     assert world == World.load(drawn(SQUARE, AROUND))
     assert world.vertex_names == ("a", "b", "c", "d")
-    (sentence,) = told
+    (sentence,) = caplog.messages
     assert "4 of 7 vertices and 4 of 5 edges" in sentence
     assert all(f"'{name}'" in sentence for name in ("p", "q", "alone"))
     assert "2 parts" in sentence
@@ -151,23 +153,21 @@ def test_the_largest_part_is_kept_and_the_rest_is_told(drawn: Drawn) -> None:
 
 def test_of_equal_parts_the_first_is_kept(drawn: Drawn) -> None:
     file = drawn([("a", 0, 0), ("b", 1, 0), ("c", 0, 9), ("d", 1, 9)], [("c", "d"), ("a", "b")])
-    told: list[str] = []
-    assert io.load(World, file, largest_part=told.append).vertex_names == ("a", "b")
+    assert io.load(World, file, largest_part=True).vertex_names == ("a", "b")
 
 
 def test_a_flaw_in_a_part_that_is_left_out_is_none(drawn: Drawn) -> None:
     nodes = [*SQUARE, ("p", 50, 0), ("q", 60, 0), ("r", 70, 0)]
     file = drawn(nodes, [*AROUND, ("p", "q"), ("p", "r")])
     assert "'p'" in refusal_of(file)
-    told: list[str] = []
-    assert len(io.load(World, file, largest_part=told.append).vertices) == 4
+    assert len(io.load(World, file, largest_part=True).vertices) == 4
 
 
-def test_a_drawing_of_one_part_is_whole(drawn: Drawn) -> None:
-    told: list[str] = []
+def test_a_drawing_of_one_part_is_whole(drawn: Drawn, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level("INFO")
     file = drawn(SQUARE, AROUND)
-    assert io.load(World, file, largest_part=told.append) == World.load(file)
-    assert not told
+    assert io.load(World, file, largest_part=True) == World.load(file)
+    assert not caplog.messages
 
 
 def test_a_drawing_in_several_parts_with_edges_is_refused(drawn: Drawn) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -70,6 +72,56 @@ def test_opposite_edges_with_courses_and_ids_of_their_own_are_two_streets() -> N
     world = sumo.decode(World, apart)
     assert world.degrees == (1, 4, 3, 2)
     assert not world.is_simple
+
+
+@pytest.mark.parametrize(
+    ("there", "back", "merged"),
+    [
+        ("0,3.3 100,3.3", "", 1),  # side by side
+        ("0,3.3 100,3.3", "100,-3.3 50,-3.3 0,-3.3", 1),
+        ("0,0 50,20.01 100,0", "100,0 50,20.02 0,0", 1),  # rounding
+        ("0.01,0 50,20.01 100,0", "100,-0.01 50.01,20.01 0,0", 1),
+        ("0,0 50,20 100,0", "100,0 50,20.5 0,0", 0),
+        ("0,0 5,4 100,0", "100,0 5,5 0,0", 1),
+        ("0,0 50,20 100,0", "100,0 40,30 50,50 0,0", 0),
+        ("0,0 50,20 100,0", "", 0),
+    ],
+)
+def test_both_directions_are_one_edge_if_their_courses_differ_by_rounding_or_are_straight(
+    there: str, back: str, merged: int, caplog: pytest.LogCaptureFixture
+) -> None:
+    edges = "".join(
+        f'<edge id="{ends}" from="{ends[0]}" to="{ends[1]}" shape="{shape}"/>'
+        for ends, shape in (("ab", there), ("ba", back))
+    ).replace('shape=""', "")
+    places = '<junction id="a" x="0" y="0"/><junction id="b" x="100" y="0"/>'
+    with caplog.at_level("INFO"):
+        world = sumo.decode(World, f"<net>{places}{edges}</net>".encode())
+    assert len(world.edges) == 2 - merged
+    (remark,) = caplog.messages
+    assert re.findall("[0-9]+", remark) == (["1"] if merged else ["0", "1"])
+
+
+@pytest.mark.parametrize(
+    ("lanes", "attributes", "differ"),
+    [
+        (b"WC_0 -7#1_0 -7#1_1 EC_0 :C_w0_0", b"", 0),
+        (b"WC_0 WC_1 EC_0 -7#1_0", b"", 1),
+        (b"WC_0 EC_0 -7#1_0", b' lefthand="true"', 0),
+        (b"WC_0 -7#1_0 EC_0", b' lefthand="true"', 1),
+        (b"EC_0 WC_0", b"", 0),
+        (b"EC_0 other_0 WC_0 -7#1_0", b"", 0),
+        (b"", b"", 0),
+    ],
+)
+def test_another_order_of_the_lanes_that_lead_to_a_junction_is_said(
+    lanes: bytes, attributes: bytes, differ: int, caplog: pytest.LogCaptureFixture
+) -> None:
+    data = NET.replace(b'y="100.00"><', b'y="100.00" incLanes="%s"><' % lanes)
+    data = data.replace(b"<net", b"<net" + attributes)
+    assert data.count(lanes)
+    assert sumo.decode(World, data) == sumo.decode(World, NET)
+    assert [len(re.findall("'C'", text)) for text in caplog.messages] == [1] * differ
 
 
 def test_an_id_with_a_minus_is_the_way_back_only_between_the_same_junctions() -> None:

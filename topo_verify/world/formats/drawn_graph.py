@@ -21,7 +21,7 @@ from typing import Any, NamedTuple, TypeVar, cast
 
 from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import embedding, geometry
-from topo_verify.world.formats.embedding import DrawnEdge, DrawnEnd, DrawnVertex, Note, Point
+from topo_verify.world.formats.embedding import DrawnEdge, DrawnEnd, DrawnVertex, Point
 from topo_verify.world.formats.flaws import Flaws
 from topo_verify.world.rooted_map import World
 
@@ -70,7 +70,7 @@ def as_world(
     *,
     name: str = "",
     marker: DrawnEnd | None = None,
-    largest_part: Note | None = None,
+    largest_part: bool = False,
 ) -> W:
     """The world of the drawing; `nodes` by their ids, the rest as for `embedding.as_world`."""
     number: dict[Any, int] = {}

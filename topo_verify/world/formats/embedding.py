@@ -1,15 +1,19 @@
 """Makes a world of a drawing: places (vertices with coordinates) and ways (edges with polylines).
 
 The rotation at a place is the clockwise order, from the north on, of the directions in which its
-ways leave. Directions are compared exactly, in fractions where floating point does not decide. A
-directed way whose course (polyline) is that of an earlier one backwards is merged with it.
+ways leave. Where they begin at its point, their first segments are compared exactly, in fractions
+where floating point does not decide; else junctions.py finds the order. A directed way with the
+course (polyline) of an earlier one backwards is merged with it.
 
 Source: docs/formats.md, "Drawings".
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import logging
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from decimal import Decimal
 from fractions import Fraction
 from functools import cmp_to_key
 from itertools import pairwise
@@ -17,15 +21,17 @@ from math import dist
 from typing import NamedTuple, TypeVar
 
 from topo_verify.errors import InputError, plural, shown
+from topo_verify.world.formats import junctions
 from topo_verify.world.formats.flaws import MOST, Flaws
+from topo_verify.world.formats.junctions import Leaving
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
 
-Point = tuple[float, float]
+REMARKS = logging.getLogger("topo_verify.world.formats")
+"""What a reader has to say of a file that it reads; commands print it as notes on stderr."""
 
-Note = Callable[[str], None]
-"""A function that is called with a sentence about what was read."""
+Point = junctions.Point
 
 MOST_EDGES = 500_000
 
@@ -37,6 +43,7 @@ class DrawnVertex(NamedTuple):
 
     name: str
     at: Point
+    incoming: Sequence[str] = ()  # clockwise: names of edges that lead here, where the file says it
 
 
 class DrawnEdge(NamedTuple):
@@ -47,6 +54,7 @@ class DrawnEdge(NamedTuple):
     course: Sequence[Point] = ()  # from start to end; empty: straight
     directed: bool = False
     name: str = ""  # for messages
+    street: str = ""  # the same for both directions, where the file says it
 
 
 class DrawnEnd(NamedTuple):
@@ -64,38 +72,39 @@ def as_world(
     *,
     name: str = "",
     marker: DrawnEnd | None = None,
-    largest_part: Note | None = None,
+    largest_part: bool = False,
 ) -> W:
     """The world of the drawing; by default the marker is the first dart of the first place.
 
     Args:
         flaws: what the reader found; refused together with what is found here.
-        largest_part: keep only the largest part, and tell this function what is left out.
+        largest_part: keep only the largest part, and remark what is left out.
     Raises:
         InputError: equal directions, a way of one point, a place without a way, several parts.
     """
     if not places and not flaws:
         raise InputError(f"{flaws.source} has no vertex: a world has one at least")
-    if largest_part is not None and not flaws:
-        places, ways = _largest_part(places, ways, flaws.source, largest_part)
+    if largest_part and not flaws:
+        places, ways = _largest_part(places, ways, flaws.source)
     drawn: list[DrawnEdge] = []
     courses: list[tuple[Point, ...]] = []
     for way in ways:
         with flaws:
             courses.append(_course(way, places))
             drawn.append(way)
+    _require_near(places, drawn, courses, flaws)
     kept, same = _merged(drawn, courses)
     rotations: list[list[DrawnEnd]] = []
-    for place, row in zip(places, _exits(places, drawn, courses, kept), strict=True):
+    for place, ends in zip(places, _exits(places, drawn, kept), strict=True):
         with flaws:
-            rotations.append(_clockwise(place, row, drawn))
+            rotations.append(_clockwise(place, ends, courses, drawn))
     _require_connected(places, ways, flaws)
     flaws.refuse()
     dart = {end: n for n, end in enumerate(end for row in rotations for end in row)}
     if marker and marker.way in same:
         marker = DrawnEnd(same[marker.way], 1 - marker.side)
     try:
-        return cls.from_rotations(
+        world = cls.from_rotations(
             [[dart[end] for end in row] for row in rotations],
             [(dart[DrawnEnd(way, 0)], dart[DrawnEnd(way, 1)]) for way in kept],
             dart[marker] if marker else 0 if dart else None,
@@ -105,6 +114,10 @@ def as_world(
         )
     except InputError as error:
         raise InputError(f"{flaws.source}: {error}") from error
+    # a file that is refused gets one sentence
+    _say_merged(drawn, kept, same, flaws.source)
+    _say_stated_orders(places, drawn, rotations, same, flaws.source)
+    return world
 
 
 def _course(way: DrawnEdge, places: Sequence[DrawnVertex]) -> tuple[Point, ...]:
@@ -122,22 +135,144 @@ def _course(way: DrawnEdge, places: Sequence[DrawnVertex]) -> tuple[Point, ...]:
     return course[::-1] if turned < as_is else course
 
 
+def _require_near(
+    places: Sequence[DrawnVertex],
+    ways: Sequence[DrawnEdge],
+    courses: Sequence[Sequence[Point]],
+    flaws: Flaws,
+) -> None:
+    """Add polylines that have nothing to do with their vertices to the flaws."""
+    allowed: list[float] = []
+    offsets: list[list[float]] = []
+    extents = [0.0] * len(places)
+    for way, course in zip(ways, courses, strict=True):
+        start, end = places[way.start].at, places[way.end].at
+        is_loop = way.start == way.end
+        length = sum(dist(a, b) for a, b in pairwise(course)) if is_loop else dist(start, end)
+        allowed.append(length / 2)
+        offsets.append([dist(course[0], start), dist(course[-1], end)])
+        for vertex, offset in zip((way.start, way.end), offsets[-1], strict=True):
+            if offset <= length / 2:
+                extents[vertex] = max(extents[vertex], offset)
+    for way, most, row in zip(ways, allowed, offsets, strict=True):
+        for vertex, offset in zip((way.start, way.end), row, strict=True):
+            if offset <= most + extents[vertex]:
+                continue
+            extent = f" and {extents[vertex]:.6g} for its extent" if extents[vertex] else ""
+            with flaws:
+                raise InputError(
+                    f"edge '{shown(way.name, limit=60)}' has an end {offset:.6g} away from its"
+                    f" vertex '{shown(places[vertex].name)}', expected {most:.6g} at most{extent}:"
+                    " give vertices and polylines in the same coordinates"
+                )
+
+
 def _merged(
     ways: Sequence[DrawnEdge], courses: Sequence[tuple[Point, ...]]
 ) -> tuple[list[int], dict[int, int]]:
     """The ways that stay, and by each other way the one that it repeats."""
     kept: list[int] = []
     same: dict[int, int] = {}
-    waiting: dict[tuple[int, int, tuple[Point, ...]], list[int]] = {}
+    waiting: dict[tuple[int, int], list[int]] = {}
     for number, (way, course) in enumerate(zip(ways, courses, strict=True)):
-        partners = waiting.get((way.end, way.start, course[::-1])) if way.directed else None
-        if partners:
-            same[number] = partners.pop(0)
+        opposite = waiting.get((way.end, way.start), []) if way.directed else []
+        partners = (
+            n
+            for is_one in (_one_street, _one_course, _both_straight)
+            for n in opposite
+            if is_one(ways[n], way, courses[n], course[::-1])
+        )
+        partner = next(partners, None)
+        if partner is not None:
+            same[number] = partner
+            opposite.remove(partner)
             continue
         kept.append(number)
         if way.directed:
-            waiting.setdefault((way.start, way.end, course), []).append(number)
+            waiting.setdefault((way.start, way.end), []).append(number)
     return kept, same
+
+
+_Course = tuple[Point, ...]
+
+
+def _one_street(first: DrawnEdge, second: DrawnEdge, _there: _Course, _back: _Course) -> bool:
+    return bool(first.street) and first.street == second.street
+
+
+def _one_course(_first: DrawnEdge, _second: DrawnEdge, there: _Course, back: _Course) -> bool:
+    if there == back or len(there) != len(back):
+        return there == back
+    rounding = _rounding(there, back)
+    return all(_distance(a, b) <= rounding for a, b in zip(there, back, strict=True))
+
+
+def _both_straight(first: DrawnEdge, _second: DrawnEdge, there: _Course, back: _Course) -> bool:
+    rounding = _rounding(there, back)
+    return first.start != first.end and all(_is_straight(c, rounding) for c in (there, back))
+
+
+def _is_straight(course: _Course, rounding: float) -> bool:
+    (a, b), (c, d) = course[0], course[-1]
+    length = dist(course[0], course[-1])
+    return all(
+        abs((x - a) * (d - b) - (y - b) * (c - a)) <= rounding * length for x, y in course[1:-1]
+    )
+
+
+def _rounding(*courses: tuple[Point, ...]) -> float:
+    """How far apart two roundings of a point may be: a unit of the last digit, with its error.
+
+    At most a hundredth of the street's length, since whole numbers need not be rounded.
+    """
+    numbers = [number for course in courses for point in course for number in point]
+    unit = min(10.0 ** int(Decimal(repr(n)).normalize().as_tuple().exponent) for n in numbers)
+    length = sum(dist(a, b) for a, b in pairwise(courses[0]))
+    return min(1.01 * unit + 1e-12 * max(map(abs, numbers)), length / 100)
+
+
+def _distance(a: Point, b: Point) -> float:
+    return max(abs(a[0] - b[0]), abs(a[1] - b[1]))
+
+
+def _say_merged(
+    ways: Sequence[DrawnEdge], kept: Sequence[int], same: dict[int, int], source: str
+) -> None:
+    there = Counter((ways[n].start, ways[n].end) for n in kept if ways[n].directed)
+    back = Counter((ways[n].end, ways[n].start) for n in kept if ways[n].directed)
+    double = sum(min(there[pair], back[pair]) for pair in there if pair[0] < pair[1])
+    if same or double:
+        merged = f"{source}: merged {plural(len(same), 'two-way street')} into one edge each"
+        apart = f", kept {double} double, whose two directions have different courses"
+        REMARKS.info(merged + apart * (double > 0))
+
+
+def _say_stated_orders(
+    places: Sequence[DrawnVertex],
+    ways: Sequence[DrawnEdge],
+    rotations: Sequence[Sequence[DrawnEnd]],
+    same: Mapping[int, int],
+    source: str,
+) -> None:
+    """Say where the file states another order than that of the drawing."""
+    end_of = {
+        way.name: DrawnEnd(same[number], 0) if number in same else DrawnEnd(number, 1)
+        for number, way in enumerate(ways)
+    }
+    others: list[str] = []
+    for place, rotation in zip(places, rotations, strict=True):
+        number = {end: n for n, end in enumerate(rotation)}
+        ends = dict.fromkeys(end_of[name] for name in place.incoming if name in end_of)
+        row = [number[end] for end in ends if end in number]
+        if sum(a > b for a, b in pairwise([*row, *row[:1]])) > 1:  # it ascends but for one fall
+            others.append(f"'{shown(place.name, limit=60)}'")
+    if others:
+        REMARKS.warning(
+            f"{source}: at {plural(len(others), 'vertex', 'vertices')} the file states another"
+            f" clockwise order than that of the drawing, which is read: {', '.join(others[:3])}"
+            + ", …"
+            * (len(others) > 3)
+        )
 
 
 class _LeavingEnd(NamedTuple):
@@ -163,16 +298,12 @@ class _LeavingEnd(NamedTuple):
 
 
 def _exits(
-    places: Sequence[DrawnVertex],
-    ways: Sequence[DrawnEdge],
-    courses: Sequence[tuple[Point, ...]],
-    kept: Sequence[int],
-) -> list[list[_LeavingEnd]]:
-    exits: list[list[_LeavingEnd]] = [[] for _ in places]
+    places: Sequence[DrawnVertex], ways: Sequence[DrawnEdge], kept: Sequence[int]
+) -> list[list[DrawnEnd]]:
+    exits: list[list[DrawnEnd]] = [[] for _ in places]
     for number in kept:
-        way, course = ways[number], courses[number]
-        exits[way.start].append(_LeavingEnd(DrawnEnd(number, 0), course[0], course[1]))
-        exits[way.end].append(_LeavingEnd(DrawnEnd(number, 1), course[-1], course[-2]))
+        exits[ways[number].start].append(DrawnEnd(number, 0))
+        exits[ways[number].end].append(DrawnEnd(number, 1))
     return exits
 
 
@@ -220,9 +351,9 @@ def _require_connected(
 
 
 def _largest_part(
-    places: Sequence[DrawnVertex], ways: Sequence[DrawnEdge], source: str, tell: Note
+    places: Sequence[DrawnVertex], ways: Sequence[DrawnEdge], source: str
 ) -> tuple[Sequence[DrawnVertex], Sequence[DrawnEdge]]:
-    """The part with the most vertices, the first of several; what is left out is told."""
+    """The part with the most vertices, the first of several; what is left out is remarked."""
     largest, *others = _parts(places, ways)
     if not others:
         return places, ways
@@ -234,7 +365,7 @@ def _largest_part(
     ]
     names = [f"'{shown(places[vertex].name, limit=60)}'" for part in others for vertex in part]
     listed = ", ".join([*names[:MOST], *["…"][: len(names) > MOST]])
-    tell(
+    REMARKS.info(
         f"{source}: the largest part is kept, {len(largest):,} of {len(places):,} vertices and"
         f" {len(kept):,} of {len(ways):,} edges; left out:"
         f" {plural(len(others), 'part')} with {listed}"
@@ -243,9 +374,25 @@ def _largest_part(
 
 
 def _clockwise(
-    place: DrawnVertex, exits: Sequence[_LeavingEnd], ways: Sequence[DrawnEdge]
+    place: DrawnVertex,
+    ends: Sequence[DrawnEnd],
+    courses: Sequence[Sequence[Point]],
+    ways: Sequence[DrawnEdge],
 ) -> list[DrawnEnd]:
-    row = sorted(exits, key=cmp_to_key(_compared))
+    outwards = [courses[way][:: -1 if side else 1] for way, side in ends]
+    leaving = [
+        Leaving(way, course)
+        for (way, _), course in zip(ends, junctions.snapped(place.at, outwards), strict=True)
+    ]
+    if any(course[0] != place.at for _, course in leaving):
+        return _around_extent(place, ends, leaving, ways)
+    row = sorted(
+        (
+            _LeavingEnd(end, course[0], course[1])
+            for end, (_, course) in zip(ends, leaving, strict=True)
+        ),
+        key=cmp_to_key(_compared),
+    )
     for first, second in pairwise(row):
         if _compared(first, second) == 0:
             names = [shown(ways[leaving.end.way].name, limit=60) for leaving in (first, second)]
@@ -255,6 +402,24 @@ def _clockwise(
                 " neither comes first: move a point of one of them, or leave one out"
             )
     return [first.end for first in row]
+
+
+def _around_extent(
+    place: DrawnVertex,
+    ends: Sequence[DrawnEnd],
+    leaving: Sequence[Leaving],
+    ways: Sequence[DrawnEdge],
+) -> list[DrawnEnd]:
+    try:
+        return [ends[spoke.end] for spoke in junctions.clockwise(place.at, leaving)]
+    except junctions.Meeting as met:
+        first, second = (shown(ways[ends[n].way].name, limit=60) for n in met.pair)
+        farthest = max(dist(place.at, course[0]) for _, course in leaving)
+        raise InputError(
+            f"at vertex '{shown(place.name)}' edges begin up to {farthest:.6g} from its point, and"
+            f" their order is not clear, since '{first}' and '{second}' meet on every way from"
+            " the point to where they leave: let one of them begin at the point, or leave it out"
+        ) from met
 
 
 def _compared(first: _LeavingEnd, second: _LeavingEnd) -> int:

@@ -20,7 +20,6 @@ from typing import Any, NamedTuple, TypeVar, cast
 
 from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import drawn_graph, embedding, markup, rotated
-from topo_verify.world.formats.embedding import Note
 from topo_verify.world.formats.flaws import Flaws
 from topo_verify.world.formats.rotated import RotatedEdge, RotatedVertex
 from topo_verify.world.rooted_map import World
@@ -41,7 +40,7 @@ def decode(
     *,
     name: str = "GraphML",
     stem: str = "",
-    largest_part: Note | None = None,
+    largest_part: bool = False,
 ) -> W:
     """The world in the bytes; `largest_part` as for `embedding.as_world`."""
     reader = _Reader(name)

@@ -25,7 +25,6 @@ from msgspec import UNSET, UnsetType
 from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import drawn_graph, rotated, world_json
 from topo_verify.world.formats.drawn_graph import GraphEdge
-from topo_verify.world.formats.embedding import Note
 from topo_verify.world.formats.flaws import Flaws
 from topo_verify.world.formats.rotated import RotatedEdge, RotatedVertex
 from topo_verify.world.rooted_map import World
@@ -89,7 +88,7 @@ def decode(
     *,
     name: str = "node-link JSON",
     stem: str = "",
-    largest_part: Note | None = None,
+    largest_part: bool = False,
 ) -> W:
     """The world in the text; `largest_part` as for `embedding.as_world`."""
     text = world_json.utf8_text(text, name)
@@ -102,7 +101,7 @@ def decode(
             return _rotated(cls, data, name, stem)
         drawing = msgspec.json.decode(text, type=_Drawing)
         world_json.require_single_keys(text, name)
-        return _drawn(cls, drawing, name, stem, largest_part)
+        return _drawn(cls, drawing, name, stem, largest_part=largest_part)
     except msgspec.ValidationError as error:
         raise InputError(
             f"{name}: {shown(str(error))}; a world has a 'graph' with its 'marker', 'nodes' with"
@@ -119,7 +118,7 @@ def decode(
         ) from error
 
 
-def _drawn(cls: type[W], data: _Drawing, name: str, stem: str, largest_part: Note | None) -> W:
+def _drawn(cls: type[W], data: _Drawing, name: str, stem: str, *, largest_part: bool) -> W:
     flaws = Flaws(name)
     rotated.require_no_rotation(data.nodes, source=name)
     nodes: dict[Any, dict[str, Any]] = {}
