@@ -32,8 +32,6 @@ from topo_verify.cli.output import ProgressBar, entry_of
 from topo_verify.faults import FAULTS
 from topo_verify.proofs import catalogue as proofs_catalogue
 from topo_verify.proofs.theorem import RefutationCertificate, Theorem, TheoremResult
-from topo_verify.studies import faults as study
-from topo_verify.studies.faults import Proof
 
 FILES = "--report r.html --junit r.xml --badge r.svg"
 FAULT = "restores-with-the-wrong-sign"
@@ -190,13 +188,6 @@ def test_every_form_of_a_missed_fault_agrees(call: Call, monkeypatch: pytest.Mon
     another = replace(FAULTS[FAULT], claim="cost-honest")  # which it does not break
     monkeypatch.setitem(FAULTS, FAULT, another)
     require_agreement(forms(call, f"faults {FAULT} --by search --workers 0"), 1)
-
-
-def test_every_form_of_an_undecided_fault_agrees(
-    call: Call, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(study, "proof", Mock(return_value=Proof("planar-keeps", "UNKNOWN")))
-    require_agreement(forms(call, "faults assumes-a-plane-world --by proofs"), 3)
 
 
 # ---------------------------------------------------------------- interrupted

@@ -69,7 +69,7 @@ REFUSED = [
     ("faults no-such", "got 'no-such'; the faults are leaves-out-the-"),
     (
         "faults restores-with-the-wrong-sign --by guess",
-        "expected checks out of search, properties, proofs, got 'guess'",
+        "expected checks out of search, properties, got 'guess'",
     ),
     ("prove percept --smt2 mappers.py", "expected a folder, got a file"),
     ("explore m0/0 --marker all", "m0/0 has no edge that a marker could point at"),

@@ -10,6 +10,7 @@ from topo_verify.campaign.targets import one_target
 from topo_verify.checkers import CLAIMS
 from topo_verify.faults import FAULTS
 from topo_verify.faults.fault import mapper, rebound
+from topo_verify.proofs.catalogue import catalogue
 from topo_verify.world.rooted_map import World
 
 
@@ -51,3 +52,8 @@ def test_planting_leaves_the_reference_as_it_is() -> None:
 def test_a_name_that_the_loop_does_not_know_cannot_be_replaced() -> None:
     with pytest.raises(AssertionError, match="Compass"):
         rebound(Compass=int)
+
+
+def test_the_theorem_with_the_same_mistake_is_one_that_must_be_refuted() -> None:
+    named = {fault.theorem for fault in FAULTS.values()} - {None}
+    assert {theorem.name for theorem in catalogue() if theorem.expected == "REFUTED"} >= named

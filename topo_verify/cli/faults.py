@@ -55,9 +55,8 @@ def faults(
     """Try the checks on mappers with one mistake each, and on some that differ harmlessly.
 
     Every check must catch every fault and no harmless difference: the search goes up to the
-    first size with a failing world, the property tests have Hypothesis's default number of
-    examples, and a theorem with the same mistake must be refuted. NAME is a fault; by default
-    all are tried.
+    first size with a failing world, and the property tests have Hypothesis's default number of
+    examples. NAME is a fault; by default all are tried.
     """
 
     def tried() -> Iterator[Result[study.Caught]]:
@@ -178,12 +177,11 @@ def _show(entries: Sequence[study.Caught]) -> Iterator[Block]:
     rows = [
         (
             *(entry.name, entry.part, *_row(entry)[1:-1]),
-            f"{entry.proofs.theorem}: {entry.proofs.verdict}" if entry.proofs else "-",
             _ok(entry),
         )
         for entry in entries
     ]
-    yield TextTable(("fault", "part", *COLUMNS[1:-1], "theorem", "ok"), rows)
+    yield TextTable(("fault", "part", *COLUMNS[1:-1], "ok"), rows)
     yield from _end(entries)
 
 
@@ -239,13 +237,6 @@ def _end(entries: Sequence[study.Caught]) -> Iterator[Block]:
     words += f", {flagged} of {plural(len(harmless), 'harmless difference')} flagged"
     if any(entry.search for entry in faults):
         words += f". Convicted by one run, judged without its world: {alone} of the faults"
-    proofs = [entry.proofs for entry in entries if entry.proofs]
-    if proofs:
-        refuted = sum(proof.verdict == "REFUTED" for proof in proofs)
-        words += f". {refuted} of {plural(len(proofs), 'theorem')} with the same mistake refuted"
     yield Text(words + ".")
-    if unasked := len(entries) - len(asked):
-        verb, whose = ("was", "its") if unasked == 1 else ("were", "their")
-        yield Text(f"{unasked} {verb} not asked for: no theorem has {whose} mistake.")
     if any(entry.undecided for entry in entries):
-        yield Text("?: not decided, because a time limit ended a run or a proof.")
+        yield Text("?: not decided, because a time limit ended a run.")

@@ -2,7 +2,6 @@
 
     search       every world of 1, 2, … edges up to the first size in which a claim fails
     properties   property tests on two strategies, five seeds each
-    proofs       a theorem whose version with the same mistake the solver refutes
 
 A fault is caught if each requested check finds it; a harmless difference must be found by none.
 """
@@ -20,7 +19,6 @@ import msgspec
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.run import Engine, explore, planted, require_compiled
 from topo_verify.checkers import CLAIMS
-from topo_verify.checkers.findings import Verdict
 from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.errors import InputError
 from topo_verify.faults import FAULTS, Fault
@@ -32,7 +30,7 @@ from topo_verify.studies.beside import Beside
 from topo_verify.studies.search.search import SearchEntry, search
 from topo_verify.world.rooted_map import World
 
-Check = Literal["search", "properties", "proofs"]
+Check = Literal["search", "properties"]
 CHECKS: tuple[Check, ...] = get_args(Check)
 
 LARGEST_HARMLESS, LARGEST_THOROUGH = 4, 5
@@ -45,9 +43,8 @@ class Caught(msgspec.Struct, frozen=True):
     Attributes:
         name, part, why, claim, harmless, target: of the fault.
         search, properties: null if the check was not requested.
-        proofs: null also if no theorem has this mistake.
         asked: the number of checks that apply to it.
-        undecided: nothing is wrong, but a run was out of time or a theorem is UNKNOWN.
+        undecided: nothing is wrong, but a run was out of time.
         ok: every requested check caught the fault; none, for a harmless difference.
     """
 
@@ -59,7 +56,6 @@ class Caught(msgspec.Struct, frozen=True):
     target: str
     search: Smallest | None
     properties: Examples | None
-    proofs: Proof | None
     asked: int
     undecided: bool
     ok: bool
@@ -126,7 +122,6 @@ def tried(fault: Fault | str, by: Sequence[Check], thorough: bool, engine: Engin
         fault,
         smallest(fault, largest=last, engine=engine) if "search" in by else None,
         examples(fault) if "properties" in by else None,
-        proof(fault) if "proofs" in by else None,
     )
 
 
@@ -136,12 +131,10 @@ def _to_the_end(
     if fault.harmless or entry.search is None or entry.search.failing:
         return entry
     larger = smallest(fault, first=COUNTED + 1, workers=workers, thorough=thorough, tell=tell)
-    return entry_of(fault, larger, entry.properties, entry.proofs)
+    return entry_of(fault, larger, entry.properties)
 
 
-def entry_of(
-    fault: Fault, searched: Smallest | None, drawn: Examples | None, proved: Proof | None
-) -> Caught:
+def entry_of(fault: Fault, searched: Smallest | None, drawn: Examples | None) -> Caught:
     """The entry of a fault, given the results of the checks."""
     asked: list[bool | None] = []
     if searched is not None:
@@ -150,8 +143,6 @@ def entry_of(
     if drawn is not None:
         caught = drawn.found if fault.harmless else drawn.median_examples is not None
         asked.append(_finds_what_it_must(fault, caught, drawn.undecided))
-    if proved is not None:
-        asked.append(None if proved.verdict == "UNKNOWN" else proved.verdict == "REFUTED")
     return Caught(
         name=fault.name,
         part=fault.part,
@@ -161,7 +152,6 @@ def entry_of(
         target=fault.target,
         search=searched,
         properties=drawn,
-        proofs=proved,
         asked=len(asked),
         undecided=None in asked and False not in asked,
         ok=all(asked),
@@ -243,17 +233,6 @@ class Examples(msgspec.Struct, frozen=True):
     def found(self) -> bool:
         """Whether any test fails."""
         return any(number is not None for row in self.examples.values() for number in row)
-
-
-class Proof(msgspec.Struct, frozen=True):
-    """The verdict on the theorem with the same mistake in it, which must be REFUTED.
-
-    Attributes:
-        theorem: the mutant of it.
-    """
-
-    theorem: str
-    verdict: Verdict
 
 
 # ---------------------------------------------------------------- exhaustive search
@@ -412,20 +391,3 @@ class _Counting(ForwardingRobot):
         if self.edges_left < 0:
             raise _Failed
         super().declare(event)
-
-
-# ---------------------------------------------------------------- proofs
-
-
-def proof(fault: Fault) -> Proof | None:
-    """The verdict on the theorem with the same mistake, if there is one."""
-    if fault.theorem is None:
-        return None
-    from topo_verify.proofs.catalogue import choose
-    from topo_verify.proofs.theorem import Budget
-
-    (theorem,) = choose([fault.theorem])
-    outcome = theorem.prove(Budget(timeout=TIMEOUT))
-    # The replay in worlds must confirm a refutation.
-    open_ended = outcome.verdict == "REFUTED" and not theorem.ok(outcome)
-    return Proof(theorem.name, "UNKNOWN" if open_ended else outcome.verdict)
