@@ -90,7 +90,7 @@ COMMON = {
     "message": "what is wrong, in one sentence",
     "name": "its name",
     "not_declared": "the claims of which the mapper declares nothing",
-    "of": "the theorem that a mutant changes",
+    "of": "the theorem from which a mutant takes a premise",
     "ok": "nothing is wrong, and nothing is left undecided",
     "order": "the policy that chooses the next hypothesis; null: the mapper has none",
     "other": "the cost of the other mapper",

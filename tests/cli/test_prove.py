@@ -14,27 +14,35 @@ from tests.proofs.first_order.test_theorems import spoiled
 from topo_verify.proofs import catalogue as proofs_catalogue
 from topo_verify.proofs.first_order.obligations import A
 from topo_verify.proofs.first_order.terms import eq, neg
-from topo_verify.proofs.first_order.theorems import PLANAR
 from topo_verify.proofs.mechanised import toolchain
 from topo_verify.proofs.theorem import TheoremResult
 
+NEGATIVE, MUTANT = (theorem.name for theorem in proofs_catalogue.CONTROLS)
 
-def test_a_theorem_is_proved_and_a_mutant_refuted(results: Results) -> None:
-    envelope = results("prove percept history-shifted-by-one planar-keeps")
+
+def test_a_theorem_is_proved_and_the_controls_refuted(results: Results) -> None:
+    envelope = results(f"prove percept {MUTANT} {NEGATIVE}")
     assert envelope["format"] == "topo-verify/prove"
-    proved, mutant, planar = envelope["results"]
+    proved, mutant, negative = envelope["results"]
     assert (proved["verdict"], proved["premises_satisfiable"]) == ("PROVED", True)
     assert proved["claim"] == "true-hypothesis-kept"
     assert (mutant["verdict"], mutant["expected"], mutant["ok"]) == ("REFUTED", "REFUTED", True)
-    assert mutant["replayed"] == {"replayed": 1, "total": 1}
-    assert (planar["kind"], planar["edges"]) == ("negative", 2)
+    assert (mutant["kind"], mutant["of"]) == ("mutant", "confirm-final")
+    assert (negative["kind"], negative["edges"]) == ("negative", 2)
+    assert negative["replayed"] == {"replayed": 1, "total": 1}
 
 
 def test_the_table_shows_the_evidence_for_each_verdict(call: Call) -> None:
-    done = call("prove percept confirm-undirected")
+    done = call("prove percept undirected-any")
     assert done.exit_code == 0
     seen = " ".join(done.stdout.split())  # cells are folded
-    for words in ("2 theorems (1 inductive, 1 mutant)", "premises", "used 6", "replays", "1 of 1"):
+    for words in (
+        "2 theorems (1 inductive, 1 negative)",
+        "premises",
+        "used 6",
+        "replays",
+        "1 of 1",
+    ):
         assert words in seen
     assert "docs/proofs.md" in done.stdout
 
@@ -60,7 +68,7 @@ def test_the_list_has_every_theorem_and_proves_none(results: Results, call: Call
     envelope = results("prove --list")
     assert envelope["format"] == "topo-verify/prove-list"
     names = [entry["name"] for entry in envelope["results"]]
-    assert len(names) == len(set(names)) > 150
+    assert len(names) == len(set(names)) > 80
     assert {entry["kind"] for entry in envelope["results"]} == {
         "inductive",
         "bounded",
@@ -85,10 +93,8 @@ def test_deep_adds_the_long_theorems(results: Results) -> None:
 
 
 def test_the_questions_are_written_as_smt_lib(results: Results, folder: Path) -> None:
-    results("prove percept confirm-undirected --smt2 there")
-    texts = [
-        (folder / "there" / f"{n}.smt2").read_text() for n in ("percept", "confirm-undirected")
-    ]
+    results(f"prove percept {MUTANT} --smt2 there")
+    texts = [(folder / "there" / f"{n}.smt2").read_text() for n in ("percept", MUTANT)]
     assert texts[0].startswith("(set-logic UF)")
     assert texts[1].startswith("(set-logic QF_UF)")
     assert all(text.rstrip().endswith("(check-sat)") for text in texts)
@@ -100,8 +106,9 @@ def test_the_questions_are_written_as_smt_lib(results: Results, folder: Path) ->
 @pytest.fixture
 def stocked(monkeypatch: pytest.MonkeyPatch) -> None:
     """A catalogue with theorems that do not come out as they should."""
+    _, mutant = proofs_catalogue.CONTROLS
     lucky = Mock(return_value=TheoremResult(verdict="EXHAUSTED", solver="none"))
-    unrefuted = dataclasses.replace(PLANAR, name="unrefuted", kind="mutant", prove=lucky)
+    unrefuted = dataclasses.replace(mutant, name="unrefuted", prove=lucky)
     vacuous = spoiled("vacuous", absurd=neg(eq(A, A)))
     shelf = (spoiled("unprovable"), vacuous, unrefuted)
     monkeypatch.setattr(proofs_catalogue, "catalogue", Mock(return_value=shelf))

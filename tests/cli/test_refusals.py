@@ -85,6 +85,7 @@ REFUSED = [
     ("explore m2/8 --target basic --pick last --choices 0", "leave out --pick and --order"),
     ("prove percet", "do you mean percept"),
     ("prove nothing-like-it", "prove --list lists them"),
+    ("prove history-shifted-by-one", "tests in tests/proofs/"),
     ("prove percept --kind mutant", "no theorem of kind mutant among percept"),
     ("prove --kind bounded --edges 99", "1 to 6 edges"),
     ("prove percept --timeout 0", "--timeout"),

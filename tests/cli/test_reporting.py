@@ -149,7 +149,7 @@ NARROW = (
     "search basic --edges 3 --worst --workers 0",
     "search --compare enhancement-ii,enhancement-i --edges 3 --workers 0",
     "conform basic --like enhancement-ii --worlds m4/41 --workers 0 --seed 0:0",
-    "prove percept none-any",
+    "prove percept undirected-any",
     "faults assumes-a-plane-world forgets-that-vu-may-be-new --by search --workers 0",
     "explore m4/41 m3/14 --target basic,folding",
     "explore m4/41 --gap",

@@ -7,18 +7,35 @@ from pathlib import Path
 
 import pytest
 
+from tests.proofs.false_statements import FALSE_STATEMENTS
+from tests.proofs.first_order.refuted import AXIOM_MUTANTS
 from tests.python import python
 from topo_verify.checkers import CLAIMS
 from topo_verify.errors import InputError
-from topo_verify.proofs.catalogue import catalogue, choose
+from topo_verify.proofs.catalogue import CONTROLS, FORMER, catalogue, choose
 from topo_verify.proofs.first_order.theorems import INDUCTIVE
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
 def test_every_obligation_has_a_mutant() -> None:
-    changed = Counter(theorem.of for theorem in catalogue() if theorem.kind == "mutant")
+    changed = Counter(theorem.of for theorem in FALSE_STATEMENTS if theorem.kind == "mutant")
     assert all(changed[theorem.name] for theorem in INDUCTIVE)
+
+
+def test_two_false_statements_remain_as_controls() -> None:
+    false = [theorem for theorem in catalogue() if theorem.expected == "REFUTED"]
+    assert [theorem.kind for theorem in false] == ["negative", "mutant"]
+    assert {theorem.name for theorem in false} < {theorem.name for theorem in FALSE_STATEMENTS}
+
+
+def test_a_false_statement_that_was_a_theorem_says_where_it_is_now() -> None:
+    names = {theorem.name for theorem in FALSE_STATEMENTS}
+    names -= {theorem.name for theorem in CONTROLS}
+    assert names - {theorem.name for theorem in AXIOM_MUTANTS} == FORMER
+    for name in names:
+        with pytest.raises(InputError, match="tests/proofs"):
+            choose([name])
 
 
 def test_every_claim_that_a_proof_can_carry_rests_on_a_theorem() -> None:
@@ -37,11 +54,10 @@ def test_every_step_that_is_argued_stands_in_the_page_on_proofs() -> None:
 
 
 def test_each_question_is_a_whole_script_and_says_what_is_expected() -> None:
-    for theorem in catalogue():
-        if theorem.kind in ("inductive", "mutant") and theorem.edges is None:
-            for query in theorem.queries():
-                assert query.smt2.startswith("(set-logic ")
-                assert query.expected == ("unsat" if theorem.kind == "inductive" else "sat")
+    for theorem in (*INDUCTIVE, *AXIOM_MUTANTS):
+        for query in theorem.queries():
+            assert query.smt2.startswith("(set-logic ")
+            assert query.expected == ("unsat" if theorem.kind == "inductive" else "sat")
 
 
 def test_a_name_is_chosen_once_and_in_the_order_given() -> None:

@@ -59,7 +59,7 @@ class ProveEntry(msgspec.Struct, frozen=True):
         solver: what decided it, with its version.
         edges: the bound of a bounded theorem.
         checked, total: how many cases were decided, of how many; null: it has no cases.
-        counterexample: a world, or the structure that refutes a mutant of an axiom.
+        counterexample: a world, or the structure that refutes a mutant.
         history: the doors that show it.
         core: the premises that the proof used.
         note: why a verdict does not stand, if it does not.
@@ -166,7 +166,8 @@ def prove(
 
     NAME is a theorem, one in Coq also by its place there (Undirected.undirected_not_enough); by
     default all quick ones are proved. Inductive theorems hold in worlds of
-    any size, bounded ones in every world of a few edges; negatives and mutants must be REFUTED.
+    any size, bounded ones in every world of a few edges. A negative and a mutant are controls:
+    false statements, which must be REFUTED.
     For a theorem in Coq, coqc compiles the files that it needs (3 to 53; 90 for all), and coqchk
     checks them and what they use of Coq's standard library: some minutes.
     A vacuous theorem is UNKNOWN, which does not pass (exit 3).

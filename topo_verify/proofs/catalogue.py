@@ -6,10 +6,12 @@ Names are unique and never change. Each engine has its tables:
     inductive   first_order/obligations/<theme>.OBLIGATIONS    an `Obligation`
     mechanised  coq/theorems.csv                               a theorem of coq/
     bounded     bounded/statements.py                          a `BoundedStatement`
-    negative    bounded/mutants.SMALLEST                       a `Negative`
-    mutant      `needs` of an obligation                       a dropped premise
-                first_order/mutants/<theme>.py                 a `RuleMutant`
-                bounded/mutants.py                             a rule with a `RuleFault`
+    negative    bounded/confirmations.CONTROL                  a false claim
+    mutant      first_order/theorems.CONTROL                   a theorem without one premise
+
+The last two are controls: a solver that does not refute them is not to be believed. Tests refute
+all other negatives, a mutant of each inductive theorem, and rules with one mistake
+(tests/proofs/).
 """
 
 from __future__ import annotations
@@ -19,13 +21,33 @@ from difflib import get_close_matches
 from functools import cache
 
 from topo_verify.errors import InputError, InternalError
-from topo_verify.proofs.bounded import mutants as bounded_mutants
+from topo_verify.proofs.bounded import confirmations
 from topo_verify.proofs.bounded.theorems import MOST_EDGES, bounded
 from topo_verify.proofs.first_order import theorems as first_order
 from topo_verify.proofs.mechanised.theorems import MECHANISED, STATEMENTS
 from topo_verify.proofs.theorem import Theorem, TheoremKind
 
 QUICK: tuple[TheoremKind, ...] = ("inductive", "negative", "mutant")
+
+CONTROLS: tuple[Theorem, ...] = (confirmations.CONTROL, first_order.CONTROL)
+
+# fmt: off
+FORMER = {
+    "confirm-before-home", "confirm-undirected", "confirm-unmarked", "confirm-unturned",
+    "conclude-the-last", "fold-ghost-known", "fold-marker-undirected", "fold-next-partner",
+    "fold-without-offset", "history-absolute-door", "history-forgets-to-cross",
+    "history-next-door", "history-shifted-by-one", "history-through-unexplored",
+    "loop-at-first-dart", "marker-from-first-dart", "motion-forgets-turning",
+    "motion-shifted-by-one", "new-numbered-late", "new-though-known", "none-any", "none-loopless",
+    "none-simple", "planar-keeps", "posed-by-first-dart", "posed-not-at-vk", "prefix-one-too-far",
+    "records-read-late", "records-stale-root", "records-written-early", "undirected-loopless",
+    "undirected-simple", "words-confirm-none", "words-confirm-undirected",
+    "words-history-absolute-doors", "words-history-shifted", "words-history-through-unexplored",
+    "words-prefix-one-more", "words-records-all-first-dart", "words-records-one-first-dart",
+    "words-trace-shifted", "words-trace-turned",
+}
+# fmt: on
+"""What version 0.4 dropped, beside `…-without-…`: false statements, which are tests now."""
 
 
 @cache
@@ -39,11 +61,7 @@ def catalogue(edges: int | None = None) -> tuple[Theorem, ...]:
         *first_order.INDUCTIVE,
         *MECHANISED,
         *bounded(MOST_EDGES if edges is None else edges),
-        *bounded_mutants.NEGATIVES,
-        first_order.PLANAR,
-        *first_order.AXIOM_MUTANTS,
-        *first_order.FAULTY_RULES,
-        *bounded_mutants.MUTANTS,
+        *CONTROLS,
     )
     names = [theorem.name for theorem in theorems]
     if doubled := sorted({name for name in names if names.count(name) > 1}):
@@ -73,6 +91,12 @@ def choose(
     names = [name if name in known else in_coq.get(name, name) for name in names]
     for name in names:
         if name not in known:
+            if name in FORMER or name.partition("-without-")[0] in known:
+                raise InputError(
+                    f"no theorem {name!r} in the catalogue: since version 0.4 false statements are"
+                    " tests in tests/proofs/, which `make test` runs in a checkout; two remain as"
+                    f" controls, {' and '.join(theorem.name for theorem in CONTROLS)}"
+                )
             close = get_close_matches(name, known, n=3)
             mend = f"do you mean {' or '.join(close)}? " if close else ""
             raise InputError(

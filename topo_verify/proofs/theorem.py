@@ -7,6 +7,8 @@
     negative    a false claim, at its smallest size            REFUTED, with a world
     mutant      a theorem with one thing changed               REFUTED, with what breaks
 
+The catalogue has one negative and one mutant, its **controls**; the others are tests.
+
 A theorem whose premises cannot all hold is **vacuous**: reported as UNKNOWN.
 """
 

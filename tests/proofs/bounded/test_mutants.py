@@ -11,9 +11,11 @@ import pytest
 
 from examples.undirected import undirected, unmarked
 from tests.helpers import failing, worlds
+from tests.proofs.bounded import mutants
+from tests.proofs.bounded.rejections import replay_rejection
 from tests.proofs.first_order.test_rule_mutants import require_refuted
 from topo_verify.campaign.run import explore
-from topo_verify.proofs.bounded import mutants, statements
+from topo_verify.proofs.bounded import confirmations, statements
 from topo_verify.proofs.bounded.cnf import first_model, models, solve
 from topo_verify.proofs.bounded.encoding import RuleFault
 from topo_verify.proofs.bounded.replay import (
@@ -22,7 +24,6 @@ from topo_verify.proofs.bounded.replay import (
     decode,
     decoded_booleans,
     replay_confirmation,
-    replay_rejection,
 )
 from topo_verify.proofs.bounded.statements import EncodedCounterexample
 from topo_verify.proofs.theorem import Budget, Theorem
@@ -36,24 +37,24 @@ def test_it_is_refuted_by_a_world_that_replays(one: Theorem) -> None:
     require_refuted(one, BUDGET)
 
 
-@pytest.mark.parametrize("case", mutants.SMALLEST, ids=lambda case: case.name)
-def test_below_its_size_there_is_no_such_world(case: mutants.Negative) -> None:
+@pytest.mark.parametrize("case", confirmations.SMALLEST, ids=lambda case: case.name)
+def test_below_its_size_there_is_no_such_world(case: confirmations.Negative) -> None:
     for edges in range(1, case.edges):
-        encoded = mutants.false_confirmation(edges, case.world_class, case.marker)
+        encoded = confirmations.false_confirmation(edges, case.world_class, case.marker)
         assert solve(encoded.world, BUDGET).answer == "unsat"
-        assert solve(mutants.premises(edges, case.world_class), BUDGET).answer == "sat"
+        assert solve(confirmations.premises(edges, case.world_class), BUDGET).answer == "sat"
 
 
 @pytest.mark.parametrize("world_class", ["any", "loopless", "simple"])
 def test_with_the_direction_there_is_no_such_world_at_any_of_these_sizes(world_class: str) -> None:
     for edges in (1, 2, 3):
-        encoded = mutants.false_confirmation(edges, world_class, "directed")
+        encoded = confirmations.false_confirmation(edges, world_class, "directed")
         assert solve(encoded.world, BUDGET).answer == "unsat"
 
 
-@pytest.mark.parametrize("case", mutants.SMALLEST, ids=lambda case: case.name)
+@pytest.mark.parametrize("case", confirmations.SMALLEST, ids=lambda case: case.name)
 def test_the_sizes_are_those_at_which_a_mapper_confirms_what_is_false(
-    case: mutants.Negative,
+    case: confirmations.Negative,
 ) -> None:
     mapper = {"undirected": undirected, "none": unmarked}
     kind = WorldClass.parse(case.world_class)
@@ -66,9 +67,11 @@ def test_the_sizes_are_those_at_which_a_mapper_confirms_what_is_false(
     assert found == case.edges
 
 
-@pytest.mark.parametrize("case", [case for case in mutants.SMALLEST if case.edges < 4], ids=repr)
-def test_every_model_of_a_negative_replays(case: mutants.Negative) -> None:
-    encoded = mutants.false_confirmation(case.edges, case.world_class, case.marker)
+@pytest.mark.parametrize(
+    "case", [case for case in confirmations.SMALLEST if case.edges < 4], ids=repr
+)
+def test_every_model_of_a_negative_replays(case: confirmations.Negative) -> None:
+    encoded = confirmations.false_confirmation(case.edges, case.world_class, case.marker)
     replayed = [
         replay_confirmation(decode(encoded, model), case.marker)
         for model in islice(models(encoded.world, decoded_booleans(encoded), BUDGET), 40)
@@ -97,15 +100,15 @@ def test_many_models_of_a_faulty_rule_replay(
         assert replay.claim == "true-hypothesis-kept"
 
 
-def _story(case: mutants.Negative) -> BoundedCounterexample:
-    encoded = mutants.false_confirmation(case.edges, case.world_class, case.marker)
+def _story(case: confirmations.Negative) -> BoundedCounterexample:
+    encoded = confirmations.false_confirmation(case.edges, case.world_class, case.marker)
     model = first_model(encoded.world, decoded_booleans(encoded), BUDGET).model
     assert model is not None
     return decode(encoded, model)
 
 
 def test_a_story_that_is_not_true_does_not_replay() -> None:
-    counterexample = _story(mutants.Negative("undirected", "loopless", 3))
+    counterexample = _story(confirmations.Negative("undirected", "loopless", 3))
     assert replay_confirmation(counterexample, "undirected").world.id == "m3/27"
     true = counterexample.world.alpha[counterexample.e]
     with pytest.raises(Disagreement, match="no-false-confirm does not fail"):

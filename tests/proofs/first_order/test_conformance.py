@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from tests.helpers import trace_of, variant, worlds
+from tests.proofs.first_order.conformance import DescribedRule, compare
 from topo_verify import World, families
 from topo_verify.algorithms import enhancement_i, exploration
 from topo_verify.algorithms.chart import Chart
@@ -18,7 +19,6 @@ from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.exploration import hypotheses as exploration_hypotheses
 from topo_verify.algorithms.motion import Executed, Hypothesis, common_prefix
-from topo_verify.proofs.first_order.conformance import DescribedRule, compare
 from topo_verify.proofs.first_order.terms import conj, neg
 from topo_verify.proofs.first_order.theory import RULES
 from topo_verify.robot.events import Reject, Trace

@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.helpers import any_world, trace_of, worlds
+from tests.proofs.first_order.conformance import binary, nullary, unary
 from topo_verify import World
 from topo_verify.checkers import Fold
-from topo_verify.proofs.first_order.conformance import binary, nullary, unary
 from topo_verify.proofs.first_order.obligations.growth import CLOSED, FITS, PI_ROT, pi, same
 from topo_verify.proofs.first_order.terms import Function, Structure, Var, eq, forall, implies
 from topo_verify.proofs.first_order.theory import AXIOMS

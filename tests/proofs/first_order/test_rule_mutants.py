@@ -6,18 +6,19 @@ from dataclasses import replace
 
 import pytest
 
+from tests.proofs.first_order import refuted, scenes
+from tests.proofs.first_order.mutants import RuleMutant
+from tests.proofs.first_order.mutants.growth import PLANAR as PLANAR_SCENE
+from tests.proofs.first_order.scenes import SceneReplay
 from topo_verify import World
 from topo_verify.errors import InternalError
-from topo_verify.proofs.first_order import scenes, theorems
-from topo_verify.proofs.first_order.mutants import RuleMutant
-from topo_verify.proofs.first_order.mutants.growth import PLANAR as PLANAR_SCENE
-from topo_verify.proofs.first_order.scenes import SceneReplay
 from topo_verify.proofs.first_order.terms import Term
+from topo_verify.proofs.first_order.theorems import INDUCTIVE
 from topo_verify.proofs.theorem import Budget, Theorem
 from topo_verify.robot.simulator import SimulatedRobot
 
 BUDGET = Budget(timeout=60)
-EVERY = (*theorems.RULE_MUTANTS, PLANAR_SCENE)
+EVERY = (*refuted.RULE_MUTANTS, PLANAR_SCENE)
 
 
 def require_refuted(one: Theorem, budget: Budget) -> None:
@@ -32,20 +33,20 @@ def require_refuted(one: Theorem, budget: Budget) -> None:
         robot.move(door)  # raises if there is no such door
 
 
-@pytest.mark.parametrize("one", [*theorems.FAULTY_RULES, theorems.PLANAR], ids=lambda one: one.name)
+@pytest.mark.parametrize("one", [*refuted.FAULTY_RULES, refuted.PLANAR], ids=lambda one: one.name)
 def test_it_is_refuted_in_a_world_and_replayed(one: Theorem) -> None:
     require_refuted(one, BUDGET)
 
 
 def test_the_planar_prior_is_wrong_on_the_torus_of_two_edges() -> None:
-    outcome = theorems.PLANAR.prove(BUDGET)
-    assert theorems.PLANAR.kind == "negative"
+    outcome = refuted.PLANAR.prove(BUDGET)
+    assert refuted.PLANAR.kind == "negative"
     assert World.from_id(outcome.counterexample or "").genus == 1
 
 
 def test_mutants_change_rules_that_are_proved() -> None:
-    proved = {one.name for one in theorems.INDUCTIVE}
-    assert {mutant.of for mutant in theorems.RULE_MUTANTS} <= proved
+    proved = {one.name for one in INDUCTIVE}
+    assert {mutant.of for mutant in refuted.RULE_MUTANTS} <= proved
     assert len({mutant.name for mutant in EVERY}) == len(EVERY)
 
 
@@ -65,20 +66,20 @@ def never(_stage: SceneReplay, _rule: Term) -> bool:
 
 
 def test_what_does_not_replay_is_reported_as_our_bug() -> None:
-    harmless = replace(theorems.RULE_MUTANTS[0], plays=never)
+    harmless = replace(refuted.RULE_MUTANTS[0], plays=never)
     with pytest.raises(InternalError, match=r"does not replay: the doors .* in world m2/"):
-        theorems.rule_mutant(harmless).prove(BUDGET)
+        refuted.rule_mutant(harmless).prove(BUDGET)
 
 
 def test_a_mutant_without_a_scene_is_not_refuted() -> None:
-    one = theorems.rule_mutant(replace(theorems.RULE_MUTANTS[0], size=(1, 1)))
+    one = refuted.rule_mutant(replace(refuted.RULE_MUTANTS[0], size=(1, 1)))
     outcome = one.prove(BUDGET)
     assert outcome.verdict == "EXHAUSTED"
     assert one.status(outcome) == "failed"
 
 
 def test_a_stage_draws_the_map_of_the_scene() -> None:
-    mutant = next(one for one in theorems.RULE_MUTANTS if one.name == "records-stale-root")
+    mutant = next(one for one in refuted.RULE_MUTANTS if one.name == "records-stale-root")
     edges, known = mutant.size
     scene, answer, _ = scenes.find(mutant.scene, BUDGET, edges=edges, known=known)
     assert (answer, scene is not None) == ("sat", True)

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.helpers import any_world, path, worlds
+from tests.proofs.first_order.conformance import binary, nullary, unary
 from topo_verify import World
 from topo_verify.proofs.first_order import theory as t
-from topo_verify.proofs.first_order.conformance import binary, nullary, unary
 from topo_verify.proofs.first_order.obligations import Obligation
 from topo_verify.proofs.first_order.terms import Function, Structure, implies, neg, symbols
 from topo_verify.proofs.first_order.theorems import OBLIGATIONS

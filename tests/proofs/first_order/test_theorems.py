@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from tests.proofs.first_order.refuted import AXIOM_MUTANTS
 from topo_verify.checkers import CLAIMS
 from topo_verify.proofs.first_order import finite_models, theorems
 from topo_verify.proofs.first_order.obligations import A, B, Obligation, X
@@ -29,7 +30,7 @@ def test_it_is_proved_and_its_premises_can_hold(one: Theorem) -> None:
     assert one.ok(outcome)
 
 
-@pytest.mark.parametrize("one", theorems.AXIOM_MUTANTS, ids=lambda one: one.name)
+@pytest.mark.parametrize("one", AXIOM_MUTANTS, ids=lambda one: one.name)
 def test_its_mutant_is_refuted_by_a_structure(one: Theorem) -> None:
     outcome = one.prove(BUDGET)
     assert outcome.verdict == "REFUTED", outcome.note

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.proofs.bounded.mutants import MUTANTS, NEGATIVES
 from topo_verify.errors import InputError
-from topo_verify.proofs.bounded.mutants import MUTANTS, NEGATIVES
 from topo_verify.proofs.bounded.theorems import bounded
 from topo_verify.proofs.first_order.theorems import INDUCTIVE
 from topo_verify.proofs.solvers.cvc5_solver import ask, export

@@ -1,23 +1,19 @@
 """Counterexamples: decode an assignment, and repeat it in the simulator without a solver.
 
 The simulated robot draws the map edge by edge, crosses e and takes the doors; the checkers judge.
-
-    false confirmation   all percepts are as expected; confirming h must fail `no-false-confirm`
-    false rejection      the faulty rule, written a second time as code on the map, finds an
-                         unexpected percept; rejecting h must fail `true-hypothesis-kept`
+All percepts are as expected; confirming h must fail `no-false-confirm`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 from topo_verify.algorithms.chart import Chart
-from topo_verify.algorithms.motion import Pilot, common_prefix
+from topo_verify.algorithms.motion import Pilot
 from topo_verify.checkers import check
 from topo_verify.errors import InternalError
 from topo_verify.proofs.bounded.cnf import Assignment, CnfRow
-from topo_verify.proofs.bounded.encoding import EncodedMap, MarkerDetail, RuleFault, Worlds
+from topo_verify.proofs.bounded.encoding import EncodedMap, MarkerDetail, Worlds
 from topo_verify.proofs.bounded.statements import EncodedCounterexample
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Door, Percept
@@ -120,10 +116,6 @@ def _edges(
     return frozenset(edge for edge in world.edges if model.holds(chart.explored[edge[0]]))
 
 
-PerceptPairs = Iterator[tuple[int, Percept, Percept]]
-"""(step, expected percept, compared percept)."""
-
-
 class Disagreement(InternalError):
     """A solver's model does not replay in the simulator: a bug of ours, please report it."""
 
@@ -148,10 +140,11 @@ def replay_confirmation(
     Raises:
         Disagreement: the confirmation does not happen.
     """
-    run = _Replayer(example)
+    run = Replayer(example)
+    run.draw(example.explored)
     run.cross(example.e, marker)
     run.out(example.word)
-    way = _way(run.chart, example.h, example.word)
+    way = way_of(run.chart, example.h, example.word)
     vertices = [run.chart.vertex[at] for at in way]
     expected = [run.chart.percepts[at] for at in way]
     since = 0 if whole else -1
@@ -163,84 +156,10 @@ def replay_confirmation(
     return run.judge(ev.Confirm(example.e, example.h, "motion"), "no-false-confirm")
 
 
-def replay_rejection(
-    example: BoundedCounterexample, rule: str, fault: RuleFault
-) -> ReplayedCounterexample:
-    """Replay a false rejection by `trace`, `prefix`, `history` or `records`; raises as above."""
-    run = _Replayer(example, fault)
-    run.cross(example.e)
-    if example.turned is not None:
-        run.excursion((example.turned,))
-    run.out(example.word)
-    for step, expected, observed in _compared(run, example, rule, fault):
-        if expected != observed:
-            evidence = ev.Evidence(step, expected, observed)
-            return run.judge(
-                ev.Reject(example.e, example.h, "motion", evidence),
-                "true-hypothesis-kept",
-            )
-    raise Disagreement(f"{example}: the rule {rule} with the fault {fault!r} rejects nothing")
-
-
-def _compared(
-    run: _Replayer, example: BoundedCounterexample, rule: str, fault: RuleFault
-) -> PerceptPairs:
-    if rule == "records":
-        return _records(run, example)
-    if rule == "prefix":
-        return _prefix(run, example, fault)
-    way = _traced(run.chart, example.h, example.word, fault) if rule == "history" else None
-    return _along(run, way or _way(run.chart, example.h, example.word), fault)
-
-
-def _along(run: _Replayer, way: list[ev.MapDart], fault: RuleFault) -> PerceptPairs:
-    later = int(fault == "shifted")
-    for step, (at, observed) in enumerate(zip(way, run.pilot.percepts[later:], strict=False)):
-        yield step, run.chart.percepts[at], observed
-
-
-def _prefix(run: _Replayer, example: BoundedCounterexample, fault: RuleFault) -> PerceptPairs:
-    way = _way(run.chart, example.h, example.own)
-    shared = common_prefix(example.own, example.word) + int(fault == "one-more")
-    for step in range(1, min(shared, len(example.own), len(example.word)) + 1):
-        yield step, run.chart.percepts[way[step]], run.pilot.percepts[step]
-
-
-def _records(run: _Replayer, example: BoundedCounterexample) -> PerceptPairs:
-    """The records behind the dart where tracing ends, as deep as the doors agree."""
-    assert example.earlier is not None
-    # One entry for vu and one for each door on S: door `step` leaves S.
-    step = len(_traced(run.chart, example.h, example.word))
-    if run.recorded is None or step > len(example.word):
-        return
-    crossed = _traced(run.chart, example.h, example.word)[-1]
-    d, place = run.recorded
-    if run.chart.turn(crossed, example.word[step - 1]) != d:
-        return
-    written = example.earlier.word[place + 1 :]
-    deep = 1 + common_prefix(written, example.word[step:])
-    for level in range(deep if example.levels is None else min(deep, example.levels)):
-        yield step + level, run.recorded_percepts[place + level], run.pilot.percepts[step + level]
-
-
-def _way(chart: Chart, at: ev.MapDart, word: DoorWord) -> list[ev.MapDart]:
+def way_of(chart: Chart, at: ev.MapDart, word: DoorWord) -> list[ev.MapDart]:
     way = [at]
     for door in word:
         way.append(chart.across(chart.turn(way[-1], door)))
-    return way
-
-
-def _traced(
-    chart: Chart, at: ev.MapDart, word: DoorWord, fault: RuleFault = ""
-) -> list[ev.MapDart]:
-    way = [at]
-    for door in word:
-        here = chart.first[chart.vertex[way[-1]]] if fault == "absolute-doors" else way[-1]
-        leave = chart.turn(here, door)
-        arrive = chart.alpha[leave]
-        if arrive is None and fault != "through-unexplored":
-            break
-        way.append(leave if arrive is None else arrive)
     return way
 
 
@@ -254,18 +173,15 @@ def _seen(percept: Percept, marker: MarkerDetail) -> object:
             return percept.degree
 
 
-class _Replayer:
-    def __init__(self, example: BoundedCounterexample, fault: RuleFault = "") -> None:
+class Replayer:
+    """A robot in the counterexample's world, and the map that it draws; then it crosses e."""
+
+    def __init__(self, example: BoundedCounterexample) -> None:
         self.world = example.world
         self.robot = SimulatedRobot(example.world, 10_000)
         self.chart = Chart(self.robot.percept)
         self.pilot = Pilot(self.robot)
         self.at: ev.MapDart = 0
-        self.recorded: tuple[ev.MapDart, int] | None = None
-        self.recorded_percepts: tuple[Percept, ...] = ()
-        if example.earlier is not None:
-            self._learn(example.earlier, fault)
-        self._draw(example.explored)
 
     def cross(self, e: ev.MapDart, marker: MarkerDetail = "undirected") -> None:
         del self.chart.unexplored[e]
@@ -280,12 +196,6 @@ class _Replayer:
         for door in word:
             self.pilot.forward(door)
 
-    def excursion(self, word: DoorWord) -> None:
-        """Go out and back, and forget that the reference dart is turned."""
-        self.out(word)
-        self.pilot.back(0)
-        self.pilot.turned = 0
-
     def judge(self, decision: ev.Decision, claim: str) -> ReplayedCounterexample:
         self.robot.declare(decision)
         trace = (ev.Start(percept=first_percept(self.world)), *self.robot.events)
@@ -296,15 +206,15 @@ class _Replayer:
         moves = tuple(move.door for move in trace if isinstance(move, ev.Move))
         return ReplayedCounterexample(self.world, moves, event, claim)
 
-    def _draw(self, explored: frozenset[tuple[ev.MapDart, ev.MapDart]]) -> None:
+    def draw(self, explored: frozenset[tuple[ev.MapDart, ev.MapDart]]) -> None:
         # First the edges that find vertices, to keep their numbers.
         firsts = {rotation[0] for rotation in self.world.vertices[1:]}
         for e, end in sorted(explored, key=lambda edge: (edge[1] not in firsts, edge[1])):
             if self.chart.alpha[e] is None:
                 self.cross(e)
-                self._augment(e, end)
+                self.augment(e, end)
 
-    def _augment(self, e: ev.MapDart, end: ev.MapDart) -> None:
+    def augment(self, e: ev.MapDart, end: ev.MapDart) -> None:
         self.pilot.back(0)
         percept = self.robot.percept
         new = end >= len(self.chart.alpha)
@@ -313,17 +223,3 @@ class _Replayer:
         self.chart.join(e, end)
         self.robot.declare(ev.Augment(e, "new" if new else "loop", end, percept.degree))
         self.at = self.chart.turn(end, self.pilot.turned)
-
-    def _learn(self, behind: EarlierExcursion, fault: RuleFault) -> None:
-        self._draw(behind.explored)
-        self.cross(behind.e)
-        self.out(behind.word)
-        self.recorded_percepts = tuple(self.pilot.percepts[1:])
-        entry = self.world.alpha[behind.e]
-        self._augment(behind.e, entry)
-        vertex = self.chart.vertex[entry]
-        way = _traced(
-            self.chart, self.chart.first[vertex] if fault == "first-dart" else entry, behind.word
-        )
-        if len(way) <= len(behind.word):
-            self.recorded = self.chart.turn(way[-1], behind.word[len(way) - 1]), len(way) - 1

@@ -2,7 +2,8 @@
 
     one-door   one door at any place, m = 1 … 6
     words      whole words of up to m doors, m = 1 … 3; with --deep m = 4, where feasible
-    below      no false confirmation without the marker's direction, below the sizes of `mutants.py`
+    below      without the marker's direction, no false confirmation below certain sizes
+               (`confirmations.py`)
     worlds     the worlds of the encoding are the canonical codes, each once
 
 "Every world" is checked: with S = v0 the models are compared with the codes of `world.enumeration`:
@@ -18,7 +19,7 @@ from itertools import accumulate
 from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError
 from topo_verify.proofs import theorem as th
-from topo_verify.proofs.bounded import drup, mutants
+from topo_verify.proofs.bounded import confirmations, drup
 from topo_verify.proofs.bounded.cnf import REFUTED, Formula, SatResult, SolverGaveUp, models, solve
 from topo_verify.proofs.bounded.encoding import Worlds
 from topo_verify.proofs.bounded.replay import decode_table, decode_world
@@ -123,7 +124,7 @@ def bounded(edges: int = MOST_EDGES) -> tuple[th.Theorem, ...]:
             for statement in WHOLE_WORD_STATEMENTS
             if not statement.name.startswith("words-records")
         ),
-        *(_below(negative) for negative in mutants.SMALLEST),
+        *(_below(negative) for negative in confirmations.SMALLEST),
         worlds_theorem("bounded-worlds", range(1, 5)),
         worlds_theorem("bounded-worlds-deep", range(1, 6), deep=True),
     )
@@ -151,11 +152,11 @@ def theorem(
     )
 
 
-def _below(negative: mutants.Negative) -> th.Theorem:
+def _below(negative: confirmations.Negative) -> th.Theorem:
 
     def refuted(edges: int) -> Worlds:
         kind, marker = negative.world_class, negative.marker
-        return mutants.false_confirmation(edges, kind, marker).world
+        return confirmations.false_confirmation(edges, kind, marker).world
 
     statement = BoundedStatement(
         name=f"{negative.name}-below",
@@ -163,7 +164,7 @@ def _below(negative: mutants.Negative) -> th.Theorem:
         words=f"{negative.statement} With fewer edges there is no such world.",
         symbols="every percept on a shortest way home as expected ⇒ h = alpha(e)",
         refuted=refuted,
-        premises=partial(mutants.premises, world_class=negative.world_class),
+        premises=partial(confirmations.premises, world_class=negative.world_class),
         world_class=negative.world_class,
     )
     return theorem(statement, range(1, negative.edges))

@@ -3,9 +3,6 @@
 terms.py            formulas
 theory.py           worlds, the map S, their correspondence, and the rules
 obligations/        the statements, by theme
-mutants/            rules with one mistake, by the same themes
-theorems.py         obligations and mutants as theorems
+theorems.py         obligations as theorems, with all premises or without one
 finite_models.py    models over tiny domains
-scenes.py           exact worlds in which a faulty rule fails
-conformance.py      compares the rules' formulas with real runs
 """

@@ -4,7 +4,8 @@
 and compares the number with the sum of completions F, a recurrence in the number of edges, and
 Tutte's number of planar worlds.
 
-**proofs.** The inductive theorems, the negatives and the mutants, about the rules of the catalogue.
+**proofs.** The inductive theorems, about the rules of the catalogue; and two controls, false
+statements that must be refuted.
 """
 
 from __future__ import annotations
@@ -214,14 +215,16 @@ class Proofs:
             sum(replay[0] for replay in replays),
             sum(replay[1] for replay in replays),
         )
-        forms = {
-            "inductive": "{} of {} theorems proved for any size",
-            "bounded": "{} of {} exhausted",
-            "negative": "{} of {} negatives refuted",
-            "mutant": "{} of {} mutants refuted",
+        forms: dict[str, tuple[str, ...]] = {
+            "theorems proved for any size": ("inductive",),
+            "controls refuted": ("negative", "mutant"),
         }
-        words = [form.format(ok[kind], n) for kind, form in forms.items() if (n := all_of[kind])]
-        words += [f"{confirmed} of {models} models replayed"] if models else []
+        words = [
+            f"{sum(ok[kind] for kind in kinds)} of {number} {form}"
+            for form, kinds in forms.items()
+            if (number := sum(all_of[kind] for kind in kinds))
+        ]
+        words += [f"{confirmed} of {plural(models, 'model')} replayed"] if models else []
         undecided = [t.name for t, outcome in self.done if t.status(outcome) == "open"]
         if undecided:
             words.append(f"not decided: {', '.join(undecided[:3])}")

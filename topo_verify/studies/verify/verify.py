@@ -4,7 +4,7 @@
 | --- | --- | --- |
 | `counts` | the numbers of worlds of 1 to 6 edges equal those of formulas | 1 to 5 |
 | `small-worlds` | every world of 1 to 5 edges, with numba to 6 | 1 to 3 |
-| `proofs` | theorems on worlds of any size; negatives and mutants | the first |
+| `proofs` | theorems on worlds of any size; two controls that must be refuted | the first |
 | `sampled-worlds` | 200 worlds of 6 to 30 edges, drawn uniformly among those of a size | 40 |
 | `generated-worlds` | 160 worlds, 20 of each strategy | 40 |
 | `street-network` | a real street network, and the cost of each mapper there | the same |

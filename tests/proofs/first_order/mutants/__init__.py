@@ -12,9 +12,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from tests.proofs.first_order.scenes import SceneReplay
 from topo_verify.proofs.first_order import theory as t
 from topo_verify.proofs.first_order.obligations import *
-from topo_verify.proofs.first_order.scenes import SceneReplay
 from topo_verify.proofs.first_order.terms import *
 
 # What the modules of this folder import whole.

@@ -1,13 +1,16 @@
-"""Theorems that a world must refute: negatives, and rules with one mistake (`RuleFault`).
+"""False confirmations: negatives, the false claims that a world must refute.
 
-**Negatives.** Behind e a mapper walks a shortest way on S from hypothesis h to v0, and compares
-only the marker's presence (`undirected`), or nothing of it (`none`). In some world every percept is
-as expected although h is false. The smallest such worlds have this many edges, for any policy:
+Behind e a mapper walks a shortest way on S from hypothesis h to v0, and compares only the marker's
+presence (`undirected`), or nothing of it (`none`). In some world every percept is as expected
+although h is false. The smallest such worlds have this many edges, for any policy:
 
     class       undirected   none
     any         2            2
     loopless    3            2
     simple      4            3
+
+One negative is a control in the catalogue; tests refute all. With fewer edges there is no such
+world (`theorems.py`).
 
 Depths on S are one-hot: depth[x][t] says that the vertex of x is t edges from v0, down[x] that x
 leads one nearer to v0.
@@ -19,9 +22,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
-from topo_verify.errors import plural
 from topo_verify.proofs.bounded import encoding as enc
-from topo_verify.proofs.bounded import statements
 from topo_verify.proofs.bounded.cnf import REFUTED, CnfRow, Formula, first_model
 from topo_verify.proofs.bounded.replay import (
     BoundedCounterexample,
@@ -29,7 +30,6 @@ from topo_verify.proofs.bounded.replay import (
     decode,
     decoded_booleans,
     replay_confirmation,
-    replay_rejection,
 )
 from topo_verify.proofs.bounded.statements import EncodedCounterexample
 from topo_verify.proofs.solvers.z3_solver import z3_result
@@ -142,15 +142,7 @@ def _one_nearer(
                 world.imply("shortest", premise, depth[y][t - 1])
 
 
-@dataclass(frozen=True, slots=True)
-class _FaultyRule:
-    rule: str
-    fault: enc.RuleFault | enc.MarkerDetail
-    edges: int
-    mistake: str
-
-
-def _negative(case: Negative) -> Theorem:
+def negative(case: Negative) -> Theorem:
     build = partial(false_confirmation, case.edges, case.world_class, case.marker)
     return Theorem(
         name=case.name,
@@ -160,76 +152,13 @@ def _negative(case: Negative) -> Theorem:
         symbols="every percept on a shortest way home as expected ∧ h ≠ alpha(e)",
         solver_part=f"finds a world with {case.edges} edges, a map and a hypothesis",
         expected="REFUTED",
-        prove=timed(partial(_refute, build, partial(replay_confirmation, marker=case.marker))),
-        queries=one_query(case.name, partial(_script, build), "sat"),
+        prove=timed(partial(refute, build, partial(replay_confirmation, marker=case.marker))),
+        queries=one_query(case.name, partial(script, build), "sat"),
         edges=case.edges,
     )
 
 
-_RULES: dict[str, Callable[..., EncodedCounterexample]] = {
-    "confirm": statements.confirm,
-    "trace": statements.trace_way,
-    "prefix": statements.prefix,
-    "history": statements.history,
-    "records-one": partial(statements.records, levels=1),
-    "records-all": partial(statements.records, levels=None),
-}
-
-_LATER = "each percept is compared with the one behind the next door"
-_FIRST_DART = "sequences are traced again from the vertex's first dart"
-
-_FAULTY_RULES = (
-    _FaultyRule(
-        "confirm", "undirected", 2, "the last percept is compared without the marker's direction"
-    ),
-    _FaultyRule("confirm", "none", 2, "the last percept is compared without the marker"),
-    _FaultyRule(
-        "trace", "turned", 2, "after an excursion it is forgotten that the reference dart is turned"
-    ),
-    _FaultyRule("trace", "shifted", 2, _LATER),
-    _FaultyRule("prefix", "one-more", 2, "the door behind the common prefix is compared too"),
-    _FaultyRule(
-        "history",
-        "through-unexplored",
-        1,
-        "an unexplored dart is traced as if it led back to itself",
-    ),
-    _FaultyRule("history", "absolute-doors", 2, "doors are counted from the vertex's first dart"),
-    _FaultyRule("history", "shifted", 2, _LATER),
-    _FaultyRule("records-one", "first-dart", 2, _FIRST_DART),
-    _FaultyRule("records-all", "first-dart", 2, _FIRST_DART),
-)
-
-
-def _mutant(case: _FaultyRule) -> Theorem:
-    confirms = case.rule == "confirm"
-    name = f"words-{case.rule}-{case.fault}"
-    mistake = {"marker" if confirms else "fault": case.fault}
-    build = partial(_RULES[case.rule], case.edges, case.edges, **mistake)
-    return Theorem(
-        name=name,
-        kind="mutant",
-        claims=("no-false-confirm" if confirms else "true-hypothesis-kept",),
-        words=f"Rule {case.rule} with a fault goes wrong: {case.mistake}.",
-        symbols="h ≠ alpha(e) is confirmed" if confirms else "h = alpha(e) is rejected",
-        solver_part=f"finds a world with {plural(case.edges, 'edge')}, a map and doors",
-        expected="REFUTED",
-        prove=timed(partial(_refute, build, _replay_of(case))),
-        queries=one_query(name, partial(_script, build), "sat"),
-        edges=case.edges,
-        of=f"words-{case.rule}",
-    )
-
-
-def _replay_of(case: _FaultyRule) -> Callable[[BoundedCounterexample], ReplayedCounterexample]:
-    match case.fault:
-        case "directed" | "undirected" | "none" as marker:
-            return partial(replay_confirmation, marker=marker, whole=False)
-        case fault:
-            return partial(replay_rejection, rule=case.rule.split("-")[0], fault=fault)
-
-
-def _refute(
+def refute(
     build: Callable[[], EncodedCounterexample],
     replay: Callable[[BoundedCounterexample], ReplayedCounterexample],
     budget: Budget,
@@ -253,12 +182,9 @@ def _refute(
     )
 
 
-def _script(build: Callable[[], EncodedCounterexample]) -> str:
+def script(build: Callable[[], EncodedCounterexample]) -> str:
     return build().world.smt2() + "(check-sat)\n"
 
 
-NEGATIVES: tuple[Theorem, ...] = tuple(map(_negative, SMALLEST))
-"""Each negative as a theorem about its smallest size."""
-
-MUTANTS: tuple[Theorem, ...] = tuple(map(_mutant, _FAULTY_RULES))
-"""Each faulty rule as a theorem about the smallest worlds in which it fails."""
+CONTROL: Theorem = negative(SMALLEST[0])
+"""An undirected marker is not enough: refuted in milliseconds, by a world that is replayed."""

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
+from tests.proofs.first_order.conformance import RecordTrie, structure
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.motion import Hypothesis, Pilot
 from topo_verify.errors import InternalError
 from topo_verify.proofs.first_order import finite_models, terms
 from topo_verify.proofs.first_order import theory as t
-from topo_verify.proofs.first_order.conformance import RecordTrie, structure
 from topo_verify.proofs.first_order.finite_models import element
 from topo_verify.proofs.theorem import Budget, SolverAnswer
 from topo_verify.robot.events import MapDart, Move

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from tests.proofs.first_order.conformance import DescribedRule, structure
+from tests.proofs.first_order.mutants import *
+from tests.proofs.first_order.scenes import SceneReplay, mfirst
 from topo_verify.proofs.first_order import theory as t
-from topo_verify.proofs.first_order.conformance import DescribedRule, structure
-from topo_verify.proofs.first_order.mutants import *
 from topo_verify.proofs.first_order.obligations import *
-from topo_verify.proofs.first_order.scenes import SceneReplay, mfirst
 from topo_verify.proofs.first_order.terms import *
 from topo_verify.robot.percept import Percept
 
