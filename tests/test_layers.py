@@ -91,7 +91,6 @@ LOADED_LATE = {
     "topo_verify.world.drawing": {"numpy", "networkx", "scipy"},
     "topo_verify.compiled.native_call": {"numba", "llvmlite"},
     "topo_verify.player.animation": set[str](),
-    "topo_verify.studies.search.states.best": {"numpy"},
 }
 """Parts of a room that the rest of the house imports late: what they may load in their turn.
 

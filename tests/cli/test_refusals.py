@@ -52,7 +52,7 @@ REFUSED = [
     ("search basic --class simple,genus:1 --edges 9", "no formula counts a genus and a property"),
     ("search basic,folding --ledger L", "--ledger L: expected one TARGET, got 2"),
     ("search basic --ledger mappers.py", "it is no store of topo-verify: name"),
-    ("search basic --policies every --edges 7", "for basic it goes to 6 edges"),
+    ("search basic --policies every --edges 5", "python -m research.every"),
     ("search mappers.py:silent --policies all", "has no policies"),
     ("search basic --workers -1", "invalid value for '--workers'"),
     ("conform", "name a TARGET, a program"),

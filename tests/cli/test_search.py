@@ -167,17 +167,3 @@ def test_every_choice_shows_the_range_of_the_costs(results: Results, call: Call)
     assert "No policy of pick and order saves more than 4.0% of what" in shown
     (entry,) = results("search basic --edges 1 --workers 0")["results"]
     assert entry["by_edges"][0]["every"] is entry["decided_by"] is None
-
-
-def test_what_a_model_decides_is_sampled_of_the_mapper(results: Results, call: Call) -> None:
-    pytest.importorskip("numba")
-    line = "search basic --class max-degree:2 --edges 5 --workers 0 --policies every"
-    envelope = results(line)
-    (entry,) = envelope["results"]
-    assert (entry["verdict"], entry["checked"], envelope["exit"]) == ("SAMPLED", entry["total"], 0)
-    assert entry["decided_by"] == "model"
-    deciders = [size["every"]["decided_by"] for size in entry["by_edges"]]
-    assert deciders == ["mapper"] * 4 + ["model"]
-    shown = " ".join(call(line).stdout.split())
-    assert "SAMPLED: 20 of 20 worlds checked, no claim failed; the worlds of 5 edges are" in shown
-    assert "EXHAUSTED" not in shown

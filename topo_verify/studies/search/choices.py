@@ -64,7 +64,7 @@ def require_choices(targets: Iterable[Target], choices: Choices, edges: int) -> 
                 " catalogue; leave it out"
             )
         if choices == "every":
-            require_edges(target.text, target.mapper, edges)
+            require_edges(target.text, edges)
 
 
 def reports_of(campaign: Campaign, target: Target, world: World) -> Iterator[Report]:

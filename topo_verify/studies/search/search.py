@@ -27,7 +27,7 @@ from topo_verify.programs.program import Program
 from topo_verify.robot.limits import Limits, given_limits
 from topo_verify.studies.search.again import CLAIM, Repetition, RunAgain
 from topo_verify.studies.search.choices import SHARD, WAYS, Choices, require_choices
-from topo_verify.studies.search.states.every import Decider, decided_by, judged_by
+from topo_verify.studies.search.states.every import BY_EVERY_CLAIM, Decider
 from topo_verify.world.enumeration.classes import WorldClass
 
 JUDGED_BY = (
@@ -98,7 +98,7 @@ class EveryCost(PolicyCosts, frozen=True, kw_only=True):
     """With --policies every: what any policy of pick and order can cost.
 
     Attributes:
-        decided_by: who made the judged choices: the `mapper`, or a `model` of it.
+        decided_by: who made the judged choices: the `mapper`.
         judged_by: what judged them.
     """
 
@@ -147,8 +147,7 @@ class SearchEntry(msgspec.Struct, frozen=True, rename={"kind": "class"}):
         undecided: the first of the other worlds that are not decided.
         run_again: the worlds that were run again, alone and in a row.
         engine: what ran and judged; judged_by: the same in words.
-        decided_by: with --policies every, who decided the largest worlds: the `mapper`, or a
-            `model` of it; else null.
+        decided_by: with --policies every, who made the choices: the `mapper`; else null.
         by_checkers: number of worlds in which the checkers judged.
     """
 
@@ -433,7 +432,7 @@ class Search:
             ),
             run_again=self.again,
             engine=campaign.engine,
-            decided_by=self._decided_by,
+            decided_by="mapper" if self.choices == "every" else None,
             judged_by=JUDGED_BY if compiled else self._judged_by,
             by_checkers=tally.by_checkers if compiled else tally.worlds,
         )
@@ -443,7 +442,7 @@ class Search:
             return "REFUTED"
         if not whole or self.tally.lost or (self._repeats and not self._is_repeated):
             return "UNKNOWN"
-        return "SAMPLED" if self._decided_by == "model" else "EXHAUSTED"
+        return "EXHAUSTED"
 
     @property
     def _is_repeated(self) -> bool:
@@ -466,11 +465,7 @@ class Search:
 
     @property
     def _judged_by(self) -> str:
-        return judged_by(self.worlds.edges) if self.choices == "every" else "the checkers"
-
-    @property
-    def _decided_by(self) -> Decider | None:
-        return decided_by(self.worlds.edges) if self.choices == "every" else None
+        return BY_EVERY_CLAIM if self.choices == "every" else "the checkers"
 
     def _size(self, edges: int, *, compare: bool) -> ByEdges:
         tally, mapper = self.tallies[edges], self.campaign.mappers[0]
@@ -489,9 +484,7 @@ class Search:
             attained=costs.attained,
             worst=tuple(worst)[:KEPT_WORST],
             compare=self._compared(tally, mine) if compare else None,
-            every=EveryCost(
-                *astuple(tally.choices), decided_by=decided_by(edges), judged_by=judged_by(edges)
-            )
+            every=EveryCost(*astuple(tally.choices), decided_by="mapper", judged_by=BY_EVERY_CLAIM)
             if self.choices == "every"
             else None,
         )

@@ -1,5 +1,7 @@
 """Every choice that a policy can make, searched as a model checker does: over states.
 
-graph.py is the reference and runs the mapper; kernel.py is a faster, compiled model for rules
-without memory. Tests compare them.
+script.py   makes the choices of one run
+memory.py   what a mapper and its judge remember: a state
+graph.py    the states of a world, and runs of the mapper on which each choice lies
+every.py    all choices in one world
 """

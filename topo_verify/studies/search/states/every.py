@@ -1,11 +1,6 @@
 """Searches every choice in one world: the runs, and the range of their costs.
 
-Up to 4 edges the mapper decides: each choice lies on a run of it that is judged by every claim
-(`graph.py`). In worlds of 5 and 6 edges a model decides (`kernel.py`), which judges claims 3 and
-4 in each state; only the cheapest and the most expensive run are the mapper's, so such a search
-is SAMPLED. It is a bug of ours if these two cost something else, or if no run of the mapper
-confirms a fault that the model finds.
-
+The mapper decides: each choice lies on a run of it that is judged by every claim (`graph.py`).
 Named policies run, too: the script replaces their code.
 """
 
@@ -23,19 +18,18 @@ from topo_verify.campaign.attempt import Attempt
 from topo_verify.campaign.judge import Report, world_argument
 from topo_verify.campaign.row import MostSaved, PolicyCosts
 from topo_verify.campaign.run import Exploration
-from topo_verify.errors import InputError, InternalError
+from topo_verify.errors import InputError
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.search.states import script as sc
-from topo_verify.studies.search.states import table
 from topo_verify.studies.search.states.graph import StateGraph
 from topo_verify.world.rooted_map import World
 
-Decider = Literal["mapper", "model"]
+Decider = Literal["mapper"]
 
-MOST_BY_MAPPER = 4
+BY_EVERY_CLAIM = "every claim, on a run for each choice"
 
-MOST_BY_MODEL = 6
+MOST_EDGES = 4
 
 Run = Callable[[Target], Attempt]
 """Runs a mapper in the world at hand and judges it."""
@@ -53,30 +47,14 @@ class CostRange(NamedTuple):
     dearest: int
 
 
-def decided_by(edges: int) -> Decider:
-    """Who decides the worlds with this many edges."""
-    return "model" if edges > MOST_BY_MAPPER else "mapper"
-
-
-def require_edges(text: str, algorithm: Algorithm, edges: int) -> None:
+def require_edges(text: str, edges: int) -> None:
     """Raise an InputError unless every choice can be searched in such worlds."""
-    known = table.is_known(algorithm)
-    most = MOST_BY_MODEL if known else MOST_BY_MAPPER
-    if edges > most:
-        reason = "larger ones take days" if known else "its rule remembers what it saw"
+    if edges > MOST_EDGES:
         raise InputError(
-            f"--policies every, --edges {edges}: for {text} it goes to {most} edges ({reason}); ask"
-            f" for --edges {most}, or for --policies all"
+            f"--policies every, --edges {edges}: it goes to {MOST_EDGES} edges, where {text} itself"
+            f" makes each choice; ask for --edges {MOST_EDGES}, or for --policies all (beyond,"
+            " `python -m research.every` searches a model, in a checkout of the project)"
         )
-    if decided_by(edges) == "model":
-        table.require_kernel()
-
-
-def judged_by(edges: int) -> str:
-    """What judged the choices in such worlds, in words."""
-    if decided_by(edges) == "mapper":
-        return "every claim, on a run for each choice"
-    return "a model: claims 3 and 4 in each state; every claim on three runs of the mapper"
 
 
 def every_choice(
@@ -88,14 +66,10 @@ def every_choice(
     """Runs in a world; if a claim fails, first the one with the fewest choices before the failure.
 
     If none fails, the last run says what any choices can cost. `named` is the algorithm with
-    named policies, the reference first. InternalError: the model and the mapper differ.
+    named policies, the reference first.
     """
     algorithm = cast("Algorithm", target.mapper)
-    if decided_by(len(world.edges)) == "mapper":
-        costs, runs = _by_running(target.text, algorithm, world, run)
-    else:
-        costs, runs = _by_kernel(target.text, algorithm, world, run)
-        named = named[:1]
+    costs, runs = _by_running(target.text, algorithm, world, run)
     by_name = [run(variant) for variant in named]
     if costs is not None and all(attempt.report.ok for attempt in by_name):
         reference = by_name[0].run.cost
@@ -122,50 +96,7 @@ def _by_running(
     return (cost_range(graph) if shortest is None else None), runs
 
 
-def _by_kernel(
-    text: str, algorithm: Algorithm, world: World, run: Run
-) -> tuple[CostRange | None, list[Attempt]]:
-    model = table.found_in(world, algorithm)
-    if model.wrong:
-        costs, failing = _by_running(text, algorithm, world, run)
-        if costs is not None:
-            raise InternalError(
-                f"the model finds a claim false in {world_argument(world)}, and no run of the"
-                " mapper shows it"
-            )
-        return None, failing
-    runs: list[Attempt] = []
-    for order, cost in ((model.cheap, model.cheapest), (model.dear, model.dearest)):
-        chooser = RecordedChoices(table.Ordered(world, order))
-        tried = run(Target(text, sc.scripted(algorithm, chooser)))
-        if not tried.report.ok:  # here, by other choices than the model judged
-            return _by_running(text, algorithm, world, run)
-        if tried.run.cost != cost:
-            raise InternalError(
-                f"{text} in {world_argument(world)} costs {tried.run.cost} where the model says"
-                f" {cost}: --choices {sc.choices_text(chooser.choices)}"
-            )
-        runs.append(tried)
-    return CostRange(*model[1:5]), runs
-
-
 # ---------------------------------------------------------------- runs that can be had again
-
-
-class RecordedChoices:
-    """Makes the choices of another chooser and keeps their numbers and words."""
-
-    def __init__(self, chooser: sc.Chooser) -> None:
-        self._chooser = chooser
-        self.choices: list[int] = []
-        self.words: list[str] = []
-
-    def __call__(self, moment: sc.ChoicePoint) -> int:
-        """The other chooser's choice."""
-        number = self._chooser(moment)
-        self.choices.append(number)
-        self.words.append(f"{'e' if moment.e is None else 'h'} = {moment.ways[number]}")
-        return number
 
 
 def replayable(tried: Attempt, text: str, choices: tuple[int, ...]) -> Attempt:

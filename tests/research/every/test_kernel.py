@@ -12,23 +12,22 @@ from unittest.mock import Mock
 import msgspec
 import pytest
 
+from research.every import kernel, table
 from tests.helpers import worlds
 from tests.studies.search.states.test_graph import searched
 from topo_verify import CATALOGUE, World
 from topo_verify.algorithms.motion import Executed, Hypothesis, overlap
-from topo_verify.campaign.attempt import Attempt
-from topo_verify.campaign.judge import judge
 from topo_verify.campaign.run import explore
-from topo_verify.errors import InputError, InternalError
+from topo_verify.errors import InternalError
 from topo_verify.programs.loader import Target
 from topo_verify.robot.simulator import percepts
-from topo_verify.studies.search.states import every, graph, kernel, table
+from topo_verify.studies.search.states import every, graph
 from topo_verify.studies.search.states.memory import state
 from topo_verify.studies.search.states.script import ChoicePoint, ScriptedPolicies, scripted
 
 pytest.importorskip("numba")
 
-from topo_verify.studies.search.states import best
+from research.every import best
 
 KNOWN = [name for name, algorithm in CATALOGUE.items() if table.is_known(algorithm)]
 
@@ -142,68 +141,6 @@ def test_without_the_direction_of_the_marker_it_finds_false_confirmations() -> N
             found.append(world.id)
     assert "m2/5" in found
     assert not {"m1/0", "m1/1"} & {*found}
-
-
-# ---------------------------------------------------------------- what becomes of it in a search
-
-
-def runs_in(world: World, name: str = "basic") -> list[Attempt]:
-    """What a search does with a world."""
-
-    def run(target: Target) -> Attempt:
-        found = explore(world, target)
-        return Attempt(found, judge(found))
-
-    target = Target(name, CATALOGUE[name])
-    return list(every.every_choice(target, world, run, (target,)))
-
-
-LARGE = World.from_id("m5/402")
-"""A world that the kernel decides."""
-
-
-def test_a_larger_world_has_its_cheapest_its_dearest_and_its_reference_run_judged() -> None:
-    found = table.found_in(LARGE, CATALOGUE["basic"])
-    costs = [tried.run.cost for tried in runs_in(LARGE)]
-    assert costs == [found.cheapest, found.dearest, explore(LARGE, "basic").cost]
-
-
-def test_a_cost_that_the_mapper_does_not_have_is_a_bug_of_ours(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    found = table.found_in(LARGE, CATALOGUE["basic"])
-    wrong = found._replace(cheapest=found.cheapest - 1)
-    monkeypatch.setattr(table, "found_in", Mock(return_value=wrong))
-    with pytest.raises(InternalError, match="where the model says"):
-        runs_in(LARGE)
-
-
-def test_a_claim_that_only_the_kernel_finds_false_is_a_bug_of_ours(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    world = World.from_id("m2/9")
-    monkeypatch.setattr(every, "MOST_BY_MAPPER", 1)
-    wrong = table.found_in(world, CATALOGUE["basic"])._replace(wrong=1)
-    monkeypatch.setattr(table, "found_in", Mock(return_value=wrong))
-    with pytest.raises(InternalError, match="no run of the mapper shows it"):
-        runs_in(world)
-
-
-def test_larger_worlds_than_can_be_searched_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    with pytest.raises(InputError, match="for basic it goes to 6 edges"):
-        every.require_edges("basic", CATALOGUE["basic"], 7)
-    with pytest.raises(InputError, match="for folding it goes to 4 edges"):
-        every.require_edges("folding", CATALOGUE["folding"], 5)
-    every.require_edges("basic", CATALOGUE["basic"], 6)
-    monkeypatch.setattr(table, "find_spec", Mock(return_value=None))
-    every.require_edges("basic", CATALOGUE["basic"], 4)
-    with pytest.raises(InputError, match="the extra `fast`"):
-        every.require_edges("basic", CATALOGUE["basic"], 5)
-
-
-def test_it_is_said_what_judged_the_choices() -> None:
-    assert every.judged_by(4) == "every claim, on a run for each choice"
-    assert "a model: claims 3 and 4 in each state" in every.judged_by(5)
 
 
 # ---------------------------------------------------------------- mistakes in the kernel

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cache
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, NamedTuple
 
 from topo_verify.algorithms import Algorithm
@@ -12,7 +11,7 @@ from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.enhancement_i import PrefixRule
 from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.motion import overlap, retrace
-from topo_verify.errors import InputError, InternalError
+from topo_verify.errors import InternalError
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import exit_dart, percepts
 from topo_verify.studies.search.states.script import ChoicePoint
@@ -21,7 +20,7 @@ from topo_verify.world.rooted_map import Dart, World
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from topo_verify.studies.search.states.best import RunOrder, Tables
+    from research.every.best import RunOrder, Tables
 
 RULES: tuple[object, ...] = (NoRule, PrefixRule, HistoryRule)
 """In the order of the kernel's numbers."""
@@ -49,15 +48,6 @@ def is_known(algorithm: Algorithm) -> bool:
     return algorithm.rule in RULES and algorithm.motion in (overlap, retrace)
 
 
-def require_kernel() -> None:
-    """Raise an InputError unless numba is installed."""
-    if find_spec("numba") is None:
-        raise InputError(
-            "--policies every beyond 4 edges needs numba, which is not installed: install"
-            " topo-verify with the extra `fast`, or ask for --edges 4"
-        )
-
-
 def found_in(
     world: World, algorithm: Algorithm, shown: Sequence[Percept] | None = None
 ) -> KernelFound:
@@ -75,7 +65,7 @@ def found_in(
         table[3, vertex], table[4, vertex] = rotation[0], len(rotation)
     tables.search(size, RULES.index(algorithm.rule), overlap=algorithm.motion is overlap)
     wrong, states, choices, least, most = map(int, tables.found[:5])
-    from topo_verify.studies.search.states.kernel import FULL
+    from research.every.kernel import FULL
 
     if wrong == FULL:
         raise InternalError(f"{world.text} has too many states for the kernel")
@@ -85,7 +75,7 @@ def found_in(
 
 @cache
 def _tables() -> Tables:
-    from topo_verify.studies.search.states.best import Tables
+    from research.every.best import Tables
 
     return Tables()
 
