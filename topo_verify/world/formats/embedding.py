@@ -15,9 +15,9 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
-from functools import cmp_to_key
+from functools import cache, cmp_to_key
 from itertools import pairwise
-from math import dist
+from math import dist, inf
 from typing import NamedTuple, TypeVar
 
 from topo_verify.errors import InputError, plural, shown
@@ -171,16 +171,37 @@ def _merged(
     ways: Sequence[DrawnEdge], courses: Sequence[tuple[Point, ...]]
 ) -> tuple[list[int], dict[int, int]]:
     """The ways that stay, and by each other way the one that it repeats."""
+
+    @cache
+    def precision(n: int) -> tuple[float, float]:
+        return _rounding(courses[n]), _bend(courses[n])
+
+    def have_one_name(n: int, back: int) -> bool:
+        return bool(ways[n].street) and ways[n].street == ways[back].street
+
+    def have_one_course(n: int, back: int) -> bool:
+        if len(courses[n]) != len(courses[back]):
+            return False
+        pairs = list(zip(courses[n], reversed(courses[back]), strict=True))
+        if all(a == b for a, b in pairs):
+            return True
+        most = min(precision(n)[0], precision(back)[0])
+        return all(_distance(a, b) <= most for a, b in pairs)
+
+    def are_straight(n: int, back: int) -> bool:
+        (rounding, bend), (other, other_bend) = precision(n), precision(back)
+        return ways[n].start != ways[n].end and max(bend, other_bend) <= min(rounding, other)
+
     kept: list[int] = []
     same: dict[int, int] = {}
     waiting: dict[tuple[int, int], list[int]] = {}
-    for number, (way, course) in enumerate(zip(ways, courses, strict=True)):
+    for number, way in enumerate(ways):
         opposite = waiting.get((way.end, way.start), []) if way.directed else []
         partners = (
             n
-            for is_one in (_one_street, _one_course, _both_straight)
+            for are_one in (have_one_name, have_one_course, are_straight)
             for n in opposite
-            if is_one(ways[n], way, courses[n], course[::-1])
+            if are_one(n, number)
         )
         partner = next(partners, None)
         if partner is not None:
@@ -193,41 +214,22 @@ def _merged(
     return kept, same
 
 
-_Course = tuple[Point, ...]
-
-
-def _one_street(first: DrawnEdge, second: DrawnEdge, _there: _Course, _back: _Course) -> bool:
-    return bool(first.street) and first.street == second.street
-
-
-def _one_course(_first: DrawnEdge, _second: DrawnEdge, there: _Course, back: _Course) -> bool:
-    if there == back or len(there) != len(back):
-        return there == back
-    rounding = _rounding(there, back)
-    return all(_distance(a, b) <= rounding for a, b in zip(there, back, strict=True))
-
-
-def _both_straight(first: DrawnEdge, _second: DrawnEdge, there: _Course, back: _Course) -> bool:
-    rounding = _rounding(there, back)
-    return first.start != first.end and all(_is_straight(c, rounding) for c in (there, back))
-
-
-def _is_straight(course: _Course, rounding: float) -> bool:
+def _bend(course: Sequence[Point]) -> float:
+    """How far the course goes away from the line between its ends."""
     (a, b), (c, d) = course[0], course[-1]
+    doubled = (abs((x - a) * (d - b) - (y - b) * (c - a)) for x, y in course[1:-1])
     length = dist(course[0], course[-1])
-    return all(
-        abs((x - a) * (d - b) - (y - b) * (c - a)) <= rounding * length for x, y in course[1:-1]
-    )
+    return max(doubled, default=0.0) / length if length else inf
 
 
-def _rounding(*courses: tuple[Point, ...]) -> float:
+def _rounding(course: Sequence[Point]) -> float:
     """How far apart two roundings of a point may be: a unit of the last digit, with its error.
 
     At most a hundredth of the street's length, since whole numbers need not be rounded.
     """
-    numbers = [number for course in courses for point in course for number in point]
+    numbers = [number for point in course for number in point]
     unit = min(10.0 ** int(Decimal(repr(n)).normalize().as_tuple().exponent) for n in numbers)
-    length = sum(dist(a, b) for a, b in pairwise(courses[0]))
+    length = sum(dist(a, b) for a, b in pairwise(course))
     return min(1.01 * unit + 1e-12 * max(map(abs, numbers)), length / 100)
 
 
