@@ -88,6 +88,8 @@ class Pilot:
 
     def walk(self, chart: Chart, at: MapDart, v: int) -> MapDart:
         """Walk on S to a vertex. Returns the reference dart there."""
+        if chart.vertex[at] == v:
+            return at
         towards = chart.tree(v, until=chart.vertex[at]).parent
         while (exit_dart := towards[chart.vertex[at]]) is not None:
             self._move(chart.door(at, exit_dart), "walk")

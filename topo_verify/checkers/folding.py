@@ -25,7 +25,7 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Iterator, Sequence
-from itertools import combinations
+from itertools import combinations, starmap
 
 from topo_verify.robot.percept import Door, Percept
 from topo_verify.world.rooted_map import Code, World
@@ -123,10 +123,10 @@ class Fold:
         if not 0 <= (marker or 0) < back:
             raise Contradiction(f"no place behind a door shows {percept}")
         exit_place = self.find((here, dart + door))
-        known = self.partner(exit_place)
+        known = (end := self._ends.get(*exit_place)) and self.find(end)
         # the marker is at v0, whose dart 0 is marked
-        v0 = None if marker is None else self.find((0, -marker))
-        self.at = v0 or known or (self._visit(percept), 0)
+        at_v0 = None if marker is None else self.find((0, -marker))
+        self.at = at_v0 or known or (self._visit(percept), 0)
         self._require_alike(self._seen[self.at[0]], percept)  # as the node that stands for it
         if self.at != known:
             self.join(exit_place, self.at)
@@ -262,7 +262,7 @@ class Fold:
                 places = [(node, (first + door) % degree) for door in range(degree)]
                 number |= zip(places, range(len(number), len(number) + degree), strict=True)
                 degrees.append(degree)
-                ends += map(self.partner, places)
+                ends += [end and self.find(end) for end in starmap(self._ends.get, places)]
                 entries += filter(None, ends[-degree:])
         alpha = [-1 if end is None else number[end] for end in ends]
         for end in [dart for dart, other in enumerate(alpha) if other < 0]:

@@ -213,14 +213,16 @@ def _rows(name: str, value: object) -> list[list[int]]:
             f"expected a list of lists of darts as the map's {name!r}, got a {got}: give one list"
             f" of darts {'a vertex' if name == 'vertices' else 'an edge'}"
         )
+    if {tuple, list}.issuperset(map(type, given)):
+        all_darts = [0, *chain.from_iterable(given)]
+        if {int}.issuperset(map(type, all_darts)) and all(
+            is_in_range(bound(all_darts)) for bound in (min, max)
+        ):
+            return [*map(list, given)]  # the usual case, quickly
     rows: list[list[int]] = []
     for place, row in enumerate(given):
         is_set = isinstance(row, AbstractSet)  # has no order
         items = None if name == "vertices" and is_set else _items(row)
-        is_plain = items and {int}.issuperset(map(type, items))
-        if items and is_plain and is_in_range(min(items)) and is_in_range(max(items)):
-            rows.append(items)  # the usual case, quickly
-            continue
         darts = [dart for item in items or () if (dart := _integer(item)) is not None]
         if items is None or len(darts) < len(items):
             got = f"a {type(row).__name__}" if items is None else "one with something else in it"
