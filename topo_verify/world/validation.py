@@ -215,9 +215,8 @@ def _rows(name: str, value: object) -> list[list[int]]:
         )
     if {tuple, list}.issuperset(map(type, given)):
         all_darts = [0, *chain.from_iterable(given)]
-        if {int}.issuperset(map(type, all_darts)) and all(
-            is_in_range(bound(all_darts)) for bound in (min, max)
-        ):
+        is_plain = {int}.issuperset(map(type, all_darts))
+        if is_plain and is_in_range(min(all_darts)) and is_in_range(max(all_darts)):
             return [*map(list, given)]  # the usual case, quickly
     rows: list[list[int]] = []
     for place, row in enumerate(given):
