@@ -2,7 +2,7 @@
 
 price       what mappers pay, as a ratio to the least cost
 ignorance   what a truthful oracle saves; belief: what confirming early would save
-marker      where to put the marker
+marker      where to put the marker; heat: a picture of it, docs/heat.svg
 dearer      worlds in which a stronger algorithm costs more
 every       what any choices can cost, by a model of basic, I and II
 left_open   policies, ways home, records: what the paper leaves open

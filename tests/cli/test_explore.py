@@ -13,7 +13,6 @@ from tests.cli.conftest import Call, Refused, Results
 from tests.helpers import SURE
 from topo_verify import World, families
 from topo_verify import explore as run_mapper
-from topo_verify.world.drawing import read_back
 
 
 def test_an_entry_tells_of_the_world_and_of_the_run(results: Results) -> None:
@@ -312,21 +311,3 @@ def test_a_faulty_mapper_is_found_at_the_marker_where_it_fails(
     replay = bad[0]["findings"][0]["replay"]
     assert f"--marker {bad[0]['marker']}" in replay
     assert call(replay.removeprefix("topo-verify ")).exit_code == 1
-
-
-def test_the_heat_map_is_a_true_drawing_and_has_a_colour_a_dart(call: Call) -> None:
-    line = "explore m5/17 --marker all --target basic --svg heat.svg"
-    assert call(line).exit_code == 0
-    svg = Path("heat.svg").read_text()
-    assert read_back.untruths(read_back.read(svg), World.from_id("m5/17")) == []
-    assert svg.count("data-mean=") == 4
-    assert svg.count("data-dart=") == 9  # the arrow stands on the tenth
-    assert "basic in m5/17: cost by place and direction of the marker" in svg
-
-
-def test_there_is_no_heat_map_of_runs_that_fail(call: Call) -> None:
-    line = "explore m2/5 --marker all --target mappers.py:ignores_direction --in-process"
-    done = call(f"{line} --svg heat.svg")
-    assert done.exit_code == 1
-    assert "--svg heat.svg: not written, since not every run delivered a true map" in done.stderr
-    assert not Path("heat.svg").exists()

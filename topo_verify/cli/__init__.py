@@ -125,6 +125,9 @@ def _has_working_folder() -> bool:
 
 
 FORMER = {
+    "explore --marker all --svg": (
+        "in a checkout of the project, type `python -m research.heat -o FILE`"
+    ),
     "arena --game": "in a checkout of the project, type `python -m research.game M`",
     "--algorithm": "type --target",
     "--target": "TARGET is an argument here: type it without --target",
@@ -132,13 +135,21 @@ FORMER = {
 """Options that version 0.4 dropped, of one command or of all, each with what to type now."""
 
 
+def former(spelling: str) -> str:
+    """What to type in place of a former command, or option of a command; "" for any other."""
+    if spelling not in FORMER:
+        return ""
+    name = spelling.partition(" ")[2] or spelling
+    return f"{name} went with version 0.4: {FORMER[spelling]}"
+
+
 def _usage(error: click.ClickException) -> str:
     context = error.ctx if isinstance(error, click.UsageError) else None
     path = context.command_path if context else "topo-verify"
     option = getattr(error, "option_name", "")
     command = path.removeprefix("topo-verify ")
-    if mend := FORMER.get(f"{command} {option}") or FORMER.get(option):
-        return f"{path}: {option} went with version 0.4: {mend}"
+    if gone := former(f"{command} {option}") or former(option):
+        return f"{path}: {gone}"
     # Click ends with a full stop or a question; here the sentence continues.
     objection = " ".join(error.format_message().split()).removesuffix(".")
     objection = objection.replace("'. Did you", "', did you").removesuffix("?")

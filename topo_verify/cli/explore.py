@@ -20,7 +20,7 @@ from topo_verify.campaign.run import Engine, Exploration, on_engine
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.checkers.claims import LARGE
 from topo_verify.checkers.findings import Verdict
-from topo_verify.cli import options, runs
+from topo_verify.cli import former, options, runs
 from topo_verify.cli.output import Output, Result, Rows, entry_of
 from topo_verify.errors import InputError, plural
 from topo_verify.player.recording import PlayedRun
@@ -106,7 +106,7 @@ marker_option = click.option(
     "--marker",
     callback=_dart_or_all,
     metavar="DART|all",
-    help="Let the marker point at this DART; all: at each dart in turn (--svg: a heat map).",
+    help="Let the marker point at this DART; all: at each dart in turn.",
 )
 
 
@@ -126,7 +126,7 @@ class _ExploreOptions:
     "explore nyc",
     "explore m3/14 --target basic,enhancement-ii --trace FILE",
     "explore m2/8 --target folding+planar --choices 0,1",
-    "explore nyc --target folding --marker all --svg heat.svg",
+    "explore nyc --target folding --marker all",
     "explore 'family:lattice(10,10,holes=0.2)' --target my_mapper.py:explore",
     reports=True,
 )
@@ -183,6 +183,8 @@ def explore(
         output.require_places(trace=trace, svg=svg)
         if everywhere:
             _require_one_marker({"--trace": trace, "--player": player, "--gap": gap})
+            if svg is not None:
+                raise InputError(former("explore --marker all --svg"))
         starts = runs.named_worlds(worlds, marker if isinstance(marker, int) else None)
         for option, value in (("--trace", trace), ("--svg", svg), ("--choices", choices)):
             if value is not None and not (everywhere and option == "--choices"):
@@ -248,7 +250,6 @@ def _results(
     try:
         for at, target, places in groups:
             results: dict[Code, Result[ExploreEntry]] = {}
-            entries: list[ExploreEntry] = []
             for place in places:
                 output.progress(f"{target.text} in {at.name}", next(number), total)
                 first = results.get(place.world.code) if asked.everywhere else None
@@ -258,11 +259,7 @@ def _results(
                     yield result
                     _write_run(asked, run, played[-1])
                 else:
-                    result = replace(first, entry=_as_at(place, first.entry))
-                    yield result
-                entries.append(result.entry)
-            if asked.everywhere and asked.svg is not None:
-                _write_heat_map(output, asked.svg, at, target, entries)
+                    yield replace(first, entry=_as_at(place, first.entry))
     finally:  # an interrupt keeps the runs that are done
         if asked.player is not None and played:
             runs.write_page(asked.player, starts[0].world, starts[0].name, played)
@@ -293,7 +290,7 @@ def _explored(
 def _write_run(asked: _ExploreOptions, run: Exploration, played: PlayedRun) -> None:
     if asked.trace is not None:
         files.write(asked.trace, write_trace(run.kept_trace).decode())
-    if asked.svg is not None and not asked.everywhere:
+    if asked.svg is not None:
         from topo_verify.player.animation import animated_svg
         from topo_verify.player.scenes import Playback
 
@@ -312,18 +309,6 @@ def _as_at(place: runs.NamedWorld, entry: ExploreEntry) -> ExploreEntry:
     return msgspec.structs.replace(
         entry, marker=root, place=place.world.vertex_of[root], same_as=entry.marker
     )
-
-
-def _write_heat_map(
-    output: Output, file: str, at: runs.NamedWorld, target: Target, entries: Sequence[ExploreEntry]
-) -> None:
-    if not all(entry.ok for entry in entries):
-        output.note(f"--svg {file}: not written, since not every run delivered a true map")
-        return
-    from topo_verify.world.drawing.heat import heat_svg
-
-    costs = [entry.cost for entry in entries]
-    files.write(file, heat_svg(at.world, costs, title=f"{target.text} in {at.name}"))
 
 
 # ---------------------------------------------------------------- for people

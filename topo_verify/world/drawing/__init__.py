@@ -9,7 +9,7 @@ from topo_verify.world.drawing.layout import Bridge, Layout
 from topo_verify.world.drawing.svg import to_svg
 
 # choice.py     how a world is drawn: straight.py, cells.py, planar.py with plane_map.py
-# layout.py     where everything lies; svg.py, heat.py, export.py: the pictures of it
+# layout.py     where everything lies; svg.py, export.py: the pictures of it
 # read_back.py  compares a finished SVG with the world
 
 __all__ = [

@@ -3,23 +3,51 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Any
 from unittest.mock import patch
 
 import pytest
 
+from research import heat
+from research.heat import colour, heat_map, heat_svg, untrue_colours
 from topo_verify import InternalError, World, families
-from topo_verify.world.drawing import Layout, heat
-from topo_verify.world.drawing.heat import colour, heat_svg, untrue_colours
+from topo_verify.world.drawing import Layout, read_back
 from topo_verify.world.resolve import resolve_world
 
 WORLD = World.from_id("m5/17")
 COSTS = [7 + 3 * dart for dart in range(10)]
+DRAWN = Path(__file__).parents[2] / "docs" / "heat.svg"
+
+
+@pytest.mark.long
+def test_the_picture_of_the_docs_is_what_the_script_draws() -> None:
+    assert heat_map("nyc", "basic") == DRAWN.read_text(encoding="utf-8")
+
+
+def test_the_heat_map_of_a_mapper_is_a_true_drawing_and_has_a_colour_a_dart() -> None:
+    svg = heat_map("m5/17", "basic")
+    assert read_back.untruths(read_back.read(svg), WORLD) == []
+    assert svg.count("data-mean=") == len(WORLD.vertices)
+    assert svg.count("data-dart=") == 9  # the arrow stands on the tenth
+    assert "basic in m5/17: cost by place and direction of the marker" in svg
+
+
+def test_there_is_no_heat_map_of_runs_that_fail() -> None:
+    with pytest.raises(AssertionError, match="no-false-confirm"):
+        heat_map("m2/5", "examples/undirected.py:undirected")
 
 
 @pytest.mark.parametrize(
     "name",
-    ["m1/0", "m1/1", "m5/17", "nyc", "family:torus(3,4)", "family:random_genus(12,2,seed=1)"],
+    [
+        "m1/0",
+        "m1/1",
+        "m5/17",
+        "family:torus(3,4)",
+        pytest.param("nyc", marks=pytest.mark.long),
+        pytest.param("family:random_genus(12,2,seed=1)", marks=pytest.mark.long),
+    ],
 )
 def test_every_kind_of_drawing_can_be_coloured(name: str) -> None:
     world = resolve_world(name)
@@ -29,6 +57,7 @@ def test_every_kind_of_drawing_can_be_coloured(name: str) -> None:
     assert untrue_colours(svg, world, costs) == []
 
 
+@pytest.mark.slow
 def test_of_a_large_world_the_part_that_is_shown_is_coloured() -> None:
     world = families.random_genus(900, 30, seed=1)
     costs = [dart % 97 for dart in range(len(world.alpha))]

@@ -1,5 +1,7 @@
 """A world coloured by a cost for each dart: where to put the marker, and where to point it.
 
+    .venv/bin/python -m research.heat -o docs/heat.svg        # some seconds
+
 A disc on each vertex has the colour of the mean over its darts, a stroke along each dart that of
 its cost. The arrow stands on the best dart, a dashed ring around the vertex of the worst. The scale
 is perceptually uniform, also for colour-blind eyes (J. R. Nuñez, C. R. Anderton, R. S. Renslow:
@@ -8,17 +10,21 @@ is perceptually uniform, also for colour-blind eyes (J. R. Nuñez, C. R. Anderto
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from pathlib import Path
 from statistics import mean
 from xml.etree import ElementTree as ET
 
+from research import marker
 from topo_verify.errors import InternalError
 from topo_verify.world.drawing import curves, read_back
 from topo_verify.world.drawing.choice import lay_out
 from topo_verify.world.drawing.curves import number
 from topo_verify.world.drawing.layout import Layout
 from topo_verify.world.drawing.svg import FONT, leaving, text, to_svg
+from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import Dart, World
 
 SCALE = (
@@ -176,3 +182,24 @@ def untrue_colours(svg: str, world: World, costs: Sequence[int]) -> list[str]:
         for dart in ends
         if dart != best and strokes.get(dart) != colour(_share(costs[dart], costs))
     ]
+
+
+def heat_map(world: str, mapper: str) -> str:
+    """The heat map of what a mapper pays in a world; it must be right from every place."""
+    there = resolve_world(world)
+    return heat_svg(there, marker.costs(there, mapper), title=f"{mapper} in {there.name}")
+
+
+def main() -> None:
+    ask = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    ask.add_argument("world", nargs="?", default="nyc", metavar="WORLD")
+    ask.add_argument("mapper", nargs="?", default="basic", metavar="TARGET")
+    ask.add_argument("-o", type=Path, required=True, metavar="FILE", dest="file")
+    asked = ask.parse_args()
+    asked.file.write_text(heat_map(asked.world, asked.mapper), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
