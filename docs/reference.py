@@ -40,7 +40,6 @@ ENTRIES = {
     "world draw": "world.DrawEntry",
     "search": "search.study.SearchEntry",
     "prove": "prove.ProveEntry prove.ProveListEntry",
-    "faults": "faults.study.Caught",
     "conform": "conform.LevelResult",
     "record": "record.study.RecordEntry",
     "compare": "compare.Comparison",

@@ -1,4 +1,4 @@
-"""The compiled engine behind `explore`, `record`, `reproduce`, `faults`: the same runs."""
+"""The compiled engine behind `explore`, `record`, `reproduce`: the same runs."""
 
 from __future__ import annotations
 
@@ -13,13 +13,10 @@ from tests.studies.baseline.recording import recording
 from topo_verify import CATALOGUE, InputError, InternalError, Limits, World, explore
 from topo_verify.campaign.judge import TRACELESS, judge
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import ENGINES, CompiledAlgorithm, Engine, on_engine, planted
+from topo_verify.campaign.run import ENGINES, CompiledAlgorithm, Engine, on_engine
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import one_target
-from topo_verify.compiled.faults import PLANTED
-from topo_verify.faults import FAULTS
 from topo_verify.robot.events import MapData
-from topo_verify.studies.faults import smallest
 from topo_verify.studies.reproduce import points
 from topo_verify.studies.reproduce.figures import FIGURES, LATTICE, FigureExtent
 from topo_verify.studies.reproduce.points import line_campaigns
@@ -90,24 +87,12 @@ def test_the_reference_engine_leaves_targets_as_they_are() -> None:
     assert on_engine("reference", (target,), Limits(budget=3)) == (target,)
 
 
-# ---------------------------------------------------------------- record, faults
+# ---------------------------------------------------------------- record
 
 
 def test_both_engines_record_the_same_baseline() -> None:
     made = [recording(one_target("folding"), "edges<=3", engine=engine) for engine in ENGINES]
     assert made[0] == made[1]
-
-
-@pytest.mark.parametrize("name", ["leaves-out-the-darts-of-v0", "takes-each-place-for-known"])
-def test_a_seeded_fault_is_found_in_the_same_worlds_by_either_engine(name: str) -> None:
-    ours, theirs = (smallest(FAULTS[name], engine=one) for one in ("reference", "compiled"))
-    assert theirs == ours
-
-
-def test_every_kernel_with_a_mistake_has_the_name_of_a_seeded_fault() -> None:
-    assert set(PLANTED) <= set(FAULTS)
-    assert len(PLANTED) >= 10
-    assert planted("no-such-fault") is None
 
 
 # ---------------------------------------------------------------- reproduce

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import pytest
 
+from tests.faults.every import EVERY
 from tests.helpers import edited, place, trace_of, variant, worlds
 from topo_verify import World, examine
 from topo_verify.algorithms.basic import NoRule
@@ -16,7 +17,6 @@ from topo_verify.algorithms.motion import Executed, Hypothesis
 from topo_verify.campaign.judge import Report
 from topo_verify.checkers import check, claims, decision_conclusions
 from topo_verify.checkers.entailment import FoldedTrace, map_conclusion
-from topo_verify.faults import FAULTS
 from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.robot import events as ev
 from topo_verify.robot.simulator import first_percept
@@ -50,8 +50,8 @@ class Tactful(Mute):
 
 
 GUESSERS = {
-    "elimination": FAULTS["concludes-by-elimination"],
-    "the only one": FAULTS["confirms-what-is-alone"],
+    "elimination": EVERY["concludes-by-elimination"],
+    "the only one": EVERY["confirms-what-is-alone"],
 }
 
 
@@ -86,7 +86,7 @@ def test_where_a_guess_is_lucky_its_witness_breaks_it(
 
 @pytest.mark.no_cover
 def test_a_silent_guess_is_convicted_by_its_history_alone() -> None:
-    guesser = FAULTS["joins-the-last-two-unseen"]
+    guesser = EVERY["joins-the-last-two-unseen"]
     convicted = 0
     for world in worlds([3, 4]):
         report = examine(lambda robot: guesser(Mute(robot)), world)

@@ -7,10 +7,10 @@ from collections.abc import Callable
 import pytest
 
 from examples.undirected import undirected, unmarked
+from tests.faults.every import EVERY
 from tests.helpers import EIGHT, worlds
 from topo_verify import CATALOGUE, Limits, World, examine
 from topo_verify.algorithms.chart import Survey
-from topo_verify.faults import FAULTS as SEEDED
 from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.programs.loader import Mapper
 from topo_verify.robot.events import Robot
@@ -50,16 +50,16 @@ REJECTS_THE_TRUTH = {"true-hypothesis-kept", "map-isomorphic", "rejection-justif
 
 FAULTS: list[tuple[Mapper, str, set[str]]] = [
     (
-        SEEDED["tries-only-the-nearest-two"],
+        EVERY["tries-only-the-nearest-two"],
         "m2/9",
         {"true-hypothesis-posed", "true-hypothesis-kept", "map-isomorphic"},
     ),
-    (SEEDED["traces-through-the-unexplored"], "m4/36", REJECTS_THE_TRUTH),
-    (SEEDED["compares-before-the-door"], "m5/85", REJECTS_THE_TRUTH),
-    (SEEDED["records-a-loop-from-dart-0"], "m5/446", REJECTS_THE_TRUTH),
+    (EVERY["traces-through-the-unexplored"], "m4/36", REJECTS_THE_TRUTH),
+    (EVERY["compares-before-the-door"], "m5/85", REJECTS_THE_TRUTH),
+    (EVERY["records-a-loop-from-dart-0"], "m5/446", REJECTS_THE_TRUTH),
     (undirected, "m2/5", {"no-false-confirm", "map-isomorphic"}),
-    (SEEDED["delivers-the-mirror-image"], "m2/4", {"map-isomorphic"}),
-    (SEEDED["counts-the-start-as-a-move"], "m1/0", {"cost-honest"}),
+    (EVERY["delivers-the-mirror-image"], "m2/4", {"map-isomorphic"}),
+    (EVERY["counts-the-start-as-a-move"], "m1/0", {"cost-honest"}),
     (knows_it_beforehand, "m1/0", {"cost-within-bound"}),
 ]
 
@@ -71,7 +71,7 @@ def test_a_faulty_mapper_is_caught(mapper: Mapper, world: str, claims: set[str])
 
 def test_a_rejection_with_false_evidence_is_caught_where_it_does_no_harm() -> None:
     world = World.from_id("m4/42")
-    assert failing(SEEDED["traces-through-the-unexplored"], world) == {"rejection-justified"}
+    assert failing(EVERY["traces-through-the-unexplored"], world) == {"rejection-justified"}
 
 
 def test_every_claim_but_percepts_true_is_caught_by_a_faulty_mapper() -> None:
@@ -86,7 +86,7 @@ def test_a_mapper_that_wanders_is_caught_by_the_bound_if_not_by_its_budget() -> 
 
 
 def test_a_fault_that_does_not_matter_in_a_world_is_not_held_against_the_mapper() -> None:
-    assert failing(SEEDED["delivers-the-mirror-image"], World.from_id("m1/0")) == set()
+    assert failing(EVERY["delivers-the-mirror-image"], World.from_id("m1/0")) == set()
 
 
 def test_a_mapper_that_declares_nothing_is_judged_on_percepts_map_and_cost() -> None:
@@ -97,7 +97,7 @@ def test_a_mapper_that_declares_nothing_is_judged_on_percepts_map_and_cost() -> 
         "rejection-justified",
     }
     for world in worlds(range(1, 4)):
-        report = examine(SEEDED["declares-nothing"], world)
+        report = examine(EVERY["declares-nothing"], world)
         assert report.ok
         claims = {claim: report.claims[claim] for claim in EIGHT}
         assert {c for c, status in claims.items() if status == "not-declared"} == silent

@@ -74,13 +74,13 @@ def results(call: Call) -> Callable[..., dict[str, Any]]:
 def refused(call: Call) -> Refused:
     """Require that a command line exits 2 and says nothing but one sentence, with these words.
 
-    `faults` and `prove` print a head before they begin.
+    `prove` prints a head before it begins.
     """
 
     def refused(line: str, *words: str) -> None:
         done = call(line)
         assert done.exit_code == 2, done.output
-        assert done.stdout == "" or line.startswith(("faults", "prove")), done.output
+        assert done.stdout == "" or line.startswith("prove"), done.output
         remarks = re.compile(r"topo-verify: seed [0-9:]+(: .*)?\n")
         (sentence,) = (s for s in done.stderr.splitlines(keepends=True) if not remarks.fullmatch(s))
         assert [one for one in words if one not in sentence] == [], sentence

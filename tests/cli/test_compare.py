@@ -73,12 +73,9 @@ def test_a_wrong_mapper_exits_1_and_the_line_shows_it_again(results: Results, ca
 def test_a_silent_mapper_exits_1_against_a_baseline_with_decisions(
     call: Call, results: Results
 ) -> None:
-    Path("silent.py").write_text(
-        "from topo_verify.faults import FAULTS\nexplore = FAULTS['declares-nothing']\n"
-    )
-    (entry,) = results("compare basic.gz silent.py:explore", code=1)["results"]
+    (entry,) = results("compare basic.gz tests.faults.harmless:declares_nothing", code=1)["results"]
     assert entry["undeclared"] == 89
-    text = call("compare basic.gz silent.py:explore").stdout
+    text = call("compare basic.gz tests.faults.harmless:declares_nothing").stdout
     assert "A regression: in 89 worlds the mapper declares nothing and the baseline" in text
 
 

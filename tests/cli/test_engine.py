@@ -57,9 +57,7 @@ def test_a_mapper_of_the_users_is_not_for_the_compiled_engine(refused: Refused) 
     )
 
 
-@pytest.mark.parametrize(
-    "line", ["search basic --edges 2", "reproduce --figure 3 --quick", "faults sets-out-unturned"]
-)
+@pytest.mark.parametrize("line", ["search basic --edges 2", "reproduce --figure 3 --quick"])
 def test_without_numba_the_extra_is_named(
     refused: Refused, monkeypatch: pytest.MonkeyPatch, line: str
 ) -> None:

@@ -18,7 +18,7 @@ from tests.cli.conftest import Call, Program, interrupted
 from topo_verify.cli import SHORT_HELPS, main, runs
 
 COMMANDS = (
-    *("verify", "explore", "world", "search", "prove", "faults", "conform", "record", "compare"),
+    *("verify", "explore", "world", "search", "prove", "conform", "record", "compare"),
     *("replay", "play", "certify", "tour", "arena", "header", "reproduce"),
 )
 LEAVES = (
@@ -267,16 +267,8 @@ def test_ctrl_c_before_any_work_exits_3(call: Call, monkeypatch: pytest.MonkeyPa
 # ---------------------------------------------------------------- what is left in the folder
 
 
-@pytest.mark.parametrize(
-    "line",
-    [
-        "world sample --strategy 'worlds(max_edges=9)' -n 40",
-        "faults ignores-direction-if-walked --by properties --workers 1",
-    ],
-)
-def test_worlds_are_drawn_and_hypothesis_leaves_no_folder(
-    line: str, program: Program, folder: Path
-) -> None:
+def test_worlds_are_drawn_and_hypothesis_leaves_no_folder(program: Program, folder: Path) -> None:
+    line = "world sample --strategy 'worlds(max_edges=9)' -n 40"
     before = sorted(folder.iterdir())
     done = program(line, PYTHONWARNINGS="error", PYTHONDONTWRITEBYTECODE="1")
     assert done.returncode == 0, done.stderr

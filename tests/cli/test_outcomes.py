@@ -29,12 +29,10 @@ from tests.cli.conftest import Call
 from topo_verify.campaign import progress
 from topo_verify.checkers.findings import Verdict
 from topo_verify.cli.output import ProgressBar, entry_of
-from topo_verify.faults import FAULTS
 from topo_verify.proofs import catalogue as proofs_catalogue
 from topo_verify.proofs.theorem import RefutationCertificate, Theorem, TheoremResult
 
 FILES = "--report r.html --junit r.xml --badge r.svg"
-FAULT = "restores-with-the-wrong-sign"
 SKIPS = """
 import json, sys
 for line in sys.stdin:
@@ -165,7 +163,6 @@ OUTCOMES = [
     ("prove proved proved-too", 0),
     ("prove proved unrefuted unproved", 1),
     ("prove proved unproved", 3),
-    (f"faults {FAULT} --by search --workers 0", 0),
     ("conform basic --worlds 'edges<=2' --workers 0", 0),
     ("conform mappers.py:guesses --worlds 'edges<=2' --workers 0 --in-process", 1),
     (f"conform --worlds 'edges<=2' --workers 0 {SKIPPING}", 3),
@@ -182,12 +179,6 @@ OUTCOMES = [
 @pytest.mark.parametrize(("line", "code"), OUTCOMES, ids=lambda one: str(one).partition(" ")[0])
 def test_every_form_of_an_outcome_agrees(line: str, code: int, call: Call) -> None:
     require_agreement(forms(call, line), code)
-
-
-def test_every_form_of_a_missed_fault_agrees(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    another = replace(FAULTS[FAULT], claim="cost-honest")  # which it does not break
-    monkeypatch.setitem(FAULTS, FAULT, another)
-    require_agreement(forms(call, f"faults {FAULT} --by search --workers 0"), 1)
 
 
 # ---------------------------------------------------------------- interrupted
@@ -214,7 +205,6 @@ INTERRUPTED = [
     ("verify mappers.py:right --quick --in-process", (1, 3)),
     ("search basic,folding --edges 2 --workers 0", (1, 2)),
     ("prove proved proved-too", (1, 2)),
-    (f"faults {FAULT} counts-no-ways-back --by search --workers 0", (1, 2, 3)),
     ("conform basic --worlds 'edges<=2' --workers 0", (1, 5)),
     ("conform basic,folding --worlds 'edges<=2' --workers 0", (14,)),
     ("compare b.gz basic", (1, 5)),

@@ -29,10 +29,6 @@ def _title() -> str:
 COMMANDS = {
     "search 'mappers.py:guesses' --edges 2 --workers 0": (1, "REFUTED, 1 of 2 worlds fail"),
     "search basic --edges 2 --workers 0": (0, "EXHAUSTED, 12 of 12 worlds"),
-    "faults assumes-a-plane-world --by search --workers 0": (
-        0,
-        "SAMPLED, 1 of 1 mapper told right from wrong",
-    ),
     "prove percept undirected-any": (0, "PROVED, 2 of 2 theorems as expected"),
     "conform basic --like enhancement-ii --worlds m4/41 --worlds m1/0 --workers 0": (
         1,
@@ -150,7 +146,6 @@ NARROW = (
     "search --compare enhancement-ii,enhancement-i --edges 3 --workers 0",
     "conform basic --like enhancement-ii --worlds m4/41 --workers 0 --seed 0:0",
     "prove percept undirected-any",
-    "faults assumes-a-plane-world forgets-that-vu-may-be-new --by search --workers 0",
     "explore m4/41 m3/14 --target basic,folding",
     "explore m4/41 --gap",
     "explore 'family:lattice(10,10,holes=0.2,seed=7)' --target enhancement-iii-all+i",

@@ -38,7 +38,6 @@ LEFT_OUT = {
     r".* benchmarks/\S+\.py.*": "measures for minutes",
     r".* -m research\..*": "minutes to hours; tests/docs/test_price.py prints stored runs",
     r".*arena all|.*arena basic,folding --cmd .*": "a minute; tests/cli/test_arena.py",
-    r".*topo-verify faults .*": "tests/cli/test_faults.py",
     r".*--engine compiled.*": "compiles for a minute; tests/cli/test_search.py, tests/compiled/",
     r".*--marker all": "146 runs; tests/cli/test_explore.py",
     r".*--policies every --edges 4.*": "half a minute; tests/studies/search/",

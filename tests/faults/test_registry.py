@@ -2,35 +2,42 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 import pytest
 
+from tests.faults.every import EVERY, HARMLESS
 from tests.proofs.false_statements import FALSE_STATEMENTS
 from topo_verify import explore
 from topo_verify.algorithms import CATALOGUE, exploration
 from topo_verify.campaign.targets import one_target
 from topo_verify.checkers import CLAIMS
 from topo_verify.faults import FAULTS
-from topo_verify.faults.fault import mapper, rebound
+from topo_verify.faults.fault import PartName, mapper, rebound
 from topo_verify.world.rooted_map import World
 
 
-def test_there_are_faults_in_every_part_and_harmless_differences() -> None:
-    parts = {fault.part for fault in FAULTS.values() if not fault.harmless}
-    assert parts == {
-        "hypotheses", "motion", "marker", "chart", "prefix", "history", "records", "folding",
-        "declarations", "report",
-    }  # fmt: skip
-    assert sum(not fault.harmless for fault in FAULTS.values()) >= 30
-    assert sum(fault.harmless for fault in FAULTS.values()) >= 6
+def test_there_are_faults_in_every_part_of_a_mapper() -> None:
+    assert {fault.part for fault in EVERY.values()} == set(get_args(PartName))
+    assert {fault.part for fault in FAULTS.values()} == set(get_args(PartName)) - {"report"}
+    assert len(FAULTS) >= 50
+    assert len(HARMLESS) >= 10
 
 
-@pytest.mark.parametrize("name", FAULTS)
+@pytest.mark.parametrize("name", EVERY)
 def test_a_fault_is_found_again_by_its_target(name: str) -> None:
-    fault = FAULTS[name]
+    fault = EVERY[name]
     assert fault.name == name
     assert one_target(fault.target).mapper is fault
     assert fault.claim is None or fault.claim in CLAIMS
     assert fault.why[0].islower() or fault.why.startswith(("H ", "T["))
+
+
+def test_the_faults_of_the_package_must_be_caught() -> None:
+    assert not FAULTS.keys() & HARMLESS.keys()
+    assert {fault.target.partition(":")[0] for fault in FAULTS.values()} == {
+        f"topo_verify.faults.{fault.part}" for fault in FAULTS.values()
+    }
 
 
 @pytest.mark.parametrize("name", ["basic", "enhancement-i", "enhancement-iii-all", "folding"])

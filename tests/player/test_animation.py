@@ -11,10 +11,10 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
+from tests.faults.every import EVERY
 from topo_verify import explore, families
 from topo_verify.checkers import check
 from topo_verify.errors import InputError
-from topo_verify.faults import FAULTS
 from topo_verify.player.animation import MOST_EVENTS, animated_svg, times
 from topo_verify.player.scenes import Moment, Playback
 from topo_verify.programs.loader import Mapper
@@ -81,7 +81,7 @@ class Film:
 
 @cache
 def played(mapper: str = "enhancement-ii") -> tuple[Playback, Layout, Film]:
-    by: Mapper | str = FAULTS.get(mapper, mapper)
+    by: Mapper | str = EVERY.get(mapper, mapper)
     run = explore(WORLD, by)
     playback = Playback(WORLD, run.trace, check(WORLD, run.trace, run.stopped), run.stopped)
     layout = lay_out(WORLD)

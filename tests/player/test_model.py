@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 
 from tests.browser import Open
+from tests.faults.every import EVERY
 from tests.player.played import played
 from topo_verify import CATALOGUE, Percept, World, families
 from topo_verify.checkers.map_in_world import NEVER
-from topo_verify.faults import FAULTS
 from topo_verify.player.narrator import Narrator
 from topo_verify.player.page import player_page
 from topo_verify.player.recording import PlayedRun
@@ -115,5 +115,5 @@ SHORT = 500
 @pytest.mark.parametrize("world", ["m3/8", "m2/1"])
 def test_the_page_and_the_checkers_agree_on_wrong_mappers(show: Open, world: str) -> None:
     drawn = World.from_id(world)
-    runs = [played(drawn, fault.mapper, name) for name, fault in FAULTS.items()]
+    runs = [played(drawn, fault.mapper, name) for name, fault in EVERY.items()]
     compare_all(show, drawn, [run for run in runs if len(run.trace) <= SHORT])

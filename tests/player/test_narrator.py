@@ -9,11 +9,11 @@ from typing import Any
 import msgspec
 import pytest
 
+from tests.faults.every import EVERY
 from tests.player.played import confirms_at_once
 from tests.player.played import playback_of as played
 from topo_verify import CATALOGUE, Percept, World, families
 from topo_verify.campaign.run import explore
-from topo_verify.faults import FAULTS
 from topo_verify.player.animation.film import BESIDE, COLUMNS
 from topo_verify.player.narrator import Narrator, Saying
 from topo_verify.player.scenes import Moment, Playback
@@ -33,7 +33,7 @@ def told(playback: Playback) -> list[tuple[Moment, Saying]]:
 
 def runs() -> Iterator[Playback]:
     """The runs of all mappers, right and wrong, in small worlds."""
-    mappers: list[Mapper | str] = [*CATALOGUE, *(fault.mapper for fault in FAULTS.values())]
+    mappers: list[Mapper | str] = [*CATALOGUE, *(fault.mapper for fault in EVERY.values())]
     for world in WORLDS[1:3]:
         for mapper in mappers:
             run = played(world, mapper)
@@ -103,7 +103,7 @@ def test_a_wrong_confirmation_of_a_fault_is_not_told_as_one_that_looked_right(fa
     wrong = [
         saying
         for world in ("m2/5", "m3/20")
-        for moment, saying in by_motion(played(world, FAULTS[fault].mapper))
+        for moment, saying in by_motion(played(world, EVERY[fault].mapper))
         if "no-false-confirm" in {finding.claim for finding in moment.findings}
     ]
     assert wrong
@@ -118,7 +118,7 @@ def test_a_right_confirmation_is_told_as_a_walk_on_which_all_looked_right(name: 
 
 
 def test_a_confirmation_whose_percepts_differ_shows_both() -> None:
-    run = played("m2/5", FAULTS["mirrors-the-direction"].mapper)
+    run = played("m2/5", EVERY["mirrors-the-direction"].mapper)
     saying = Narrator(run).sayings[3]
     assert saying.text == "Behind the new road the marker would have to point another way."
     assert (saying.kind, saying.seen, saying.expected) == ("bad", Percept(3, 1), Percept(3, 2))
@@ -168,9 +168,9 @@ def test_a_test_whose_doors_leave_s_expects_nothing() -> None:
     texts = {
         saying.text
         for fault in ("sets-out-unturned", "counts-doors-anticlockwise", "forgets-to-turn-home")
-        if fault in FAULTS
+        if fault in EVERY
         for world in WORLDS
-        for _, saying in told(played(world, FAULTS[fault].mapper))
+        for _, saying in told(played(world, EVERY[fault].mapper))
     }
     assert "By these doors it would leave its map, which expects nothing there." in texts
 

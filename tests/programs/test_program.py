@@ -18,6 +18,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.faults.every import EVERY
 from tests.helpers import worlds
 from tests.programs.programs import ROOT, misbehaving, python, ran, served
 from tests.studies.conform.test_misbehaviour import alive, gone
@@ -25,7 +26,6 @@ from topo_verify import World, examine, explore
 from topo_verify.campaign.run import HUNG
 from topo_verify.campaign.targets import target_arguments, target_text, targets
 from topo_verify.errors import InputError
-from topo_verify.faults import FAULTS
 from topo_verify.programs.child import Child, ReaperProcess, Silent
 from topo_verify.programs.misbehaviour import Misbehaved
 from topo_verify.programs.program import Program
@@ -104,16 +104,16 @@ REACHES = "takes-back-two-moves"
 
 
 def test_behind_the_pipe_no_mapper_changes_its_trace() -> None:
-    inside = examine(FAULTS[REACHES], EDGE)
+    inside = examine(EVERY[REACHES], EDGE)
     assert inside.findings[0].message.startswith("the robot made 3 moves and the trace holds 1")
-    with program(served(FAULTS[REACHES].target)) as player:
+    with program(served(EVERY[REACHES].target)) as player:
         outside = explore(EDGE, player.target)
     assert sum(isinstance(event, Move) for event in outside.trace) == outside.cost == 3
 
 
 def differences(name: str, tried: Iterable[World], limits: Limits) -> list[str]:
     """The worlds in which a seeded fault is not found through the pipe just as in process."""
-    fault = FAULTS[name]
+    fault = EVERY[name]
     found: list[str] = []
     with program(served(fault.target)) as player:
         for world in tried:
@@ -125,16 +125,16 @@ def differences(name: str, tried: Iterable[World], limits: Limits) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("name", [name for name in FAULTS if name != REACHES])
+@pytest.mark.parametrize("name", [name for name in EVERY if name != REACHES])
 def test_a_seeded_fault_is_found_through_the_pipe_just_as_in_process(name: str) -> None:
     limits = Limits(budget=60)
-    wrong = (w for w in worlds(range(1, 4)) if not examine(FAULTS[name], w, limits=limits).ok)
+    wrong = (w for w in worlds(range(1, 4)) if not examine(EVERY[name], w, limits=limits).ok)
     tried = [EDGE, *islice(wrong, 2), World.from_id("m3/73")]
     assert not differences(name, tried, limits)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [name for name in FAULTS if name != REACHES])
+@pytest.mark.parametrize("name", [name for name in EVERY if name != REACHES])
 def test_so_it_is_in_every_world_of_three_and_four_edges(name: str) -> None:
     assert not differences(name, worlds([3, 4]), Limits(budget=200))
 

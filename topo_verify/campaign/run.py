@@ -412,14 +412,6 @@ def is_native(target: Target) -> bool:
     return target.text.startswith(LIBRARY)
 
 
-def planted(fault: str) -> CompiledAlgorithm | None:
-    """The compiled mapper with this seeded fault, or None."""
-    from topo_verify.compiled.faults import PLANTED
-
-    entry = PLANTED.get(fault)
-    return None if entry is None else CompiledAlgorithm(entry[1], fault)
-
-
 def require_compiled(targets: Iterable[Target], limits: Limits, *, libraries: bool = False) -> None:
     """Raise an InputError unless the compiled engine can run these mappers under these limits.
 

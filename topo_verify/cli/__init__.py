@@ -125,6 +125,7 @@ def _has_working_folder() -> bool:
 
 
 FORMER = {
+    "faults": "in a checkout of the project, type `python -m tests.faults.table`",
     "explore --marker all --svg": (
         "in a checkout of the project, type `python -m research.heat -o FILE`"
     ),
@@ -182,7 +183,6 @@ SHORT_HELPS = {
     "world": "Show, list, convert, count, sample and draw worlds.",
     "search": "Find the smallest counterexample among all worlds of up to N edges.",
     "prove": "Prove the theorems behind the claims: Z3 and Coq.",
-    "faults": "Show which check finds which mistake, in faulty mappers.",
     "conform": "Compare an implementation, in any language, with the reference.",
     "record": "Write a mapper's costs and decisions to a file, for compare.",
     "compare": "Show what has changed since a baseline was recorded.",
@@ -235,7 +235,9 @@ class CommandLine(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """The command; if a TARGET stands in its place, the error names `verify`."""
+        """The command; the error for a TARGET in its place or a former command names the mend."""
+        if gone := former(args[0]):
+            raise InputError(gone)
         if args[0] not in self.commands and (":" in args[0] or args[0].endswith(".py")):
             ctx.fail(f"no such command {args[0]!r}, did you mean verify {args[0]}")
         return super().resolve_command(ctx, args)

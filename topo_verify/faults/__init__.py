@@ -1,9 +1,7 @@
-"""Mappers with one mistake each, and the claim that must catch it. They test the checks.
+"""Mappers with one mistake each, and the claim that must catch it, e.g. for property tests.
 
-    fault.py       what a fault is, and how a part of a reference algorithm is replaced
-    harmless.py    differences that no check may report
-
-Every other file has the mistakes in one part of the mapper. Each fault is a TARGET, as
+`fault.py` defines a fault, and replaces a part of a reference algorithm; every other file has the
+mistakes in one part of the mapper. Each fault is a TARGET, as
 `topo_verify.faults.motion:restores_with_the_wrong_sign`.
 """
 
@@ -13,14 +11,12 @@ from topo_verify.faults import (
     chart,
     declarations,
     folding,
-    harmless,
     history,
     hypotheses,
     marker,
     motion,
     prefix,
     records,
-    report,
 )
 from topo_verify.faults.fault import Fault
 
@@ -38,8 +34,6 @@ FAULTS: dict[str, Fault] = {
         records,
         folding,
         declarations,
-        report,
-        harmless,
     )
     for fault in vars(part).values()
     if isinstance(fault, Fault)

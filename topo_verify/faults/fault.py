@@ -31,8 +31,7 @@ PartName = Literal[
     "declarations",
     "report",
 ]
-"""Also the file in which the mistake stands."""
-
+"""The part of the mapper that is replaced."""
 
 Walks = Sequence[Executed]
 """What was executed behind one edge."""
@@ -43,12 +42,14 @@ class Fault:
     """A mapper: a reference algorithm with one mistake.
 
     Attributes:
+        module: the name of the module in which it stands.
         why: what the mapper does wrong, in one sentence.
-        claim: the claim that must catch it; None: it is harmless.
+        claim: the claim that must catch it; None: the difference is no mistake.
         theorem: the theorem that has the same mistake in its rule.
     """
 
     name: str
+    module: str
     part: PartName
     why: str
     claim: str | None
@@ -60,13 +61,9 @@ class Fault:
         return self.mapper(robot)
 
     @property
-    def harmless(self) -> bool:
-        return self.claim is None
-
-    @property
     def target(self) -> str:
-        room = "harmless" if self.harmless else self.part
-        return f"topo_verify.faults.{room}:{self.name.replace('-', '_')}"
+        """The TARGET that names it on a command line."""
+        return f"{self.module}:{self.name.replace('-', '_')}"
 
 
 def planted(
@@ -98,6 +95,7 @@ def planted(
             wrong = mapper(base, **{replaced: mistake}, **others)
         return Fault(
             name=mistake.__name__.replace("_", "-"),
+            module=mistake.__module__,
             part=part,
             why=mistake.__doc__,
             claim=claim,

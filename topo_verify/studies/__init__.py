@@ -4,9 +4,7 @@ verify/          the main job
 search/          every world of a class
 conform/         an implementation against the reference
 baseline/        record and compare
-faults.py        which check finds which seeded fault
 arena/           mappers ranked by cost
-game/            what the best explorer pays
 reproduce/       the paper's figures
 gap.py           how far a rule is from the best
 corpus.py        what WORLDS means

@@ -17,13 +17,13 @@ from random import Random
 import msgspec
 import pytest
 
+from tests.faults.every import EVERY
 from tests.helpers import EMPTY, edited, trace_of, worlds
 from tests.proofs.mechanised.conftest import LIMIT, RARE
 from topo_verify import CATALOGUE, InputError, Limits, World, explore
 from topo_verify.campaign.compiled_shard import examine_range
 from topo_verify.checkers import CLAIMS, Judgement, check
 from topo_verify.checkers.folding import OWN_END, TURNED, TWO_OF_S, UNLIKE
-from topo_verify.faults import FAULTS
 from topo_verify.programs.loader import Mapper
 from topo_verify.proofs.mechanised import judge
 from topo_verify.robot import events as ev
@@ -152,7 +152,7 @@ def _other_reason(event: ev.Reject, random: Random, number: int) -> dict[str, ob
 def changed_runs(number: int, seed: int) -> Iterator[judge.TracedRun]:
     """Runs of algorithms and faulty mappers in worlds to 5 edges, each with one random change."""
     random = Random(seed)
-    mappers: list[Mapper] = [*CATALOGUE.values(), *FAULTS.values()]
+    mappers: list[Mapper] = [*CATALOGUE.values(), *EVERY.values()]
     for _ in range(number // 10):
         edges = random.choice([1, 2, 3, 3, 4, 4, 5])
         world = World.from_code(rank_order.unrank(edges, random.randrange(rank_order.count(edges))))
@@ -179,7 +179,7 @@ def test_the_judge_agrees_on_every_fault_in_every_small_world(program: Path, edg
     every = (
         (world, explore(world, fault, limits=STUCK_SOON).trace)
         for world in worlds(range(edges + 1))
-        for fault in FAULTS.values()
+        for fault in EVERY.values()
     )
     assert differing(program, every) == []
 

@@ -7,11 +7,11 @@ from fractions import Fraction
 import msgspec
 import pytest
 
+from tests.faults.every import EVERY
 from tests.studies.baseline.recording import recording
 from topo_verify import Robot
 from topo_verify.campaign.targets import one_target
 from topo_verify.errors import InputError
-from topo_verify.faults import FAULTS
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.baseline import compare as study
@@ -87,7 +87,7 @@ def test_other_policies_are_other_decisions_where_the_cost_is_the_same(basic: Ba
 
 
 def test_a_mapper_that_no_longer_declares_is_a_regression(basic: Baseline) -> None:
-    silent = one_target(FAULTS["declares-nothing"])
+    silent = one_target(EVERY["declares-nothing"])
     found = compare(basic, silent)
     assert kinds(found) == {"other_decisions": 89}
     assert (found.undeclared, found.regressed) == (89, True)
@@ -97,14 +97,14 @@ def test_a_mapper_that_no_longer_declares_is_a_regression(basic: Baseline) -> No
 
 
 def test_a_baseline_that_declares_nothing_is_compared_by_its_moves() -> None:
-    found = compare(recorded(one_target(FAULTS["declares-nothing"])), one_target("basic"))
+    found = compare(recorded(one_target(EVERY["declares-nothing"])), one_target("basic"))
     assert kinds(found) == {"equal": 89}
     assert (found.undeclared, found.regressed) == (0, False)
 
 
 def test_other_moves_are_seen_where_nothing_is_declared() -> None:
     found = compare(
-        recorded(one_target(FAULTS["declares-nothing"])), one_target("basic", pick="last")
+        recorded(one_target(EVERY["declares-nothing"])), one_target("basic", pick="last")
     )
     assert found.kinds["other_decisions"] > 0
     assert {c.message for c in found.examples if c.kind == "other_decisions"} == {"other moves"}

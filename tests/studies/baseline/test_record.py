@@ -11,6 +11,7 @@ from typing import Any
 import msgspec
 import pytest
 
+from tests.faults.every import EVERY
 from tests.programs.programs import deadly, served
 from tests.studies.baseline.recording import recording
 from topo_verify import CATALOGUE, Robot
@@ -19,7 +20,6 @@ from topo_verify.campaign.campaign import MAX_TIMEOUTS
 from topo_verify.campaign.judge import examine
 from topo_verify.campaign.run import explore
 from topo_verify.campaign.targets import one_target
-from topo_verify.faults import FAULTS
 from topo_verify.faults.fault import ForwardingRobot
 from topo_verify.programs.loader import Mapper
 from topo_verify.programs.program import Program
@@ -109,7 +109,7 @@ def test_every_field_of_a_decision_counts_and_so_does_its_moment(
 
 
 def test_a_mapper_that_declares_nothing_has_moves_alone() -> None:
-    basic, other = seen("basic"), seen(FAULTS["declares-nothing"])
+    basic, other = seen("basic"), seen(EVERY["declares-nothing"])
     assert other.decisions is None
     assert other.moves == basic.moves
 

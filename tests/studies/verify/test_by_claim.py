@@ -8,11 +8,11 @@ from typing import Any
 import msgspec
 import pytest
 
+from tests.faults.every import EVERY
 from topo_verify import CATALOGUE, Robot, World
 from topo_verify.campaign.targets import one_target, targets
 from topo_verify.checkers import CLAIMS, Judgement, Status, check
 from topo_verify.errors import InputError
-from topo_verify.faults import FAULTS
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.verify.by_claim import ClaimResults, by_claim
 
@@ -66,7 +66,7 @@ def test_what_is_not_declared_is_neither_holding_nor_failing() -> None:
 
 def declares_at_leaves(robot: Robot) -> object:
     """Right; it declares its decisions only where the marker lies at a leaf."""
-    silent = FAULTS["declares-nothing"]
+    silent = EVERY["declares-nothing"]
     return CATALOGUE["basic"](robot) if robot.percept.degree == 1 else silent(robot)
 
 

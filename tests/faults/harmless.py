@@ -35,6 +35,7 @@ def poses_all_of_u(chart: Chart, percept: Percept, order: Order) -> list[Hypothe
 
 tries_the_newest_first = Fault(
     name="tries-the-newest-first",
+    module=__name__,
     part="hypotheses",
     why="other policies: depth-first, and the newest hypothesis first",
     claim=None,
