@@ -128,6 +128,14 @@ def test_roads_that_leave_away_from_the_point_and_slant_towards_each_other() -> 
     assert around(drawn_world(at, Road(0, 1, [(0, 0), (0, 100)]), *slant)) == [1, 3, 2]
 
 
+@pytest.mark.parametrize("aside", [3, 0.5, 0.05])
+def test_straight_parallel_roads_that_begin_apart_and_end_together_are_two(aside: float) -> None:
+    at: list[Point] = [(0, 0), (100, 0), (0, 100)]
+    roads = [Road(0, 1, [(8, y), (100, 0)]) for y in (aside, -aside)]
+    world = drawn_world(at, *roads, Road(0, 2, [(0, 8), (0, 100)]), Road(2, 1, [at[2], at[1]]))
+    assert (around(world), world.genus) == ([1, 1, 2], 0)
+
+
 @pytest.mark.parametrize("length", [0.01, 2, 14])
 def test_a_street_may_be_shorter_than_the_extents_of_its_junctions(length: float) -> None:
     far = 23 + length  # a rim of 15, and one of 8 around (far, 0)

@@ -34,7 +34,8 @@ _NEAR = 0.1
 """The largest offset, as a share of its edge's first segment, at a vertex without an extent."""
 
 _CLOSE = 0.01
-"""The distance between two beginnings that are one point, as a share of the largest offset."""
+"""An offset that is rounding, as a share of the first segment; a distance between beginnings that
+is, as a share of the largest offset."""
 
 _LEAST = 1e-100
 """Offsets below this are none: their squares would vanish."""
@@ -74,8 +75,7 @@ def snapped(at: Point, courses: Sequence[Sequence[Point]]) -> list[Sequence[Poin
     All begin at the vertex if it has no extent.
     """
     offsets = [dist(at, course[0]) for course in courses]
-    segments = [dist(course[0], course[1]) for course in courses]
-    if all(o <= max(_NEAR * s, _LEAST) for o, s in zip(offsets, segments, strict=True)):
+    if not _has_extent(at, courses, offsets):
         return [_begun(at, course) for course in courses]
     close = _CLOSE * max(offsets)
     cells = {(0, 0): at}
@@ -88,6 +88,21 @@ def snapped(at: Point, courses: Sequence[Sequence[Point]]) -> list[Sequence[Poin
         cells.setdefault((x, y), point)
         moved.append(_begun(point, course))
     return moved
+
+
+def _has_extent(at: Point, courses: Sequence[Sequence[Point]], offsets: Sequence[float]) -> bool:
+    """Whether the edges begin around the vertex, or are not apart if they begin there."""
+    if max(offsets, default=0.0) <= _LEAST:
+        return False
+    share = max(
+        offset / max(dist(course[0], course[1]), offset)
+        for course, offset in zip(courses, offsets, strict=True)
+    )
+    if share <= _CLOSE:
+        return False
+    row = sorted(bearing(at, course[1]) for course in courses)
+    turns = [(b - a) % _TURN for a, b in pairwise([*row, row[0]])]
+    return share > _NEAR or any(turn < _EQUAL for turn in turns if len(row) > 1)
 
 
 def _begun(point: Point, course: Sequence[Point]) -> Sequence[Point]:
