@@ -4,6 +4,7 @@ row.py             Row: what one mapper did in one world
 attempt.py         makes one run, judges it, and makes its row
 tally.py           Tally: the sums of rows; which rows are kept
 campaign.py        Campaign: worlds, mappers, limits; results in order
+drawn_row.py       the worlds that a search runs again in a row
 progress.py        how fast the work goes, and how long still
 store.py           Store: the SQLite file from which a campaign resumes
 backend.py         where shards are examined; what a lost worker means

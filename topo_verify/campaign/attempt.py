@@ -18,7 +18,7 @@ from typing import Any
 import msgspec
 
 from topo_verify.campaign.judge import Checks, Report, judge, replay_line, undecided
-from topo_verify.campaign.row import SECOND_TRY, Judged, PolicyCosts, Row, hashed
+from topo_verify.campaign.row import OUTSIDE, SECOND_TRY, Judged, PolicyCosts, Row, hashed
 from topo_verify.campaign.run import Exploration, explore
 from topo_verify.checkers import Finding
 from topo_verify.errors import InputError
@@ -28,8 +28,6 @@ from topo_verify.robot import events as ev
 from topo_verify.robot.limits import Limits, MoveTimeout
 from topo_verify.robot.stopwatch import tasks_of
 from topo_verify.world.rooted_map import World
-
-OUTSIDE = "perhaps for a reason outside; the second try passed"
 
 KEPT_FINDINGS = 5
 """Most findings of each claim in a row."""

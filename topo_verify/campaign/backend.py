@@ -25,6 +25,7 @@ import msgspec
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import Look, lost_row
 from topo_verify.campaign.cluster import Cluster, ClusterPool
+from topo_verify.campaign.drawn_row import drawn_row, is_run_again
 from topo_verify.campaign.identity import Identity, merged, require_equal, source_hash
 from topo_verify.campaign.pool import Pool
 from topo_verify.campaign.progress import Progress
@@ -163,7 +164,8 @@ def _examined(
 
         result = examine_compiled(campaign, mappers, shard, beat)
     else:
-        result = c.examine(campaign, mappers, shard, beat, look)
+        drawn = drawn_row(campaign) if is_run_again(campaign, mappers) else ()
+        result = c.examine(campaign, mappers, shard, beat, look, drawn=drawn)
     if identity is None:
         return result
     try:
@@ -175,7 +177,7 @@ def _examined(
             return result
         (wrong,) = row.findings
         findings = (msgspec.structs.replace(wrong, message=cause),)
-        return c.with_loss(result, msgspec.structs.replace(row, findings=findings))
+        return result.with_loss(msgspec.structs.replace(row, findings=findings))
 
 
 def calls_native(campaign: c.Campaign) -> bool:
@@ -268,7 +270,7 @@ def _with_our_memory(
         why = SHORT_OF_MEMORY if row in short else None
         findings = () if why else row.findings
         lost = msgspec.structs.replace(row, findings=findings, undecided=why, lost=why)
-        again = c.with_loss(again, lost)
+        again = again.with_loss(lost)
     return again
 
 
@@ -390,7 +392,7 @@ def _lost_in_native_code(campaign: c.Campaign, shard: c.Shard, loss: Loss) -> c.
     row = _row_at(campaign, shard, 0, str(loss), external=True)
     if row is None or result.tally.failing or result.tally.undecided:
         return result
-    return c.with_loss(result, row)
+    return result.with_loss(row)
 
 
 def _open(campaign: c.Campaign, shard: c.Shard) -> c.ShardResult:
@@ -481,7 +483,7 @@ def _survived(
             or (failing and campaign.stop.failing == 1 and row.place > min(failing))
         ):
             continue
-        result = c.with_loss(result, row)
+        result = result.with_loss(row)
     # The campaign ends here.
     if calls_native(campaign) and len(losses) - 2 * len(given_up) >= MAX_LOSSES:
         tally = result.tally + Tally(lost=c.MAX_LOST)

@@ -18,7 +18,7 @@ A mapper that knew the order of a list could be right by counting worlds, so a s
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Generator, Iterable, Iterator, Sequence
 from contextlib import closing
 from functools import cache, partial
 from hashlib import sha256
@@ -28,11 +28,10 @@ from typing import Any, Literal, Protocol
 
 import msgspec
 
-from topo_verify.algorithms import Algorithm, Steered
-from topo_verify.campaign.attempt import OUTSIDE, Attempt, Look, attempt, row_of
+from topo_verify.campaign.attempt import Attempt, Look, attempt, row_of
 from topo_verify.campaign.judge import CheckedTraces, Checks
 from topo_verify.campaign.progress import Progress, ProgressRate
-from topo_verify.campaign.row import Row
+from topo_verify.campaign.row import Row, with_lost
 from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.campaign.tally import Counts, Notable, Tally
 from topo_verify.campaign.targets import targets
@@ -59,9 +58,6 @@ MAX_LOST = 3
 
 MAX_TIMEOUTS = 3
 """Time-outs, and in some studies failing worlds, after which a mapper's other worlds are left."""
-
-ROW = 1000
-"""Number of worlds that a search runs in one process in shuffled order; all, if there are fewer."""
 
 AGAIN = 200
 """Least number of stored worlds that a resumed campaign examines again."""
@@ -138,35 +134,11 @@ class Ranks(msgspec.Struct, frozen=True, tag="ranks"):
 
     def shards(self) -> Iterator[Shard]:
         """The shards; they depend on the class alone, so another campaign finds them in a store."""
-        for edges, ranks, width in self._widths():
+        for edges, ranks, width in self.widths():
             for start in range(0, ranks, width):
                 yield Shard(edges, start, min(start + width, ranks))
 
-    def drawn(self, seed: int, number: int) -> list[str]:
-        """The ids of `number` worlds, or of all, in an order drawn by the seed.
-
-        They are those of a few drawn shards, since ranks outside of the class cannot be skipped.
-        """
-        lots = Random(f"{seed} row")
-        sizes = [
-            (edges, ranks, width, -(-ranks // width)) for edges, ranks, width in self._widths()
-        ]
-        shards = sum(size for *_, size in sizes)
-        row: list[str] = []
-        for place in lots.sample(range(shards), min(shards, number)):
-            if len(row) >= number:
-                break
-            at = place
-            for edges, ranks, width, size in sizes:
-                if at < size:
-                    shard = Shard(edges, at * width, min((at + 1) * width, ranks))
-                    row += [name for _, name, _ in self.worlds(shard)]
-                    break
-                at -= size
-        lots.shuffle(row)
-        return row[:number]
-
-    def _widths(self) -> Iterator[tuple[int, int, int]]:
+    def widths(self) -> Iterator[tuple[int, int, int]]:
         """Of each size: the edges, the number of ranks, and of ranks in a shard."""
         for edges, worlds in self.totals().items():
             ranks = rank_order.count(edges)
@@ -323,6 +295,11 @@ class ShardResult(msgspec.Struct, frozen=True):
     loaded: Loaded | None = None
     seconds: EngineSeconds = EngineSeconds()
 
+    def with_loss(self, row: Row) -> ShardResult:
+        """The same with a lost worker's row, in the place of the run that passed."""
+        tally, rows = self.tally.amended(row), tuple(with_lost(self.rows, row))
+        return msgspec.structs.replace(self, tally=tally, rows=rows)
+
 
 ShardResults = Generator[tuple[Shard, ShardResult]]
 """Shards, each with its result."""
@@ -339,28 +316,6 @@ class Interrupted(KeyboardInterrupt):
         self.shard, self.result = shard, result
 
 
-def with_loss(result: ShardResult, row: Row) -> ShardResult:
-    """The result with a lost worker's row, in the place of the run that passed."""
-    rows: list[Row] = []
-    for known in result.rows:
-        if (known.place, known.mapper, known.turn) == (row.place, row.mapper, row.turn):
-            row = _passed_later(known, row)
-        else:
-            rows.append(known)
-    rows = sorted([*rows, row], key=lambda row: (row.edges, row.place, row.turn))
-    tally = result.tally.amended(row)
-    return msgspec.structs.replace(result, tally=tally, rows=tuple(rows))
-
-
-def _passed_later(known: Row, lost: Row) -> Row:
-    if lost.undecided is None:
-        return msgspec.structs.replace(
-            known, ended=lost.ended, stopped=lost.stopped, findings=lost.findings
-        )
-    why = f"its worker was lost ({lost.lost}), {OUTSIDE}"
-    return msgspec.structs.replace(known, undecided=why, lost=lost.lost)
-
-
 # ---------------------------------------------------------------- the loop
 
 
@@ -371,13 +326,13 @@ def examine(
     beat: Beat = no_beat,
     look: Look | None = None,
     known: Checks | None = None,
+    drawn: Container[str] = (),
 ) -> ShardResult:
     """Run every mapper in every world of a shard; Ctrl-C raises `Interrupted`.
 
-    `look` replaces the campaign's, `known` the checkers.
+    `look` replaces the campaign's, `known` the checkers; `drawn` worlds are to be run again.
     """
     counts, kept, rows = Counts(), Notable(campaign.seed), list[Row]()
-    row = drawn_row(campaign) if _is_run_again(campaign, mappers) else ()
     first_runs: dict[str, str] = {}
 
     def result() -> ShardResult:
@@ -401,7 +356,7 @@ def examine(
                         world_rows.append(row_of(run, name, place, len(world_rows), look))
                 done += 1
             counts.enter(world_rows)
-            if name in row:
+            if name in drawn:
                 first_runs[name] = world_rows[0].digest
             if campaign.keep == "all":
                 rows += world_rows
@@ -412,29 +367,6 @@ def examine(
     except KeyboardInterrupt:
         raise Interrupted(shard, result()) from None
     return result()
-
-
-def drawn_row(campaign: Campaign) -> dict[str, None]:
-    """The worlds of the class that one process runs again, in this order."""
-    assert isinstance(campaign.worlds, Ranks)
-    # The reference's shards, since the engine's are too large to list.
-    return _row(campaign.worlds.edges, campaign.worlds.kind, campaign.seed)
-
-
-@cache
-def _row(edges: int, kind: str, seed: int) -> dict[str, None]:
-    return dict.fromkeys(Ranks(edges, kind).drawn(seed, ROW))
-
-
-def _is_run_again(campaign: Campaign, mappers: Sequence[Target]) -> bool:
-    """Whether a search runs worlds of this campaign again: not for the catalogue."""
-    is_search = isinstance(campaign.worlds, Ranks) and campaign.keep == "notable"
-    return is_search and len(mappers) == 1 and not is_of_catalogue(mappers[0])
-
-
-def is_of_catalogue(target: Target) -> bool:
-    """Whether the mapper is an algorithm of the catalogue, which remembers nothing."""
-    return isinstance(target.mapper, Algorithm | Steered)
 
 
 def _attempt(
@@ -557,7 +489,7 @@ class _Order:
                 for row in self._ended_again.get((shard.edges, shard.start), ()):
                     why = row.lost or row.stopped
                     lost = msgspec.structs.replace(row, findings=(), undecided=why, lost=why)
-                    known = with_loss(known, lost)
+                    known = known.with_loss(lost)
                 self._ahead[shard.edges, shard.start] = known
                 self._rate.known(known.tally.worlds)
 

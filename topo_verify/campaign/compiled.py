@@ -255,7 +255,7 @@ class _CompiledShard:
             ((place, name, world),) = self._worlds.worlds(alone)
             text, limits = self._mappers[0].text, self._campaign.limits
             row = lost_row(world, place, name, text, limits, DECLINED_ONCE, external=True)
-            result = c.with_loss(result, row)
+            result = result.with_loss(row)
         self._rows |= {(row.place, row.turn): row for row in result.rows}
         return result.tally
 

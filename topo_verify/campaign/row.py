@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from hashlib import sha256
 from operator import attrgetter
 from typing import Any
@@ -14,6 +14,9 @@ from topo_verify.robot import events as ev
 
 SECOND_TRY = "; at the second try it delivered one"
 """The end of `stopped` if a first try lost its process and a second one passed."""
+
+
+OUTSIDE = "perhaps for a reason outside; the second try passed"
 
 
 class Judged(msgspec.Struct, frozen=True, array_like=True):
@@ -160,6 +163,22 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
         return hashed(
             [self.mapper, [judged.status for judged in self.claims], self.cost, self.moves]
         )
+
+
+def with_lost(rows: Iterable[Row], lost: Row) -> list[Row]:
+    """The rows with that of a lost worker, in the place of the run that passed."""
+    kept: list[Row] = []
+    for row in rows:
+        if (row.place, row.mapper, row.turn) != (lost.place, lost.mapper, lost.turn):
+            kept.append(row)
+        elif lost.undecided is None:
+            lost = msgspec.structs.replace(
+                row, ended=lost.ended, stopped=lost.stopped, findings=lost.findings
+            )
+        else:
+            why = f"its worker was lost ({lost.lost}), {OUTSIDE}"
+            lost = msgspec.structs.replace(row, undecided=why, lost=lost.lost)
+    return sorted([*kept, lost], key=attrgetter("edges", "place", "turn"))
 
 
 def hashed(value: object) -> str:

@@ -337,7 +337,7 @@ def shown(entry: study.SearchEntry, *, worst: bool = False) -> Iterator[Block]:
         yield Bullets((*named, *rest))
         if entry.target.startswith(LIBRARY) and len(entry.lost) >= MAX_LOST:
             yield Text(f"After {MAX_LOST} such worlds the library is given up.")
-    if entry.run_again is not None:
+    if entry.run_again is not None and (entry.verdict != "REFUTED" or not entry.run_again.is_same):
         yield from _run_again(entry.run_again)
     if entry.engine != "reference":
         yield Text(f"judged by {entry.judged_by}: {plural(entry.by_checkers, 'world')}")

@@ -10,7 +10,8 @@ import pytest
 
 from tests.helpers import worlds
 from tests.programs.programs import served
-from topo_verify.campaign.campaign import ENGINE_SHARD, Ranks, drawn_row
+from topo_verify.campaign.campaign import ENGINE_SHARD, Ranks
+from topo_verify.campaign.drawn_row import drawn_row
 from topo_verify.campaign.targets import targets
 from topo_verify.cli import main
 from topo_verify.programs.foreign import Foreign

@@ -16,7 +16,7 @@ from tests.campaign.misdeeds import DEEDS
 from tests.programs import natives
 from tests.programs.programs import python
 from topo_verify.campaign.backend import pooled
-from topo_verify.campaign.campaign import ROW
+from topo_verify.campaign.drawn_row import ROW
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import targets
 from topo_verify.checkers.findings import Verdict

@@ -36,6 +36,7 @@ import msgspec
 
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import calls_native, here
+from topo_verify.campaign.drawn_row import ROW, drawn_row
 from topo_verify.campaign.progress import Progress, no_progress
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import SAMPLE, Tally, sample_key
@@ -47,8 +48,6 @@ from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
 MOST = SAMPLE
-
-ROW = c.ROW
 
 REPEATS = 5
 """Runs in which a world does the same before a cause is named."""
@@ -125,7 +124,7 @@ class RunAgain(msgspec.Struct, frozen=True):
         )
 
 
-Outcome = Literal["same", "other", "undecided"]
+Sameness = Literal["same", "other", "undecided"]
 
 
 class Repetition:
@@ -139,7 +138,7 @@ class Repetition:
     def __init__(self, campaign: c.Campaign, rows: Sequence[Row], tally: Tally) -> None:
         self._campaign, self._rows, self._tally = campaign, rows, tally
         self._known = {row.world: row for row in rows}
-        self._outcomes: dict[str, Outcome] = {}
+        self._outcomes: dict[str, Sameness] = {}
         self._failures: dict[str, Unlike] = {}
         self._alone: set[str] = set()
         self._in_row = 0
@@ -148,7 +147,7 @@ class Repetition:
     def result(self) -> RunAgain:
         """What the runs show so far."""
         failures = sorted(self._failures.values(), key=lambda unlike: (unlike.edges, unlike.rank))
-        worlds: dict[Outcome, list[str]] = {"same": [], "other": [], "undecided": []}
+        worlds: dict[Sameness, list[str]] = {"same": [], "other": [], "undecided": []}
         for world, outcome in self._outcomes.items():
             worlds[outcome].append(world)
         return RunAgain(
@@ -197,7 +196,7 @@ class Repetition:
     def _run_row(self, report: Progress) -> None:
         campaign, known = self._campaign, self._known
         lost = {row.world for row in self._rows if row.lost}
-        names = [name for name in [*c.drawn_row(campaign)][:ROW] if name not in lost]
+        names = [name for name in [*drawn_row(campaign)][:ROW] if name not in lost]
         for now in _runs(campaign, names, _one_process, report, stop=c.Stop(failing=1)):
             self._in_row += 1
             if now.failed:
@@ -214,13 +213,13 @@ class Repetition:
             else:
                 self._note(now.world, compared(row, digest, now))
 
-    def _note(self, world: str, outcome: Outcome) -> None:
+    def _note(self, world: str, outcome: Sameness) -> None:
         known = self._outcomes.get(world, "same")
         if known != "other":
             self._outcomes[world] = known if outcome == "same" else outcome
 
 
-def compared(row: Row | None, digest: str | None, now: Row) -> Outcome:
+def compared(row: Row | None, digest: str | None, now: Row) -> Sameness:
     """What a second run of a mapper in a world is beside the first one.
 
     Args:

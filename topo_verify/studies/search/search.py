@@ -14,6 +14,7 @@ from msgspec.structs import astuple
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import calls_native, clustered, here, pooled
 from topo_verify.campaign.cluster import both_given, connected
+from topo_verify.campaign.drawn_row import is_of_catalogue
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import PolicyCosts, Row
 from topo_verify.campaign.run import Engine, is_native, require_compiled
@@ -337,7 +338,7 @@ class Search:
         repeats: bool = True,
     ) -> None:
         assert isinstance(campaign.worlds, c.Ranks)
-        self._repeats = repeats and len(mappers) == 1 and not c.is_of_catalogue(mappers[0])
+        self._repeats = repeats and len(mappers) == 1 and not is_of_catalogue(mappers[0])
         self.campaign, self.mappers, self._backend, self._store = campaign, mappers, backend, store
         self.worlds = campaign.worlds
         self.totals = self.worlds.totals()
