@@ -12,11 +12,10 @@ import sys
 from time import monotonic
 from types import FrameType
 
-SIGNALS = [signal.SIGINT, signal.SIGTERM]
-FROM_OUTSIDE = [signal.SIGTERM]
-if sys.platform != "win32":
-    SIGNALS.append(signal.SIGHUP)
-    FROM_OUTSIDE = [*SIGNALS, signal.SIGQUIT, signal.SIGKILL]
+SIGNALS = [n for n in signal.Signals if n.name in ("SIGINT", "SIGTERM", "SIGHUP")]
+"""The signals that interrupt a command; Windows lacks some."""
+
+FROM_OUTSIDE = [*SIGNALS, *(n for n in signal.Signals if n.name in ("SIGQUIT", "SIGKILL"))]
 """The signals that tell nothing of the process that they end: another one sent them."""
 
 TOGETHER = 1.0
