@@ -1,4 +1,4 @@
-"""What any choices can cost `basic` in worlds of 5 (20 s) and 6 edges (12 minutes).
+"""What any choices can cost `basic` in worlds of 5 (20 s) and 6 edges (6 minutes).
 
     python -m research.every 5 6
 
