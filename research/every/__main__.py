@@ -15,6 +15,7 @@ reference policies cost, together and at most in one world.
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
@@ -24,7 +25,7 @@ from topo_verify import CATALOGUE, World
 from topo_verify.campaign.judge import judge
 from topo_verify.campaign.row import MostSaved, PolicyCosts
 from topo_verify.campaign.run import explore
-from topo_verify.compiled import require
+from topo_verify.compiled import available
 from topo_verify.errors import InternalError
 from topo_verify.programs.loader import Target
 from topo_verify.studies.search.states.script import scripted
@@ -92,7 +93,8 @@ def main() -> None:
     ask.add_argument("--mapper", choices=KNOWN, default="basic")
     ask.add_argument("--workers", type=int, default=2, help="processes")
     args = ask.parse_args()
-    require("research.every")
+    if not available():
+        sys.exit("research.every needs numba: install topo-verify with the extra `fast`")
     print(f"| {' | '.join(COLUMNS)} |")
     print(f"| {' | '.join(['---:'] * (len(COLUMNS) - 1))} | --- |")
     with ProcessPoolExecutor(args.workers) as pool:
