@@ -17,6 +17,7 @@ from collections.abc import Callable
 from typing import Any
 
 from topo_verify import CATALOGUE, Robot
+from topo_verify.algorithms import Survey
 from topo_verify.programs.library import Skipped
 from topo_verify.robot.percept import Percept
 
@@ -33,7 +34,7 @@ def done(deed: str, robot: Robot) -> Any:
     """What a misdeed delivers, if it delivers anything."""
     match deed:
         case "map":
-            return {"vertices": [[]], "edges": [], "marker": None}
+            return {"vertices": ((),), "edges": (), "marker": None}
         case "skip":
             raise Skipped("not today")
         case "error":
@@ -48,6 +49,8 @@ def done(deed: str, robot: Robot) -> Any:
             robot.move(0)
             robot.move(0)
             return CATALOGUE["basic"](robot)
+        case _:
+            pass
     return None
 
 
@@ -76,15 +79,17 @@ class Piped:
     def __init__(self, percept: dict[str, Any]) -> None:
         self.percept = Percept(percept["degree"], percept["marker"])
 
-    def move(self, door: int, _purpose: object = None) -> Percept:
-        """Leave by a door."""
+    def move(self, door: int, purpose: object = None) -> Percept:
+        """Leave by a door, for whatever purpose."""
+        del purpose
         tell({"type": "move", "door": door})
         percept = json.loads(sys.stdin.readline())
         self.percept = Percept(percept["degree"], percept["marker"])
         return self.percept
 
-    def declare(self, _event: object) -> None:
+    def declare(self, event: object) -> None:
         """Declare nothing."""
+        del event
 
 
 def tell(message: dict[str, Any]) -> None:
@@ -105,9 +110,6 @@ if __name__ == "__main__":
             continue
         if survey is None:
             sys.exit(1)
-        vertices, edges, marker = (
-            survey.values()
-            if isinstance(survey, dict)
-            else (survey.vertices, survey.edges, survey.marker)
-        )
-        tell({"type": "done", "map": {"vertices": vertices, "edges": edges, "marker": marker}})
+        if isinstance(survey, Survey):
+            survey = {"vertices": survey.vertices, "edges": survey.edges, "marker": survey.marker}
+        tell({"type": "done", "map": survey})
