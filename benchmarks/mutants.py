@@ -65,7 +65,7 @@ ENDLESS = "nobody, it comes to no end"
 BY_SIZE = "whichever of two vertices stands for both, the classes are the same; sizes save time"
 AT_A_ROOT = "the offset of a node is read only while it has a parent, and is set when it gets one"
 BOTH_TWO = "both are pairs"
-ONLY_QUICKER = "what was rejected need not be tried again, and would be rejected again"
+ONLY_QUICKER = "what is left out here comes to the same later, and takes longer"
 ONLY_ROOM = "it changes how much memory a node takes, and no answer"
 BELOW_0 = "every number below 0 says that there is no other end"
 NO_TRY_LEFT = "where no try is left for a pair, none is left for the pairs behind it"
@@ -77,6 +77,8 @@ FOLDED_LATER = "what looks different contradicts when it is folded"
 NOT_POSED = "before the first pose no word is asked for"
 SAME_PLACE = "a new place is identified with the known one"
 UNCHANGED = "no line changes it"
+TWO_ENDS = "no edge ends in its own dart"
+CODE_TELLS = "the canonical code says the same, and takes longer"
 PLACEHOLDER = "the next round puts another number there"
 
 SAME = {
@@ -85,8 +87,14 @@ SAME = {
         ONLY_QUICKER
     ),
     "entailment.py decision_conclusions: break -> continue": FOR_GOOD,
-    "entailment.py _may_lead_to: differs or end not in face or any(fold.contradictions(*places,"
+    "entailment.py _may_lead_to: is_other or end not in face or any(fold.contradictions(*places,"
     " apart)) -> end not in face or any(fold.contradictions(*places, apart))": FOLDED_LATER,
+    "entailment.py decision_conclusions: type(event) is Move or not isinstance(event, CONCLUDED)"
+    " -> not isinstance(event, CONCLUDED)": ONLY_QUICKER,
+    "entailment.py map_conclusion: code or delivered_code(finish.map) ->"
+    " delivered_code(finish.map)": ONLY_QUICKER,
+    "folding.py Fold.are_apart: return i != j if a == b else not"
+    " self._seen[a].is_like(self._seen[b]) -> return None": FOLDED_LATER,
     "entailment.py _planar_folding: break -> continue": NO_TRY_LEFT,
     "excursions.py Excursion.__init__: False -> True": NOT_POSED,
     "excursions.py Records.behind: since < when -> since <= when": NO_OTHER_ORDER,
@@ -103,9 +111,11 @@ SAME = {
     "folding.py Fold._merged: self._size[a] > self._size[b] -> self._size[a] >="
     " self._size[b]": BY_SIZE,
     "folding.py Fold._merged: self._size[b] += self._size[a] -> pass": BY_SIZE,
-    "folding.py Fold.move: known or (self._visit(percept), 0) -> (self._visit(percept), 0)": (
-        SAME_PLACE
-    ),
+    "folding.py Fold.move: at_v0 or known or (self._visit(percept), 0) -> at_v0 or"
+    " (self._visit(percept), 0)": SAME_PLACE,
+    "map_in_world.py MapInWorld.is_world: edge[0] < edge[1] -> edge[0] <= edge[1]": TWO_ENDS,
+    "map_in_world.py MapInWorld.is_world: return is_whole and delivered =="
+    " MapData(tuple(self.vertices), edges, 0) -> return None": CODE_TELLS,
     "folding.py Fold.table: True -> False": AS_MANY,
     "folding.py Fold.table: 1 -> 2 (2)": BELOW_0,
     "folding.py Fold.table: -1 -> 1 (2)": PLACEHOLDER,
@@ -115,7 +125,6 @@ SAME = {
     "map_in_world.py MapInWorld.grow: return False -> return None": BOTH_FALSE,
     "map_in_world.py MapInWorld.grow: return False -> return None (2)": BOTH_FALSE,
     "replayed_trace.py Round: True -> False": UNCHANGED,
-    "replayed_trace.py Fate: True -> False": UNCHANGED,
 }
 """Equivalent mutants by their text, with the reason."""
 

@@ -180,3 +180,11 @@ def test_an_unfinished_s_is_wrong_at_the_last_event() -> None:
     (judgement,) = (j for j in check(WORLD, lie) if j.claim == "map-isomorphic")
     (finding,) = judgement.findings
     assert (finding.event, finding.expected, finding.seen) == (len(lie) - 1, 0, 1)
+
+
+def test_s_as_declared_is_the_map_only_if_it_is_whole() -> None:
+    assert MAP is not None
+    last = max(when for when, event in enumerate(TRACE) if isinstance(event, Augment))
+    part = msgspec.structs.replace(MAP, vertices=MAP.vertices[:-1], edges=MAP.edges[:-1])
+    lie = edited(without(TRACE, last), -1, map=part)
+    assert len(said(lie, "map-isomorphic")) == 2  # darts are unexplored, and it is no map
