@@ -17,7 +17,7 @@ from collections.abc import Callable
 from typing import Any
 
 from topo_verify import CATALOGUE, Robot
-from topo_verify.algorithms import Survey
+from topo_verify.algorithms.chart import Survey
 from topo_verify.programs.library import Skipped
 from topo_verify.robot.percept import Percept
 
