@@ -75,11 +75,11 @@ def errs_then_lacks_memory(robot: Robot) -> Any:
     runs = Path("runs")
     with runs.open("a") as file:
         file.write(".")
-    match runs.stat().st_size:
-        case 20:
-            return guesses(robot)
-        case 22:
-            lack_memory()
+    number = runs.stat().st_size
+    if number == 20:
+        return guesses(robot)
+    if number == 22:
+        lack_memory()
     return CATALOGUE["basic"](robot)
 
 
