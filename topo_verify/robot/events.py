@@ -30,7 +30,7 @@ MapDart = Number
 
 RuleName = Literal["motion", "prefix", "history", "records", "folding", "planar"]
 
-Growth = Literal["new", "loop"]
+GrowthKind = Literal["new", "loop"]
 
 TRACE_FORMAT: Literal["topo-verify/trace"] = "topo-verify/trace"
 TRACE_VERSION = 1
@@ -151,7 +151,7 @@ class Augment(_Event, frozen=True):
     """The map grows by a new vertex with first dart `dart`, or by a loop with other end `dart`."""
 
     edge: MapDart
-    kind: Growth
+    kind: GrowthKind
     dart: MapDart
     degree: Number
 
@@ -233,7 +233,7 @@ def read_events(lines: Iterable[bytes], *, name: str = "trace") -> Iterator[Even
         _require_start(None, name)
 
 
-_WORDS = {"kind": get_args(Growth), "rule": get_args(RuleName), "purpose": PURPOSES}
+_WORDS = {"kind": get_args(GrowthKind), "rule": get_args(RuleName), "purpose": PURPOSES}
 """The words of each field that has one of a few."""
 
 

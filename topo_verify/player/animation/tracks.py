@@ -17,7 +17,7 @@ from topo_verify.player.scenes import Moment, Playback
 from topo_verify.robot import events as ev
 from topo_verify.world.drawing import Layout, curves
 from topo_verify.world.drawing.svg import leaving
-from topo_verify.world.formats.embedding import Point
+from topo_verify.world.formats.junctions import Point
 from topo_verify.world.rooted_map import Dart
 
 Span = tuple[int, int]

@@ -24,7 +24,7 @@ import numpy as np
 from topo_verify.world.drawing import curves
 from topo_verify.world.drawing.arrays import Floats, Ints, solve
 from topo_verify.world.drawing.layout import MARGIN, RADIUS, CutSurface, Layout, clear_radius
-from topo_verify.world.formats.embedding import Point
+from topo_verify.world.formats.junctions import Point
 from topo_verify.world.rooted_map import Dart, World
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from topo_verify.world.drawing.arrays import Floats, Ints
-from topo_verify.world.formats.embedding import Point
+from topo_verify.world.formats.junctions import Point
 
 STEPS = 8
 """Pieces of a flattened quadratic arc."""

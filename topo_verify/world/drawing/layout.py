@@ -14,7 +14,7 @@ import numpy as np
 from topo_verify.world.drawing import curves
 from topo_verify.world.drawing.arrays import Floats
 from topo_verify.world.drawing.curves import crossings
-from topo_verify.world.formats.embedding import Point
+from topo_verify.world.formats.junctions import Point
 from topo_verify.world.rooted_map import Dart
 
 Kind = Literal["positions", "planar", "bridges", "cell", "ball", "known"]

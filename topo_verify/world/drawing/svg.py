@@ -16,7 +16,7 @@ from topo_verify.world.drawing import curves
 from topo_verify.world.drawing.arrays import Floats
 from topo_verify.world.drawing.curves import number
 from topo_verify.world.drawing.layout import CutSurface, Layout
-from topo_verify.world.formats.embedding import Point
+from topo_verify.world.formats.junctions import Point
 from topo_verify.world.rooted_map import Dart, World
 
 STYLE = (

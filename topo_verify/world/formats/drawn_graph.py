@@ -21,8 +21,9 @@ from typing import Any, NamedTuple, TypeVar, cast
 
 from topo_verify.errors import InputError, shown
 from topo_verify.world.formats import embedding, geometry
-from topo_verify.world.formats.embedding import DrawnEdge, DrawnEnd, DrawnVertex, Point
+from topo_verify.world.formats.embedding import DrawnEdge, DrawnEnd, DrawnVertex
 from topo_verify.world.formats.flaws import Flaws
+from topo_verify.world.formats.junctions import Point
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)

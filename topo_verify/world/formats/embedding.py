@@ -23,15 +23,13 @@ from typing import NamedTuple, TypeVar
 from topo_verify.errors import InputError, plural, shown
 from topo_verify.world.formats import junctions
 from topo_verify.world.formats.flaws import MOST, Flaws
-from topo_verify.world.formats.junctions import Leaving
+from topo_verify.world.formats.junctions import Leaving, Point
 from topo_verify.world.rooted_map import World
 
 W = TypeVar("W", bound=World)
 
 REMARKS = logging.getLogger("topo_verify.world.formats")
 """What a reader has to say of a file that it reads; commands print it as notes on stderr."""
-
-Point = junctions.Point
 
 MOST_EDGES = 500_000
 
@@ -414,7 +412,7 @@ def _around_extent(
 ) -> list[DrawnEnd]:
     try:
         return [ends[spoke.end] for spoke in junctions.clockwise(place.at, leaving)]
-    except junctions.Meeting as met:
+    except junctions.NoOrder as met:
         first, second = (shown(ways[ends[n].way].name, limit=60) for n in met.pair)
         farthest = max(dist(place.at, course[0]) for _, course in leaving)
         raise InputError(

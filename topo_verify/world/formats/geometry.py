@@ -24,7 +24,7 @@ from contextlib import suppress
 from typing import Any, Final, cast
 
 from topo_verify.errors import InputError, shown
-from topo_verify.world.formats.embedding import Point
+from topo_verify.world.formats.junctions import Point
 
 FARTHEST = 1e12
 """The largest coordinate: products must not overflow."""

@@ -62,7 +62,7 @@ class _Exit(NamedTuple):
     place: int
 
 
-class Meeting(Exception):
+class NoOrder(Exception):
     """Two edges between which there is no order, by their places among the leaving ends."""
 
     def __init__(self, first: int, second: int) -> None:
@@ -125,17 +125,17 @@ class Spoke(NamedTuple):
 
 
 def clockwise(at: Point, ends: Sequence[Leaving]) -> list[Spoke]:
-    """The spokes of a vertex with an extent, clockwise; raises `Meeting` if they have no order."""
+    """The spokes of a vertex with an extent, clockwise; raises `NoOrder` if they have no order."""
     largest = max(dist(at, end.course[0]) for end in ends)
     junction = _Junction(at, ends)
-    meeting: Meeting | None = None
+    no_order: NoOrder | None = None
     for circle in (*_CIRCLES, 0.0):
         try:
             return junction.order(circle * largest)
-        except Meeting as met:
-            meeting = meeting or met
-    assert meeting
-    raise meeting
+        except NoOrder as met:
+            no_order = no_order or met
+    assert no_order
+    raise no_order
 
 
 class _Junction:
@@ -151,7 +151,7 @@ class _Junction:
                 self.twin |= {other: place, place: other}
 
     def order(self, radius: float) -> list[Spoke]:
-        """The order by the exits of this circle; raises `Meeting`."""
+        """The order by the exits of this circle; raises `NoOrder`."""
         exits = [self._exit(place, radius) for place in range(len(self.ends))]
         rests = [self._rest(place, exits) for place in range(len(self.ends))]
         rows = sorted((*self._direction(rest), place) for place, rest in enumerate(rests))
@@ -197,7 +197,7 @@ class _Junction:
                 _EQUAL < t < _TURN - _EQUAL for t in (turn, next_turn, (next_turn - turn) % _TURN)
             )
             if not has_order:
-                raise Meeting(first, second)
+                raise NoOrder(first, second)
 
     def _require_free(
         self,
@@ -220,7 +220,7 @@ class _Junction:
                     if other == place or (tip in tips and tip in (a, b)):
                         continue
                     if tip != self.at and _meet(self.at, tip, a, b):
-                        raise Meeting(other, place)
+                        raise NoOrder(other, place)
 
 
 def _between(
