@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from time import process_time
 
-from topo_verify.world.drawing import lay_out, read_back, to_svg
+from topo_verify.pictures.drawing import lay_out, read_back, to_svg
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 

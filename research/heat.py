@@ -19,11 +19,11 @@ from xml.etree import ElementTree as ET
 
 from research import marker
 from topo_verify.errors import InternalError
-from topo_verify.world.drawing import curves, read_back
-from topo_verify.world.drawing.choice import lay_out
-from topo_verify.world.drawing.curves import number
-from topo_verify.world.drawing.layout import Layout
-from topo_verify.world.drawing.svg import FONT, leaving, text, to_svg
+from topo_verify.pictures.drawing import curves, read_back
+from topo_verify.pictures.drawing.choice import lay_out
+from topo_verify.pictures.drawing.curves import number
+from topo_verify.pictures.drawing.layout import Layout
+from topo_verify.pictures.drawing.svg import FONT, leaving, text, to_svg
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import Dart, World
 

@@ -88,9 +88,9 @@ MADE_OF = {
 """Other people's packages that a room may load when it is imported; msgspec may be anywhere."""
 
 LOADED_LATE = {
-    "topo_verify.world.drawing": {"numpy", "networkx", "scipy"},
+    "topo_verify.pictures.drawing": {"numpy", "networkx", "scipy"},
     "topo_verify.compiled.native_call": {"numba", "llvmlite"},
-    "topo_verify.player.animation": set[str](),
+    "topo_verify.pictures.animation": set[str](),
 }
 """Parts of a room that the rest of the house imports late: what they may load in their turn.
 
@@ -249,18 +249,18 @@ def test_every_room_imports_only_what_it_may() -> None:
         ("topo_verify.world.families", "from .formats import load", "full name"),
         ("topo_verify.world.families", "import networkx as nx", "where it is used"),
         ("topo_verify.world.families", "class A:\n    import numpy", "where it is used"),
-        ("topo_verify.world.drawing.svg", "import matplotlib", "where it is used"),
+        ("topo_verify.pictures.drawing.svg", "import matplotlib", "where it is used"),
         (
             "topo_verify.world.families",
-            "from topo_verify.world.drawing.svg import to_svg",
-            "topo_verify.world.drawing is imported where it is used",
+            "from topo_verify.pictures.drawing.svg import to_svg",
+            "topo_verify.pictures.drawing is imported where it is used",
         ),
         (
             "topo_verify.campaign.run",
             "try:\n    import z3\nexcept ImportError: ...",
             "where it is used",
         ),
-        ("topo_verify.robot", "def f():\n    import topo_verify.player", "lower floors"),
+        ("topo_verify.robot", "def f():\n    import topo_verify.pictures", "lower floors"),
         ("topo_verify.errors", "from topo_verify.world import World", "lower floors"),
         ("topo_verify.algorithms.basic", "from topo_verify.world import World", "may see only"),
         ("topo_verify.algorithms.basic", "from topo_verify.robot import simulator", "see only"),
@@ -272,7 +272,7 @@ def test_every_room_imports_only_what_it_may() -> None:
         ("topo_verify.checkers.costs", "import hypothesis.strategies", "never in checkers"),
         (
             "topo_verify.world",
-            "class World:\n def _repr_png_(self):\n  import topo_verify.player",
+            "class World:\n def _repr_png_(self):\n  import topo_verify.pictures",
             "lower floors",
         ),
         (
@@ -292,13 +292,13 @@ def test_the_layer_check_sees_a_planted_breach(module: str, source: str, objecti
     [
         ("topo_verify.world", "from topo_verify.errors import InputError"),
         ("topo_verify.world", "def f():\n    import networkx"),
-        ("topo_verify.world.drawing.svg", "import numpy as np"),
-        ("topo_verify.world.drawing", "from topo_verify.world.drawing.svg import to_svg"),
-        ("topo_verify.cli.world", "def f():\n    from topo_verify.world.drawing import to_svg"),
+        ("topo_verify.pictures.drawing.svg", "import numpy as np"),
+        ("topo_verify.pictures.drawing", "from topo_verify.pictures.drawing.svg import to_svg"),
+        ("topo_verify.cli.world", "def f():\n    from topo_verify.pictures.drawing import to_svg"),
         ("topo_verify.world", "if TYPE_CHECKING:\n    import numpy"),
         (
             "topo_verify.campaign",
-            "class Report:\n def walk(self):\n  from topo_verify.player import walk",
+            "class Report:\n def walk(self):\n  from topo_verify.pictures import walk",
         ),
         ("topo_verify.algorithms.basic", "from topo_verify.robot.percept import Percept"),
         ("topo_verify.algorithms.basic", "from topo_verify.robot import events"),

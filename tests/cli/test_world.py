@@ -16,7 +16,7 @@ import pytest
 import topo_verify as tv
 from tests.cli.conftest import Call, Refused, Results
 from topo_verify import World, families
-from topo_verify.world.drawing import choice, read_back
+from topo_verify.pictures.drawing import choice, read_back
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.enumeration.pruned import ranked_tables

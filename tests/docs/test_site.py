@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.pages import ROOT
-from topo_verify.world.drawing.read_back import read, untruths
+from topo_verify.pictures.drawing.read_back import read, untruths
 from topo_verify.world.families import FAMILIES
 from topo_verify.world.resolve import resolve_world
 

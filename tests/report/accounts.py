@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from datetime import UTC, datetime
 
-from tests.player.played import played
+from tests.pictures.played import played
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Bullets, Command, Raw, Text, TextTable, View
 from topo_verify.world import World

@@ -8,7 +8,7 @@ from io import StringIO
 
 import pytest
 
-from topo_verify.player.page import part
+from topo_verify.pictures.page import part
 from topo_verify.report import blocks as bl
 from topo_verify.report.html import blocks_as_html
 from topo_verify.report.markdown import markdown

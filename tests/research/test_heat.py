@@ -12,7 +12,7 @@ import pytest
 from research import heat
 from research.heat import colour, heat_map, heat_svg, untrue_colours
 from topo_verify import InternalError, World, families
-from topo_verify.world.drawing import Layout, read_back
+from topo_verify.pictures.drawing import Layout, read_back
 from topo_verify.world.resolve import resolve_world
 
 WORLD = World.from_id("m5/17")

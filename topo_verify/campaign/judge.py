@@ -42,7 +42,7 @@ from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
-    from topo_verify.player.scenes import Playback
+    from topo_verify.pictures.scenes import Playback
 
 
 class JudgedRun(NamedTuple):
@@ -92,7 +92,7 @@ class Report(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def playback(self) -> Playback | None:
         """The run event by event, with its findings, or None."""
-        from topo_verify.player.scenes import Playback
+        from topo_verify.pictures.scenes import Playback
 
         if self.run is None:
             return None
@@ -100,7 +100,7 @@ class Report(msgspec.Struct, frozen=True, dict=True):
 
     def walk(self) -> list[str]:
         """The lines of the walk to the first finding; may be empty."""
-        from topo_verify.player import walk
+        from topo_verify.pictures import walk
 
         if not self.findings or self.playback is None:
             return []
@@ -143,7 +143,7 @@ class Report(msgspec.Struct, frozen=True, dict=True):
         return f"<Report: {shown(self.head, limit=LINE)}>"
 
     def _repr_html_(self) -> str:
-        from topo_verify.player import cards
+        from topo_verify.pictures import cards
 
         again = self.findings[0].replay if self.findings else ""
         playback = self.playback if self.findings else None
@@ -165,7 +165,7 @@ class Report(msgspec.Struct, frozen=True, dict=True):
 
 
 def _card(finding: Finding) -> str:
-    from topo_verify.player.cards import finding_card
+    from topo_verify.pictures.cards import finding_card
 
     return finding_card(finding)
 

@@ -61,7 +61,7 @@ from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
 if TYPE_CHECKING:
-    from topo_verify.player.recording import PlayedRun
+    from topo_verify.pictures.recording import PlayedRun
 
 
 MOST_SHOWN = 10_000
@@ -138,7 +138,7 @@ class Exploration:
             InputError: the file cannot be written, or its name ends in .pdf or alike; no trace was
                 kept, or the other run has another world.
         """
-        from topo_verify.player.page import player_page, require_page
+        from topo_verify.pictures.page import player_page, require_page
         from topo_verify.world.formats import files
 
         require_page(path)
@@ -151,7 +151,7 @@ class Exploration:
         files.write(path, player_page(self.world, played, name=self.world.name))
 
     def _repr_html_(self) -> str:
-        from topo_verify.player.page import framed
+        from topo_verify.pictures.page import framed
 
         reason = ""
         if not self.trace:
@@ -167,7 +167,7 @@ class Exploration:
         return framed(self.world, self._played())
 
     def _played(self) -> PlayedRun:
-        from topo_verify.player.recording import PlayedRun
+        from topo_verify.pictures.recording import PlayedRun
 
         judgements = check(self.world, self.trace, self.stopped)
         return PlayedRun(self.algorithm, self.trace, judgements, self.stopped)

@@ -28,8 +28,8 @@ from topo_verify.checkers import check
 from topo_verify.cli import version
 from topo_verify.cli.runs import claims_in_words, target_title
 from topo_verify.errors import plural
-from topo_verify.player.page import player_page
-from topo_verify.player.recording import PlayedRun
+from topo_verify.pictures.page import player_page
+from topo_verify.pictures.recording import PlayedRun
 from topo_verify.programs.loader import Target
 from topo_verify.report.account import Exhibit
 from topo_verify.report.blocks import Block, Bullets, Cell, Command, Text, TextTable

@@ -155,7 +155,7 @@ def certify(
             if file is not None and len(traces) != 1:
                 raise InputError(f"{option} {file}: expected one TRACE, got {len(traces)}")
         if picture is not None:
-            from topo_verify.world.drawing import format_of
+            from topo_verify.pictures.drawing import format_of
 
             format_of(picture)  # refused before the work
         with certificates.checking(timeout=timeout, progress=doing) as check:

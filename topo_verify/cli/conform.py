@@ -22,9 +22,9 @@ from topo_verify.campaign.work import processors
 from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result
 from topo_verify.errors import InputError, WriteError, plural
-from topo_verify.player.recording import PlayedRun
-from topo_verify.player.scenes import Playback
-from topo_verify.player.walk import parting
+from topo_verify.pictures.recording import PlayedRun
+from topo_verify.pictures.scenes import Playback
+from topo_verify.pictures.walk import parting
 from topo_verify.programs.program import OPTIONS
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, TextTable, View

@@ -23,7 +23,7 @@ from topo_verify.checkers.findings import Verdict
 from topo_verify.cli import former, options, runs
 from topo_verify.cli.output import Output, Result, Rows, entry_of
 from topo_verify.errors import InputError, plural
-from topo_verify.player.recording import PlayedRun
+from topo_verify.pictures.recording import PlayedRun
 from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Text, TextTable
@@ -291,8 +291,8 @@ def _write_run(asked: _ExploreOptions, run: Exploration, played: PlayedRun) -> N
     if asked.trace is not None:
         files.write(asked.trace, write_trace(run.kept_trace).decode())
     if asked.svg is not None:
-        from topo_verify.player.animation import animated_svg
-        from topo_verify.player.scenes import Playback
+        from topo_verify.pictures.animation import animated_svg
+        from topo_verify.pictures.scenes import Playback
 
         playback = Playback(run.world, run.trace, played.judgements, run.stopped)
         files.write(asked.svg, animated_svg(playback, name=run.algorithm))

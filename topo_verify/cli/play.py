@@ -10,7 +10,7 @@ import msgspec
 from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result
 from topo_verify.errors import plural
-from topo_verify.player.recording import PlayedRun
+from topo_verify.pictures.recording import PlayedRun
 from topo_verify.report.blocks import Block, Text
 from topo_verify.robot.limits import Limits
 

@@ -15,8 +15,8 @@ from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.errors import InputError, InternalError, plural
-from topo_verify.player.recording import PlayedRun
-from topo_verify.player.walk import Extent
+from topo_verify.pictures.recording import PlayedRun
+from topo_verify.pictures.walk import Extent
 from topo_verify.programs.loader import Target
 from topo_verify.proofs.mechanised import judge
 from topo_verify.report.blocks import Block, Text

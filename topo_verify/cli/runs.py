@@ -29,8 +29,8 @@ from topo_verify.campaign.run import Exploration, explore
 from topo_verify.checkers import CLAIMS, Finding, Judgement, Status
 from topo_verify.checkers.claims import LARGE
 from topo_verify.errors import InputError, plural
-from topo_verify.player import walk
-from topo_verify.player.recording import PlayedRun
+from topo_verify.pictures import walk
+from topo_verify.pictures.recording import PlayedRun
 from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Command, Text, View
@@ -279,14 +279,14 @@ def require_one_world(file: str | None, number: int) -> None:
     if file is not None and number != 1:
         raise InputError(f"--player {file}: expected one WORLD, got {number}; name one")
     if file is not None:
-        from topo_verify.player.page import require_page
+        from topo_verify.pictures.page import require_page
 
         require_page(file)
 
 
 def write_page(file: str, world: World, name: str, runs: Sequence[PlayedRun]) -> None:
     """Write the page that shows these runs in a world of this name."""
-    from topo_verify.player.page import player_page
+    from topo_verify.pictures.page import player_page
 
     files.write(file, player_page(world, runs, name=name))
 

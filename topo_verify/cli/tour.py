@@ -11,7 +11,7 @@ from topo_verify.checkers import check
 from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.errors import InputError, plural
-from topo_verify.player.recording import PlayedRun
+from topo_verify.pictures.recording import PlayedRun
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.events import Event, Move, Start, Trace
 from topo_verify.robot.percept import Door, Percept

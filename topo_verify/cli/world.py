@@ -550,7 +550,7 @@ def draw(
     marker: int | None,
 ) -> int:
     """Draw a world. The order of the edges at every vertex is read back from the picture."""
-    from topo_verify.world.drawing import WHOLE, document, format_of, lay_out
+    from topo_verify.pictures.drawing import WHOLE, document, format_of, lay_out
 
     def drawn() -> Iterator[Result[DrawEntry]]:
         kind = "svg" if file == "-" else format_of(file)

@@ -12,7 +12,7 @@ from typing import Any, Literal, NamedTuple
 
 from topo_verify.checkers import Judgement, Status
 from topo_verify.checkers.findings import Verdict
-from topo_verify.player.recording import PlayedRun
+from topo_verify.pictures.recording import PlayedRun
 from topo_verify.report.blocks import Block, Tone
 from topo_verify.world.rooted_map import World
 

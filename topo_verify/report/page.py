@@ -14,7 +14,7 @@ from itertools import count, repeat
 from typing import Any, cast
 
 from topo_verify.errors import map_size
-from topo_verify.player.page import (
+from topo_verify.pictures.page import (
     PageShell,
     json_in_page,
     mark_up,
@@ -22,7 +22,7 @@ from topo_verify.player.page import (
     source_hash,
     squeezed,
 )
-from topo_verify.player.recording import recording
+from topo_verify.pictures.recording import recording
 from topo_verify.report.account import Account, Ending, Exhibit, JudgedCase, JudgedSuite
 from topo_verify.report.blocks import PALETTE, TONES, clean
 from topo_verify.report.html import blocks_as_html, code, picture, toned, xml_text

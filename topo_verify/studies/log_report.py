@@ -113,7 +113,7 @@ class Certificate:
             InputError: no world shows the log, its picture has over 1,000 edges, or the file
                 cannot be written.
         """
-        from topo_verify.world.drawing import WHOLE, document, format_of, lay_out_known, to_svg
+        from topo_verify.pictures.drawing import WHOLE, document, format_of, lay_out_known, to_svg
 
         kind = None if path is None else format_of(fspath(path))
         if self.edges > WHOLE:
@@ -128,7 +128,7 @@ class Certificate:
         return "\n".join([_headline(self), *_next_steps(self)])
 
     def _repr_html_(self) -> str:
-        from topo_verify.world.drawing import IN_NOTEBOOKS, image
+        from topo_verify.pictures.drawing import IN_NOTEBOOKS, image
 
         said = f"<p>{'<br>'.join(map(escape, str(self).splitlines()))}</p>"
         if not self.shown:

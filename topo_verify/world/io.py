@@ -168,7 +168,7 @@ def encoded(world: World, kind: str) -> str | bytes:
 
 def notebook(world: World) -> str:
     """The picture as HTML, in the notebook's light or dark theme; of a large world, a sentence."""
-    from topo_verify.world.drawing import IN_NOTEBOOKS, WHOLE, image
+    from topo_verify.pictures.drawing import IN_NOTEBOOKS, WHOLE, image
 
     if len(world.edges) > WHOLE:
         much = f"over {WHOLE:,} edges take long to draw"
@@ -184,7 +184,7 @@ def draw(
     darts: bool = False,
 ) -> str:
     """The picture as SVG; `World.draw` documents the arguments."""
-    from topo_verify.world.drawing import document, format_of, lay_out, to_svg
+    from topo_verify.pictures.drawing import document, format_of, lay_out, to_svg
 
     kind = None if path is None else format_of(os.fspath(path))
     layout = lay_out(world)
