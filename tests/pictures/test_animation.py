@@ -16,11 +16,11 @@ from topo_verify import explore, families
 from topo_verify.checkers import check
 from topo_verify.errors import InputError
 from topo_verify.pictures.animation import MOST_EVENTS, animated_svg, times
+from topo_verify.pictures.drawing import Layout, lay_out
 from topo_verify.pictures.scenes import Moment, Playback
 from topo_verify.programs.loader import Mapper
 from topo_verify.robot import events as ev
 from topo_verify.robot.simulator import percepts
-from topo_verify.pictures.drawing import Layout, lay_out
 
 WORLD = families.lattice(2, 4, holes=0.1, seed=2)
 KEY = re.compile(r"([\d.]+)%\{(.*?)\}")

@@ -56,7 +56,6 @@ from topo_verify.robot.limits import (
     within,
 )
 from topo_verify.robot.simulator import SimulatedRobot, first_percept
-from topo_verify.world.io import notebook
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
@@ -175,6 +174,8 @@ class Exploration:
 
 def _picture(delivered: MapData) -> str | None:
     """The picture of a delivered map in a notebook; None, so that it shows the text: no map."""
+    from topo_verify.pictures.drawing import notebook
+
     try:
         return notebook(World.from_map(delivered))
     except InputError:

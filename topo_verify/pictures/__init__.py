@@ -1,5 +1,8 @@
-"""A run to look at, as text and as a page; what a mapper says stands beside the checkers' replay.
+"""A world or a run to look at; what a mapper says stands beside the checkers' replay.
 
+It takes a world, a trace and judgements, never a result of a campaign.
+
+drawing/       worlds, with the true cyclic order; each picture is read back
 scenes.py      what each event means: the model that every view shows
 detours.py     what several moves show together: turns, ways home, circles, tests
 fold_places.py where a fold identifies visits

@@ -16,8 +16,6 @@ packed by gzip; behind each ending `.gz` may follow.
 
 from __future__ import annotations
 
-import os
-from html import escape
 from os import PathLike
 from pathlib import Path
 from typing import TypeVar
@@ -164,30 +162,3 @@ def encoded(world: World, kind: str) -> str | bytes:
             return node_link.encode(world)
         case _:
             return world_json.encode(world)
-
-
-def notebook(world: World) -> str:
-    """The picture as HTML, in the notebook's light or dark theme; of a large world, a sentence."""
-    from topo_verify.pictures.drawing import IN_NOTEBOOKS, WHOLE, image
-
-    if len(world.edges) > WHOLE:
-        much = f"over {WHOLE:,} edges take long to draw"
-        return f"<p>{escape(repr(world))}: {much}; <code>draw('world.svg')</code> does it.</p>"
-    return IN_NOTEBOOKS + image(draw(world), world.name or "a world")
-
-
-def draw(
-    world: World,
-    path: str | PathLike[str] | None = None,
-    *,
-    doors: bool = False,
-    darts: bool = False,
-) -> str:
-    """The picture as SVG; `World.draw` documents the arguments."""
-    from topo_verify.pictures.drawing import document, format_of, lay_out, to_svg
-
-    kind = None if path is None else format_of(os.fspath(path))
-    layout = lay_out(world)
-    if kind is not None and path is not None:
-        files.write(path, document(world, layout, kind, doors=doors, darts=darts))
-    return to_svg(world, layout, doors=doors, darts=darts)

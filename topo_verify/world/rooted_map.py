@@ -361,9 +361,9 @@ class World:
         Raises:
             InputError: the file cannot be written, or the renderer is missing.
         """
-        from topo_verify.world import io
+        from topo_verify.pictures.drawing import draw
 
-        return io.draw(self, path, **marks)
+        return draw(self, path, **marks)
 
     def twin(self, model: Literal["undirected", "none"] = "undirected") -> World | None:
         """Another world that looks the same to a robot that sees less of the marker, or None.
@@ -375,9 +375,9 @@ class World:
         return twins.find_twin(self, model)[0]
 
     def _repr_html_(self) -> str:
-        from topo_verify.world import io
+        from topo_verify.pictures.drawing import notebook
 
-        return io.notebook(self)
+        return notebook(self)
 
     def _repr_pretty_(self, printer: Any, _: bool) -> None:  # noqa: FBT001  asked by Hypothesis
         printer.text(f"tv.World.from_id({self.id!r})" if self.known_id else repr(self))

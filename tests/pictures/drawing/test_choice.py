@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import pytest
 
-from tests.python import python
 from tests.pictures.drawing.pictures import drawn
-from topo_verify.world import families
+from tests.python import python
 from topo_verify.pictures.drawing import choice, curves, lay_out, read_back, to_svg
 from topo_verify.pictures.drawing.layout import Layout, Sketch, fitted
 from topo_verify.pictures.drawing.straight import given
 from topo_verify.pictures.drawing.svg import leaving
+from topo_verify.world import families
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 

@@ -7,12 +7,12 @@ from random import Random
 import numpy as np
 import pytest
 
-from topo_verify.world import families
 from topo_verify.pictures.drawing import planar
 from topo_verify.pictures.drawing import plane_map as meshes
 from topo_verify.pictures.drawing.arrays import Floats
 from topo_verify.pictures.drawing.planar import outer_faces
 from topo_verify.pictures.drawing.plane_map import PlaneMap, best_plane_map, planarise
+from topo_verify.world import families
 from topo_verify.world.rooted_map import World
 
 pytestmark = pytest.mark.no_cover  # drawing is not trusted: it is left out of the measure

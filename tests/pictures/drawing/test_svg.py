@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from topo_verify.world import families
 from topo_verify.pictures.drawing import curves, lay_out, to_svg
 from topo_verify.pictures.drawing.svg import leaving, places
+from topo_verify.world import families
 from topo_verify.world.rooted_map import World
 
 pytestmark = pytest.mark.no_cover  # drawing is not trusted: it is left out of the measure

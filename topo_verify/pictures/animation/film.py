@@ -18,13 +18,13 @@ from typing import TypeVar
 
 from topo_verify.errors import InputError, map_size, plural, shown
 from topo_verify.pictures.animation.tracks import Tracks, timed
+from topo_verify.pictures.drawing import lay_out
+from topo_verify.pictures.drawing.curves import number
+from topo_verify.pictures.drawing.svg import FONT, arrow, text
 from topo_verify.pictures.narrator import Narrator, Saying
 from topo_verify.pictures.scenes import Moment, Playback
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
-from topo_verify.pictures.drawing import lay_out
-from topo_verify.pictures.drawing.curves import number
-from topo_verify.pictures.drawing.svg import FONT, arrow, text
 
 T = TypeVar("T")
 

@@ -13,10 +13,10 @@ from typing import NamedTuple
 
 from topo_verify.checkers.darts import KnownDart, WorldDart
 from topo_verify.pictures.detours import SupposedWalk, tested_guesses
-from topo_verify.pictures.scenes import Moment, Playback
-from topo_verify.robot import events as ev
 from topo_verify.pictures.drawing import Layout, curves
 from topo_verify.pictures.drawing.svg import leaving
+from topo_verify.pictures.scenes import Moment, Playback
+from topo_verify.robot import events as ev
 from topo_verify.world.formats.junctions import Point
 from topo_verify.world.rooted_map import Dart
 

@@ -4,7 +4,15 @@ Imported late: it loads numpy.
 """
 
 from topo_verify.pictures.drawing.choice import WHOLE, lay_out, lay_out_known
-from topo_verify.pictures.drawing.export import FORMATS, IN_NOTEBOOKS, document, format_of, image
+from topo_verify.pictures.drawing.export import (
+    FORMATS,
+    IN_NOTEBOOKS,
+    document,
+    draw,
+    format_of,
+    image,
+    notebook,
+)
 from topo_verify.pictures.drawing.layout import Bridge, Layout
 from topo_verify.pictures.drawing.svg import to_svg
 
@@ -19,9 +27,11 @@ __all__ = [
     "Bridge",
     "Layout",
     "document",
+    "draw",
     "format_of",
     "image",
     "lay_out",
     "lay_out_known",
+    "notebook",
     "to_svg",
 ]

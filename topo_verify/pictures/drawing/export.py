@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from base64 import b64encode
 from hashlib import sha256
+from html import escape
+from os import PathLike
 from typing import Literal
 
 from topo_verify.errors import InputError, shown
+from topo_verify.pictures.drawing.choice import WHOLE, lay_out
 from topo_verify.pictures.drawing.layout import Layout
 from topo_verify.pictures.drawing.svg import STYLE, caption, text, to_svg
+from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
 
 Format = Literal["svg", "png", "pdf", "html"]
@@ -76,6 +81,29 @@ def image(svg: str, alt: str, style: str = "max-width:100%") -> str:
         f'<img class="tv-themed" alt="{text(alt)}" style="{style}"'
         f' src="data:image/svg+xml;base64,{data}">'
     )
+
+
+def draw(
+    world: World,
+    path: str | PathLike[str] | None = None,
+    *,
+    doors: bool = False,
+    darts: bool = False,
+) -> str:
+    """The picture as SVG; `World.draw` documents the arguments."""
+    kind = None if path is None else format_of(os.fspath(path))
+    layout = lay_out(world)
+    if kind is not None and path is not None:
+        files.write(path, document(world, layout, kind, doors=doors, darts=darts))
+    return to_svg(world, layout, doors=doors, darts=darts)
+
+
+def notebook(world: World) -> str:
+    """The picture as HTML, in the notebook's light or dark theme; of a large world, a sentence."""
+    if len(world.edges) > WHOLE:
+        much = f"over {WHOLE:,} edges take long to draw"
+        return f"<p>{escape(repr(world))}: {much}; <code>draw('world.svg')</code> does it.</p>"
+    return IN_NOTEBOOKS + image(draw(world), world.name or "a world")
 
 
 def _rendered(layout: Layout, svg: str, kind: Literal["png", "pdf"]) -> bytes:
