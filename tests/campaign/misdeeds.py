@@ -2,7 +2,8 @@
 
 misdeeds.py:from_80_skip              declines from its 80th world on
 misdeeds.py:at_20_map_from_60_hang    a wrong map once, then it hangs
-python misdeeds.py from_80_skip       the same as a program behind the pipe
+misdeeds.py:unsorted_skip             declines each world that is smaller than one before it
+python misdeeds.py from_80_skip       the first one as a program behind the pipe
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from topo_verify import CATALOGUE, Robot
@@ -24,6 +26,9 @@ from topo_verify.robot.percept import Percept
 DEEDS = ("map", "nothing", "skip", "error", "hang", "kill", "doors", "cost")
 
 calls = itertools.count(1)
+
+sizes = [0]
+"""The edges of the worlds of this process so far."""
 
 
 class Declined(Exception):
@@ -56,6 +61,8 @@ def done(deed: str, robot: Robot) -> Any:
 
 def __getattr__(name: str) -> Callable[[Robot], Any]:
     words = name.split("_")
+    if words[0] == "unsorted":
+        return partial(unsorted, words[1])
     if words[0] not in ("at", "from"):
         raise AttributeError(name)
     plan = [
@@ -71,6 +78,13 @@ def __getattr__(name: str) -> Callable[[Robot], Any]:
         return CATALOGUE["basic"](robot)
 
     return explore
+
+
+def unsorted(deed: str, robot: Robot) -> Any:
+    """Right as long as worlds come in the order of a search, smaller ones first."""
+    survey = CATALOGUE["basic"](robot)
+    sizes.append(len(survey.edges))
+    return survey if sizes[-1] == max(sizes) else done(deed, robot)
 
 
 class Piped:

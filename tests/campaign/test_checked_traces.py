@@ -13,6 +13,7 @@ from topo_verify.algorithms import NAMED
 from topo_verify.campaign import judge as judging
 from topo_verify.campaign.judge import CheckedTraces, judge
 from topo_verify.checkers import check
+from topo_verify.errors import InputError
 from topo_verify.robot.events import Event, Finish, Move, Start
 
 WORLD = World.from_id("m3/14")
@@ -112,5 +113,6 @@ def test_what_cannot_be_written_is_checked_each_time(checked: list[object]) -> N
     known(WORLD, TRACE, strict=False)
     strange: Any = (*TRACE[:-1], Anything(), TRACE[-1])
     for _ in range(2):
-        known(WORLD, strange, strict=False)
+        with pytest.raises(InputError, match="expected an event"):
+            known(WORLD, strange, strict=False)
     assert len(checked) == 3

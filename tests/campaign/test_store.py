@@ -96,9 +96,9 @@ def examined_again(monkeypatch: pytest.MonkeyPatch, campaign: Campaign) -> list[
     """The shards of the store that a resumed search examines again."""
     again: list[Shard] = []
 
-    def examine(*arguments: Any) -> ShardResult:
+    def examine(*arguments: Any, **options: Any) -> ShardResult:
         again.append(arguments[2])
-        return examine_shard(*arguments)
+        return examine_shard(*arguments, **options)
 
     with monkeypatch.context() as patch:
         patch.setattr(campaigns, "examine", examine)

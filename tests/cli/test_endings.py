@@ -244,7 +244,7 @@ def check(solver, *assumed):
     return answer
 z3.Solver.check = check
 """
-    words = ("prove", "percept", "records-written-early", "--format", "json", *FILES)
+    words = ("prove", "percept", "word-confirm-step", "--format", "json", *FILES)
     code, out, _ = ran(folder, *words, first=first)
     assert {code, json.loads(out)["exit"], *codes(folder)} == {3}
     assert json.loads(out)["results"] == []

@@ -46,7 +46,7 @@ OPTIONS = [
 
 
 def test_the_tree_has_every_command() -> None:
-    assert len(list(leaves(main))) == 21
+    assert len(list(leaves(main))) == 20
     assert len(OPTIONS) > 200
 
 

@@ -51,7 +51,9 @@ def fast(monkeypatch: pytest.MonkeyPatch) -> Changes:
     """No run is made; the changes are made to the first rows."""
     changes: Changes = []
 
-    def examine(campaign: Campaign, _mappers: object, shard: Shard, *_: object) -> ShardResult:
+    def examine(
+        campaign: Campaign, _mappers: object, shard: Shard, *_: object, **_options: object
+    ) -> ShardResult:
         pairs = (REFERENCE,) if campaign.ways is None else PAIRS
         runs = [PlannedRun(shard.listed[0][0], *campaign.mappers, *astuple(p)) for p in pairs]
         rows = [changes.pop()(make(run)) if changes else make(run) for run in runs]

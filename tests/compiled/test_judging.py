@@ -160,7 +160,7 @@ MISTAKES = [
     (4, "verdict.share_out", "max(confirmations, loops)", "confirmations"),
     (5, "verdict.is_same_map", "elif case.image[other] != image:", "elif case.image[other] < 0:"),
     (5, "verdict.judge_delivery", "if case.spoiled != 0 or not delivered:", "if not delivered:"),
-    (6, "verdict.judge_delivery", "case.reported not in (-1, cost)", "case.reported > cost"),
+    (6, "verdict.judge_delivery", "case.reported not in (ABSENT, cost)", "case.reported > cost"),
     (7, "verdict.judge_delivery", "cost < case.darts // 2", "cost < case.darts // 4"),
     (7, "verdict.judge_delivery", "cost > case.bound", "cost >= case.bound + 4"),
     (8, "justified.percepts_agree", "or rejection.expected != expected", ""),

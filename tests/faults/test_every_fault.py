@@ -24,7 +24,6 @@ from tests.versions import older
 from topo_verify import World, examine
 from topo_verify.compiled.faults import PLANTED
 from topo_verify.faults import FAULTS
-from topo_verify.proofs.catalogue import catalogue
 
 ROWS = stored()
 FAULTY = [name for name in EVERY if name not in HARMLESS]
@@ -99,11 +98,3 @@ def test_property_tests_find_no_harmless_difference(
     name: str, seeds: Sequence[int], most: int
 ) -> None:
     assert by_examples(HARMLESS[name], seeds, most) == ROWS[name].tests == "none"
-
-
-# ---------------------------------------------------------------- proofs
-
-
-def test_every_theorem_of_a_fault_is_one_that_must_be_refuted() -> None:
-    named = {fault.theorem for fault in FAULTS.values()} - {None}
-    assert {theorem.name for theorem in catalogue() if theorem.expected == "REFUTED"} >= named

@@ -104,7 +104,7 @@ def test_a_launcher_that_is_killed_is_replaced_until_a_program_was_started() -> 
     killed = launcher._launcher()._process
     killed.kill()
     killed.wait()
-    with pytest.raises(HelperLost, match="was killed, and none can be started beside a mapper"):
+    with pytest.raises(HelperLost, match="none can be started beside a mapper"):
         launch("tasks:ends")
 
 

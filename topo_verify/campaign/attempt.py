@@ -27,6 +27,7 @@ from topo_verify.programs.program import Program, TranscriptLine
 from topo_verify.robot import events as ev
 from topo_verify.robot.limits import Limits, MoveTimeout
 from topo_verify.robot.stopwatch import tasks_of
+from topo_verify.world.least_cost import least_cost
 from topo_verify.world.rooted_map import World
 
 KEPT_FINDINGS = 5
@@ -141,7 +142,7 @@ def row_of(judged: Attempt, where: str, place: int, turn: int = 0, look: Look | 
         edges=len(run.world.edges),
         place=place,
         turn=turn,
-        least=run.world.least_cost(),
+        least=least_cost(run.world.code),
         mapper=run.algorithm,
         policies=run.policies,
         cost=run.cost,
@@ -182,7 +183,7 @@ def lost_row(
         vertices=len(world.vertices),
         edges=len(world.edges),
         place=place,
-        least=world.least_cost(),
+        least=least_cost(world.code),
         mapper=mapper,
         ended="worker-lost",
         stopped=cause,

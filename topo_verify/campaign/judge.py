@@ -38,6 +38,7 @@ from topo_verify.robot.events import Event, MapData, Move, Policies
 from topo_verify.robot.limits import Limits
 from topo_verify.world import io
 from topo_verify.world.enumeration import rank_order
+from topo_verify.world.least_cost import least_cost
 from topo_verify.world.resolve import resolve_world
 from topo_verify.world.rooted_map import World
 
@@ -427,7 +428,7 @@ def judge_trace(  # noqa: PLR0913  an argument an option
 
 def _with_least(report: Report, world: World, replay_command: str) -> Report:
     """The report; `cost-within-bound` fails if a right run costs less than any proof of the map."""
-    if not report.ok or report.cost >= (least := world.least_cost()):
+    if not report.ok or report.cost >= (least := least_cost(world.code)):
         return report
     message = f"no claim fails at a cost of {report.cost}, and the least cost of a proof is {least}"
     if report.target in NAMED:
