@@ -36,7 +36,7 @@ from topo_verify.proofs.mechanised import toolchain  # noqa: E402
 from topo_verify.world.resolve import resolve_world  # noqa: E402
 
 FOLDER = ROOT / "topo_verify" / "algorithms"
-MUTATED = ("enhancement_i", "enhancement_ii", "enhancement_iii", "exploration", "motion")
+MUTATED = ("rules", "exploration", "motion")
 
 SECONDS = 20
 MEMORY = 4 << 30
@@ -53,14 +53,14 @@ ONE_LEVEL = (
 )
 
 SAME: dict[str, str] = {
-    "enhancement_i.py PrefixRule.refute: len(sequences) - 1 -> len(sequences) + 1": NOT_COMPARED,
-    "enhancement_i.py PrefixRule.refute: 1 -> 2 (4)": NOT_COMPARED,
-    "enhancement_ii.py HistoryRule.refute: len(sequences) - 1 -> len(sequences) + 1": NOT_COMPARED,
-    "enhancement_ii.py HistoryRule.refute: 1 -> 2 (2)": NOT_COMPARED,
-    "enhancement_iii.py RecordsRule.learn: self.records.pop(e, None) -> pass": NOT_READ,
-    "enhancement_iii.py RecordsRule.learn: self.records.pop(entry, None) -> pass": NOT_READ,
-    "enhancement_iii.py RecordsRule._record: step + self.levels -> step - self.levels": ONE_LEVEL,
-    "enhancement_iii.py RecordsRule._record: 1 -> 2": ONE_LEVEL,
+    "rules.py PrefixRule.refute: len(sequences) - 1 -> len(sequences) + 1": NOT_COMPARED,
+    "rules.py PrefixRule.refute: 1 -> 2 (4)": NOT_COMPARED,
+    "rules.py HistoryRule.refute: len(sequences) - 1 -> len(sequences) + 1": NOT_COMPARED,
+    "rules.py HistoryRule.refute: 1 -> 2 (2)": NOT_COMPARED,
+    "rules.py RecordsRule.learn: self.records.pop(e, None) -> pass": NOT_READ,
+    "rules.py RecordsRule.learn: self.records.pop(entry, None) -> pass": NOT_READ,
+    "rules.py RecordsRule._record: step + self.levels -> step - self.levels": ONE_LEVEL,
+    "rules.py RecordsRule._record: 1 -> 2": ONE_LEVEL,
     "exploration.py execute: shared < len(h.doors) -> shared <= len(h.doors)": (
         "a way that is shared whole ends where the robot stands, or a rule has refuted it"
     ),

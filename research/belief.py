@@ -1,7 +1,7 @@
 """How far belief could carry: `planner` with an oracle that confirms what it already believes.
 
-Each hypothesis for an unsettled edge e has odds (algorithms/homing.py, planner.py); the rest is the
-belief that the place behind e is new. The oracle of column `p` settles e if that is true and
+Each hypothesis for an unsettled edge e has odds (algorithms/beyond/homing.py, planner.py); the rest
+is the belief that the place behind e is new. The oracle of column `p` settles e if that is true and
 believed with p or more. It never speaks where the belief is wrong, so this is about the most that
 acting on such beliefs could save.
 
@@ -24,13 +24,13 @@ from statistics import mean
 from research.ignorance import ToldHistory
 from research.price import FAMILIES, PATIENT, Job, Run, Store, drawn, head, ratio, require_right
 from topo_verify import World, explore
+from topo_verify.algorithms.beyond.folding import NodeDart
+from topo_verify.algorithms.beyond.history import History
+from topo_verify.algorithms.beyond.homing import UNSEEN, degree_shares
+from topo_verify.algorithms.beyond.next_edge import outward_edge
+from topo_verify.algorithms.beyond.planner import FAR, Habits
+from topo_verify.algorithms.beyond.steering import explore as steer
 from topo_verify.algorithms.chart import Survey
-from topo_verify.algorithms.folding import NodeDart
-from topo_verify.algorithms.history import History
-from topo_verify.algorithms.homing import UNSEEN, degree_shares
-from topo_verify.algorithms.next_edge import outward_edge
-from topo_verify.algorithms.planner import FAR, Habits
-from topo_verify.algorithms.steering import explore as steer
 from topo_verify.robot.events import MapDart, Robot
 
 SHARES = (2.0, 0.99, 0.95, 0.9, 0.8, 0.5, 0.0)

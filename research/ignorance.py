@@ -15,7 +15,7 @@ A wrong map stops the script.
     .venv/bin/python -m research.ignorance --families 'lattice(10' 'king(10,10,holes'
     .venv/bin/python -m research.ignorance --mappers homing --seeds 4 --runs runs.csv
 
-S, e, h: as in algorithms/history.py; phi: dart of S -> the dart of the world that it is.
+S, e, h: as in algorithms/beyond/history.py; phi: dart of S -> the dart of the world that it is.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ from statistics import mean
 
 from research.price import FAMILIES, PATIENT, Job, Run, Store, drawn, head, ratio, require_right
 from topo_verify import World, explore
+from topo_verify.algorithms.beyond.history import History
+from topo_verify.algorithms.beyond.homing import homing
+from topo_verify.algorithms.beyond.places import Places
+from topo_verify.algorithms.beyond.planner import planner
 from topo_verify.algorithms.chart import Survey
 from topo_verify.algorithms.exploration import Refutation
-from topo_verify.algorithms.history import History
-from topo_verify.algorithms.homing import homing
-from topo_verify.algorithms.places import Places
-from topo_verify.algorithms.planner import planner
 from topo_verify.robot.events import Evidence, MapDart, Robot
 
 MAPPERS = {"homing": homing, "planner": planner}

@@ -22,12 +22,11 @@ from math import sqrt
 from statistics import mean, stdev
 
 from topo_verify import CATALOGUE, World
-from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart, Survey, Tree
-from topo_verify.algorithms.enhancement_iii import RecordsRule, Seen
 from topo_verify.algorithms.exploration import explore
 from topo_verify.algorithms.motion import Executed, retrace
 from topo_verify.algorithms.policies import nearest, order_policy, pick_policy, shortest
+from topo_verify.algorithms.rules import NoRule, RecordsRule, Seen
 from topo_verify.report.figures.words import LADDER
 from topo_verify.robot.events import MapDart, Robot
 from topo_verify.robot.simulator import SimulatedRobot

@@ -6,11 +6,9 @@ from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from topo_verify.algorithms import Algorithm
-from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
-from topo_verify.algorithms.enhancement_i import PrefixRule
-from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.motion import overlap, retrace
+from topo_verify.algorithms.rules import HistoryRule, NoRule, PrefixRule
 from topo_verify.errors import InternalError
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import exit_dart, percepts

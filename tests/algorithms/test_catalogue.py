@@ -16,12 +16,9 @@ from tests.helpers import PAPER, trace_of
 from tests.python import python
 from topo_verify import CATALOGUE, Algorithm
 from topo_verify.algorithms import NAMED, REFERENCE, Policies, algorithm
-from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
-from topo_verify.algorithms.enhancement_i import PrefixRule
-from topo_verify.algorithms.enhancement_ii import HistoryRule
-from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.motion import overlap, retrace
+from topo_verify.algorithms.rules import HistoryRule, NoRule, PrefixRule, RecordsRule
 from topo_verify.robot.percept import Percept
 
 ROOT = Path(__file__).parents[2]

@@ -12,7 +12,7 @@ import pytest
 
 import topo_verify.algorithms
 
-FILES = sorted(Path(topo_verify.algorithms.__file__).parent.glob("*.py"))
+FILES = sorted(Path(topo_verify.algorithms.__file__).parent.rglob("*.py"))
 LINES = {1: 20, 2: 28, 3: 30}
 """How many lines each listing has."""
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from tests.helpers import any_world, cited, doors, of_type, sketch, trace_of, variant, worlds
 from topo_verify import World, examine
 from topo_verify.algorithms import motion
-from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
+from topo_verify.algorithms.rules import NoRule
 from topo_verify.robot.events import Confirm, Reject
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import SimulatedRobot

@@ -9,9 +9,8 @@ import pytest
 from tests.helpers import failing, of_type, trace_of, variant
 from topo_verify import CATALOGUE, World
 from topo_verify.algorithms.chart import Chart
-from topo_verify.algorithms.enhancement_ii import HistoryRule
-from topo_verify.algorithms.enhancement_iii import RecordsRule, Seen
 from topo_verify.algorithms.motion import Executed, Hypothesis, overlap
+from topo_verify.algorithms.rules import HistoryRule, RecordsRule, Seen
 from topo_verify.faults import FAULTS
 from topo_verify.robot.events import Evidence, MapDart, Record, Reject, Trace
 from topo_verify.robot.percept import Percept

@@ -8,9 +8,9 @@ import pytest
 
 from tests.helpers import PAPER, cited, doors, of_type, sketch, trace_of, variant
 from topo_verify.algorithms.chart import Chart
-from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
+from topo_verify.algorithms.rules import HistoryRule
 from topo_verify.robot.events import Evidence, Reject
 from topo_verify.robot.percept import Percept
 

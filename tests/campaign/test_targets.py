@@ -14,9 +14,8 @@ import pytest
 from tests.helpers import SURE
 from topo_verify import CATALOGUE, Algorithm, InputError, Robot, World
 from topo_verify.algorithms import Policies
-from topo_verify.algorithms.basic import NoRule
-from topo_verify.algorithms.enhancement_i import PrefixRule
 from topo_verify.algorithms.motion import retrace
+from topo_verify.algorithms.rules import NoRule, PrefixRule
 from topo_verify.campaign.targets import one_target, targets
 from topo_verify.programs.loader import Mapper, Target
 from topo_verify.robot.simulator import SimulatedRobot
@@ -229,7 +228,7 @@ def test_what_cannot_be_called_is_no_mapper(mapper: Any) -> None:
         (Algorithm("other", NoRule, retrace), "<other>"),
         (CATALOGUE["basic"], "basic"),
         (Mappers.deep, "basic"),
-        (NoRule, "topo_verify.algorithms.basic:NoRule"),
+        (NoRule, "topo_verify.algorithms.rules:NoRule"),
     ],
 )
 def test_a_callable_is_called_by_the_text_that_finds_it(

@@ -10,10 +10,10 @@ import pytest
 from tests.faults.every import EVERY
 from tests.helpers import edited, place, trace_of, variant, worlds
 from topo_verify import World, examine
-from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
+from topo_verify.algorithms.rules import NoRule
 from topo_verify.campaign.judge import Report
 from topo_verify.checkers import check, claims, decision_conclusions
 from topo_verify.checkers.entailment import FoldedTrace, map_conclusion

@@ -11,14 +11,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from topo_verify.algorithms import CATALOGUE
+from topo_verify.algorithms.beyond.folding import FoldingRule
 from topo_verify.algorithms.chart import Chart, Survey
-from topo_verify.algorithms.enhancement_i import PrefixRule
-from topo_verify.algorithms.enhancement_ii import HistoryRule
-from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.exploration import Refutation
-from topo_verify.algorithms.folding import FoldingRule
 from topo_verify.algorithms.motion import Executed, Hypothesis, Pilot
 from topo_verify.algorithms.policies import Order, last, newest
+from topo_verify.algorithms.rules import HistoryRule, PrefixRule, RecordsRule
 from topo_verify.faults.fault import Fault, ForwardingRobot, Walks, mapper, planted
 from topo_verify.robot.events import Decision, MapDart, Robot
 from topo_verify.robot.percept import Percept

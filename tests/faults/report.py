@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import partial
 
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart, Survey
 from topo_verify.algorithms.motion import Pilot
+from topo_verify.algorithms.rules import NoRule
 from topo_verify.faults.fault import ForwardingRobot, Walks, planted
 from topo_verify.robot.events import MapDart, Robot
 

@@ -53,7 +53,7 @@ def test_planting_leaves_the_reference_as_it_is() -> None:
     assert space["Chart"] is int
     assert space["explore"].__globals__ is space
     assert vars(exploration) == before
-    assert CATALOGUE["basic"].rule.__module__ == "topo_verify.algorithms.basic"
+    assert CATALOGUE["basic"].rule.__module__ == "topo_verify.algorithms.rules"
 
 
 def test_a_name_that_the_loop_does_not_know_cannot_be_replaced() -> None:

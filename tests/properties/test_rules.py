@@ -16,14 +16,11 @@ from hypothesis import strategies as st
 from tests.helpers import variant
 from tests.properties.worlds import STRATEGIES
 from topo_verify import World, explore
-from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.beyond.folding import FoldingRule
 from topo_verify.algorithms.chart import Chart
-from topo_verify.algorithms.enhancement_i import PrefixRule
-from topo_verify.algorithms.enhancement_ii import HistoryRule
-from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.exploration import Refutation, Rule
-from topo_verify.algorithms.folding import FoldingRule
 from topo_verify.algorithms.motion import Executed, Hypothesis, Motion, overlap, retrace
+from topo_verify.algorithms.rules import HistoryRule, NoRule, PrefixRule, RecordsRule
 from topo_verify.robot.events import MapDart, Policies
 from topo_verify.robot.percept import Percept
 from topo_verify.strategies import policies

@@ -17,8 +17,8 @@ from tests.strategies.features import Condition
 from tests.versions import older
 from topo_verify import World, examine, families, strategies
 from topo_verify.algorithms import Algorithm
-from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.motion import Choice, Executed, Hypothesis, retrace
+from topo_verify.algorithms.rules import NoRule
 from topo_verify.robot.limits import Limits
 from topo_verify.robot.percept import Percept
 from topo_verify.strategies.sample import WORLDS, drawing_no_literals, resolve_strategy

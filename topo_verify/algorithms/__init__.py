@@ -1,13 +1,15 @@
 """The catalogue: algorithms (a rule, a motion, two policies, one loop) and steered mappers.
 
-    chart.py            the map S               exploration.py      the loop of listings 1-3
-    motion.py           retrace, overlap        policies.py         pick and order
-    basic.py            rule `none`             enhancement_i.py    rule `prefix`
-    enhancement_ii.py   rule `history`          enhancement_iii.py  rule `records`
-    folding.py          rule `folding`          planar.py           rule `planar`
-    history.py          the fold of a run       places.py           its places
-    homing.py           mapper `homing`         planner.py          mapper `planner`
-    steering.py         the loop of the two     next_edge.py        their next edge
+    chart.py          the map S                exploration.py    the loop of listings 1-3
+    motion.py         retrace, overlap         policies.py       pick and order
+    rules.py          the paper's four rules: `none`, `prefix`, `history`, `records`
+
+What is ours, not the paper's, stands in beyond/:
+
+    folding.py        rule `folding`           planar.py         rule `planar`
+    history.py        the fold of a run        places.py         its places
+    homing.py         mapper `homing`          planner.py        mapper `planner`
+    steering.py       the loop of the two      next_edge.py      their next edge
 
 No file here can see a world: a test limits the imports.
 """
@@ -24,17 +26,14 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from topo_verify.algorithms import policies as choices
-from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.beyond.folding import FoldingRule
+from topo_verify.algorithms.beyond.homing import homing
+from topo_verify.algorithms.beyond.planar import PlanarRule, planar_homing, planar_planner
+from topo_verify.algorithms.beyond.planner import planner
 from topo_verify.algorithms.chart import Survey
-from topo_verify.algorithms.enhancement_i import PrefixRule
-from topo_verify.algorithms.enhancement_ii import HistoryRule
-from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.exploration import Rule, explore
-from topo_verify.algorithms.folding import FoldingRule
-from topo_verify.algorithms.homing import homing
 from topo_verify.algorithms.motion import Motion, overlap, retrace
-from topo_verify.algorithms.planar import PlanarRule, planar_homing, planar_planner
-from topo_verify.algorithms.planner import planner
+from topo_verify.algorithms.rules import HistoryRule, NoRule, PrefixRule, RecordsRule
 from topo_verify.robot.events import Policies, Robot
 
 __all__ = [

@@ -9,7 +9,7 @@ has the name of the one that it mirrors, whose docstring holds for both.
     events.py       words of a trace, from and to events
     faults.py       some mistakes of topo_verify/faults, by number
     robot.py        robot/simulator.py        chart.py        algorithms/chart.py
-    motion.py       motion.py, policies.py    evidence.py     enhancement_i, _ii, _iii, planar.py
+    motion.py       motion.py, policies.py    evidence.py     rules.py, beyond/planar.py
     folding.py      folding.py                exploration.py  exploration.py
     pruning.py, enumeration.py                world/enumeration/
     judging/        the ten claims                checkers/

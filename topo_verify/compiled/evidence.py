@@ -1,10 +1,10 @@
 """The rules that refute a hypothesis from what was seen; the complete rule is in folding.py.
 
-rule      twins in algorithms/                what differs
-prefix    enhancement_i.py, `PrefixRule`      the last sequence is the excursion itself
-history   enhancement_ii.py, `HistoryRule`    the same; `beyond` is that of enhancement_iii.py
-records   enhancement_iii.py, `RecordsRule`   a record is four words, in a list for each place
-planar    planar.py, `PlanarRule`             the face is a mark on its darts
+rule      twins in algorithms/          what differs
+prefix    rules.py, `PrefixRule`        the last sequence is the excursion itself
+history   rules.py, `HistoryRule`       the same; `beyond` is that of `RecordsRule`
+records   rules.py, `RecordsRule`       a record is four words, in a list for each place
+planar    beyond/planar.py, `PlanarRule`   the face is a mark on its darts
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 """The complete rule, `folding`.
 
-Twin of algorithms/folding.py, `SeenPlaces`, `PartialFold` and `FoldingRule`, with the same dart
-numbers and the same order of identifications, which decides the first contradiction. Differs: there
-is one fold, and a **layer** is a list of changes, each one word: where, and what stands there.
-Changes are undone unless they follow from what was seen. A kept layer is made again before it folds
-on, so it sees what was joined since.
+Twin of algorithms/beyond/folding.py, `SeenPlaces`, `PartialFold` and `FoldingRule`, with the same
+dart numbers and the same order of identifications, which decides the first contradiction. Differs:
+there is one fold, and a **layer** is a list of changes, each one word: where, and what stands
+there. Changes are undone unless they follow from what was seen. A kept layer is made again before
+it folds on, so it sees what was joined since.
 
 All remaining hypotheses are asked in one **stage**: what was joined since is noted once
 (`layers.joined`, `layers.anew`), and kept layers move from one row to another.

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
+from topo_verify.algorithms.beyond.folding import FoldingRule, NodeDart, PartialFold
 from topo_verify.algorithms.chart import Chart
-from topo_verify.algorithms.folding import FoldingRule, NodeDart, PartialFold
 from topo_verify.algorithms.motion import Hypothesis
 from topo_verify.faults.fault import planted
 from topo_verify.robot.events import MapDart

@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import partial
 
 from topo_verify.algorithms.chart import Chart
-from topo_verify.algorithms.enhancement_ii import HistoryRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
+from topo_verify.algorithms.rules import HistoryRule
 from topo_verify.faults.fault import Walks, one_late, planted
 from topo_verify.robot.events import Evidence, MapDart
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from functools import partial
 
-from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.beyond.planar import PlanarRule
 from topo_verify.algorithms.chart import Chart, Tree
 from topo_verify.algorithms.exploration import hypotheses
 from topo_verify.algorithms.motion import Executed, Hypothesis
-from topo_verify.algorithms.planar import PlanarRule
 from topo_verify.algorithms.policies import Order, shortest
+from topo_verify.algorithms.rules import NoRule
 from topo_verify.faults.fault import ForwardingRobot, crossed, mapper, planted
 from topo_verify.robot.events import MapDart, Robot
 from topo_verify.robot.percept import Percept

@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import partial
 
 from topo_verify.algorithms.chart import Chart
-from topo_verify.algorithms.enhancement_i import PrefixRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis, common_prefix
+from topo_verify.algorithms.rules import PrefixRule
 from topo_verify.faults.fault import Walks, one_late, planted
 
 fault = partial(planted, "prefix")

@@ -11,14 +11,12 @@ import pytest
 from tests.helpers import trace_of, variant, worlds
 from tests.proofs.first_order.conformance import DescribedRule, compare
 from topo_verify import World, families
-from topo_verify.algorithms import enhancement_i, exploration
+from topo_verify.algorithms import exploration, rules
 from topo_verify.algorithms.chart import Chart
-from topo_verify.algorithms.enhancement_i import PrefixRule
-from topo_verify.algorithms.enhancement_ii import HistoryRule
-from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.exploration import hypotheses as exploration_hypotheses
 from topo_verify.algorithms.motion import Executed, Hypothesis, common_prefix
+from topo_verify.algorithms.rules import HistoryRule, PrefixRule, RecordsRule
 from topo_verify.proofs.first_order.terms import conj, neg
 from topo_verify.proofs.first_order.theory import RULES
 from topo_verify.robot.events import Reject, Trace
@@ -136,7 +134,7 @@ def never(*_: object) -> None:
     ("algorithm", "place", "name", "change"),
     [
         ("basic", exploration, "hypotheses", all_but_the_last),
-        ("enhancement-i", enhancement_i, "common_prefix", one_less),
+        ("enhancement-i", rules, "common_prefix", one_less),
         ("enhancement-ii", HistoryRule, "refute", never),
         ("enhancement-iii-all", RecordsRule, "_record", never),
     ],

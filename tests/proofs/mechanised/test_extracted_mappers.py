@@ -29,12 +29,11 @@ from tests.proofs.mechanised.conftest import LIMIT, RARE, extracted
 from tests.proofs.mechanised.written import written
 from topo_verify import CATALOGUE, World
 from topo_verify.algorithms import policies as choices
+from topo_verify.algorithms.beyond.folding import FoldingRule
 from topo_verify.algorithms.chart import Chart
-from topo_verify.algorithms.enhancement_i import PrefixRule
-from topo_verify.algorithms.enhancement_iii import RecordsRule
 from topo_verify.algorithms.exploration import Refutation
-from topo_verify.algorithms.folding import FoldingRule
 from topo_verify.algorithms.motion import Choice, Executed, Hypothesis, overlap, retrace
+from topo_verify.algorithms.rules import PrefixRule, RecordsRule
 from topo_verify.proofs.mechanised import toolchain
 from topo_verify.robot.events import MapDart
 from topo_verify.world.resolve import resolve_world

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from tests.proofs.first_order.mutants import *
 from tests.proofs.first_order.scenes import SceneReplay, mfirst
-from topo_verify.algorithms import planar
-from topo_verify.algorithms.folding import NodeDart, PartialFold
+from topo_verify.algorithms.beyond import planar
+from topo_verify.algorithms.beyond.folding import NodeDart, PartialFold
 from topo_verify.proofs.first_order import theory as t
 from topo_verify.proofs.first_order.obligations import *
 from topo_verify.proofs.first_order.terms import *

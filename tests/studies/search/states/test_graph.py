@@ -13,10 +13,10 @@ from tests.studies.search.searching import searched as search_of
 from tests.studies.search.states.paths import all_runs
 from topo_verify import CATALOGUE, World
 from topo_verify.algorithms import Algorithm
-from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis, retrace
+from topo_verify.algorithms.rules import NoRule
 from topo_verify.campaign.attempt import Attempt
 from topo_verify.campaign.judge import judge
 from topo_verify.campaign.run import explore

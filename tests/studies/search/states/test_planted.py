@@ -15,9 +15,8 @@ import pytest
 
 from topo_verify import CATALOGUE, World
 from topo_verify.algorithms import exploration, policies
-from topo_verify.algorithms.enhancement_i import PrefixRule
-from topo_verify.algorithms.enhancement_ii import HistoryRule
-from topo_verify.algorithms.folding import FoldingRule
+from topo_verify.algorithms.beyond.folding import FoldingRule
+from topo_verify.algorithms.rules import HistoryRule, PrefixRule
 from topo_verify.campaign.attempt import Attempt, attempt
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits

@@ -16,10 +16,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from topo_verify.algorithms.basic import NoRule
 from topo_verify.algorithms.chart import Chart
 from topo_verify.algorithms.exploration import Refutation
 from topo_verify.algorithms.motion import Executed, Hypothesis
+from topo_verify.algorithms.rules import NoRule
 from topo_verify.robot.events import Evidence, MapDart
 from topo_verify.robot.percept import Door, Percept
 

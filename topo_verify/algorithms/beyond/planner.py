@@ -13,12 +13,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 
+from topo_verify.algorithms.beyond.folding import NodeDart
+from topo_verify.algorithms.beyond.history import History
+from topo_verify.algorithms.beyond.homing import most_telling_door
+from topo_verify.algorithms.beyond.next_edge import outward_edge
+from topo_verify.algorithms.beyond.steering import HistoryOf, explore
 from topo_verify.algorithms.chart import Chart, Survey
-from topo_verify.algorithms.folding import NodeDart
-from topo_verify.algorithms.history import History
-from topo_verify.algorithms.homing import most_telling_door
-from topo_verify.algorithms.next_edge import outward_edge
-from topo_verify.algorithms.steering import HistoryOf, explore
 from topo_verify.robot.events import MapDart, Robot
 
 FAR = 9

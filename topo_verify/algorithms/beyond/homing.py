@@ -21,12 +21,12 @@ from functools import cache
 from math import log2
 from typing import NamedTuple
 
+from topo_verify.algorithms.beyond.folding import NodeDart
+from topo_verify.algorithms.beyond.history import History
+from topo_verify.algorithms.beyond.next_edge import nearest_edge
+from topo_verify.algorithms.beyond.places import PlaceNode, Places
+from topo_verify.algorithms.beyond.steering import HistoryOf, explore
 from topo_verify.algorithms.chart import Survey, Vertex
-from topo_verify.algorithms.folding import NodeDart
-from topo_verify.algorithms.history import History
-from topo_verify.algorithms.next_edge import nearest_edge
-from topo_verify.algorithms.places import PlaceNode, Places
-from topo_verify.algorithms.steering import HistoryOf, explore
 from topo_verify.robot.events import MapDart, Robot
 
 BIT = 1.4

@@ -26,9 +26,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from topo_verify.algorithms.beyond.folding import NodeDart
+from topo_verify.algorithms.beyond.history import History
 from topo_verify.algorithms.chart import Survey
-from topo_verify.algorithms.folding import NodeDart
-from topo_verify.algorithms.history import History
 from topo_verify.robot.events import MapDart, Robot
 
 PATIENCE = 60

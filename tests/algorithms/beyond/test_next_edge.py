@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 from tests.helpers import any_world
 from topo_verify import World, explore, families
-from topo_verify.algorithms.folding import NodeDart
-from topo_verify.algorithms.history import History
-from topo_verify.algorithms.homing import most_telling_door
-from topo_verify.algorithms.next_edge import (
+from topo_verify.algorithms.beyond.folding import NodeDart
+from topo_verify.algorithms.beyond.history import History
+from topo_verify.algorithms.beyond.homing import most_telling_door
+from topo_verify.algorithms.beyond.next_edge import (
     OUTWARD,
     Rank,
     edge_along_face,
@@ -23,8 +23,8 @@ from topo_verify.algorithms.next_edge import (
     nearest_edge,
     outward_edge,
 )
-from topo_verify.algorithms.steering import NextEdge
-from topo_verify.algorithms.steering import explore as steer
+from topo_verify.algorithms.beyond.steering import NextEdge
+from topo_verify.algorithms.beyond.steering import explore as steer
 from topo_verify.robot.events import Augment, MapDart
 
 RankOf = Callable[[History, MapDart, int], Rank]

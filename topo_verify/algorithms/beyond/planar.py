@@ -12,13 +12,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from topo_verify.algorithms.beyond.history import History
+from topo_verify.algorithms.beyond.homing import homing
+from topo_verify.algorithms.beyond.places import Places
+from topo_verify.algorithms.beyond.planner import planner
 from topo_verify.algorithms.chart import Chart, Survey
 from topo_verify.algorithms.exploration import Refutation, Rule
-from topo_verify.algorithms.history import History
-from topo_verify.algorithms.homing import homing
 from topo_verify.algorithms.motion import Executed, Hypothesis
-from topo_verify.algorithms.places import Places
-from topo_verify.algorithms.planner import planner
 from topo_verify.robot.events import Evidence, MapDart, Robot
 from topo_verify.robot.percept import Percept
 

@@ -11,9 +11,9 @@ from tests.checkers.test_planar_prior import FACE
 from tests.helpers import of_type, trace_of, variant, worlds
 from topo_verify import World, examine, explore
 from topo_verify.algorithms import STEERED, Algorithm
-from topo_verify.algorithms.basic import NoRule
+from topo_verify.algorithms.beyond.planar import PlanarRule, face
 from topo_verify.algorithms.chart import Chart
-from topo_verify.algorithms.planar import PlanarRule, face
+from topo_verify.algorithms.rules import NoRule
 from topo_verify.robot.events import Reject
 from topo_verify.robot.percept import Percept
 from topo_verify.strategies import planar_worlds

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from topo_verify.algorithms.folding import NodeDart
-from topo_verify.algorithms.history import History
+from topo_verify.algorithms.beyond.folding import NodeDart
+from topo_verify.algorithms.beyond.history import History
 from topo_verify.robot.events import MapDart
 
 OUTWARD = 0.2

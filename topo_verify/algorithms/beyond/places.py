@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from topo_verify.algorithms.beyond.folding import NodeDart, PartialFold
 from topo_verify.algorithms.chart import Vertex
-from topo_verify.algorithms.folding import NodeDart, PartialFold
 from topo_verify.robot.percept import Door, Percept
 
 PlaceNode = NodeDart

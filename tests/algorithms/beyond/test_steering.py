@@ -13,12 +13,13 @@ from hypothesis import strategies as st
 
 from tests.helpers import any_world, fits, worlds
 from topo_verify import InputError, World, examine, explore, families
-from topo_verify.algorithms import CATALOGUE, NAMED, STEERED, steering
+from topo_verify.algorithms import CATALOGUE, NAMED, STEERED
+from topo_verify.algorithms.beyond import steering
+from topo_verify.algorithms.beyond.folding import NodeDart
+from topo_verify.algorithms.beyond.history import History
+from topo_verify.algorithms.beyond.homing import most_telling_door
+from topo_verify.algorithms.beyond.next_edge import nearest_edge
 from topo_verify.algorithms.chart import Survey
-from topo_verify.algorithms.folding import NodeDart
-from topo_verify.algorithms.history import History
-from topo_verify.algorithms.homing import most_telling_door
-from topo_verify.algorithms.next_edge import nearest_edge
 from topo_verify.campaign.judge import Report
 from topo_verify.campaign.targets import targets, text_of
 from topo_verify.robot.events import MapDart, Robot

@@ -24,10 +24,10 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
+from topo_verify.algorithms.beyond.folding import NodeDart
+from topo_verify.algorithms.beyond.places import PlaceNode, Places
 from topo_verify.algorithms.chart import Chart, Tree
 from topo_verify.algorithms.exploration import Refutation
-from topo_verify.algorithms.folding import NodeDart
-from topo_verify.algorithms.places import PlaceNode, Places
 from topo_verify.robot.events import Augment, Confirm, Evidence, MapDart, Pose, Reject, Robot
 from topo_verify.robot.percept import Percept, Purpose
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from tests.helpers import any_world, of_type, trace_of, worlds
 from topo_verify import World, examine, explore, families
-from topo_verify.algorithms.folding import PartialFold
+from topo_verify.algorithms.beyond.folding import PartialFold
 from topo_verify.checkers import Fold, decision_conclusions
 from topo_verify.checkers.entailment import FoldedTrace
 from topo_verify.checkers.folding import Contradiction
