@@ -1,8 +1,9 @@
 """The rooms of the house: who may import whom, what loads when, and how long a file may get.
 
 The table of floors is the design: a room imports rooms on lower floors and itself, nothing else.
-Imports are read from the source, so a late import inside a function counts like any other. How
-small the trusted rooms stay is for test_trusted_size.py to say. What this does not show: names that
+Imports are read from the source, so a late import inside a function counts like any other. The
+main house never imports an extra, and an extra imports the main house alone. How small the trusted
+rooms stay is for test_trusted_size.py to say. What this does not show: names that
 travel at run time (an object handed over, an import by a computed name); where that would undo a
 promise, the means of doing it are forbidden below.
 """
@@ -19,6 +20,7 @@ from pathlib import Path
 import pytest
 
 from tests.python import python
+from topo_verify import extras
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "topo_verify"
@@ -29,6 +31,7 @@ FLOORS = {
     "world": 0,
     "robot": 1,
     "checkers": 2,
+    "extras": 2,  # the door to topo_verify/extra/: for floor 3 and above, never for what is trusted
     "algorithms": 3,
     "programs": 3,
     "compiled": 3,
@@ -160,13 +163,26 @@ def imports(source: str, module: str) -> Iterator[Import]:
             todo += [(child, scope, at_load) for child in ast.iter_child_nodes(node)]
 
 
+def extra_of(module: str) -> str | None:
+    """The extra of a module or a name, "" for their folder; None for anything else."""
+    parts = [*module.split("."), ""]
+    return parts[2] if parts[:2] == ["topo_verify", "extra"] else None
+
+
 def objections(module: str, source: str) -> Iterator[str]:
     """What is wrong with the imports of one file, a sentence each."""
+    if extra_of(module) is not None:
+        yield from objections_to_extra(module, source)
+        return
+    if module != "topo_verify.extras":
+        yield from objections_to_names(module, source)
     room = room_of(module)
     for found in imports(source, module):
         where = f"{module}:{found.line} imports {found.target}"
         if found.target.startswith("."):
             yield f"{where}: write the full name"
+        elif extra_of(found.target) is not None:
+            yield f"{where}: the main house imports no extra; ask topo_verify/extras.py for it"
         elif found.room is not None:
             if found.at_load and (part := late_part(found.target)) and not late_part(module):
                 yield f"{where} when it is loaded: {part} is imported where it is used"
@@ -179,6 +195,36 @@ def objections(module: str, source: str) -> Iterator[str]:
                 yield f"{where}: {room}/ is made with the standard library alone"
             elif found.at_load and found.top not in may_load(module):
                 yield f"{where} when it is loaded: import it where it is used"
+
+
+def objections_to_extra(module: str, source: str) -> Iterator[str]:
+    """What is wrong with the imports of a file of an extra."""
+    for found in imports(source, module):
+        where = f"{module}:{found.line} imports {found.target}"
+        other = extra_of(found.target)
+        if found.target.startswith("."):
+            yield f"{where}: write the full name"
+        elif other not in (None, extra_of(module)):
+            yield f"{where}: an extra imports the main house, and no other extra"
+        elif module.endswith(".options") and found.at_load and not is_light(found):
+            yield f"{where} when it is loaded: options.py needs click alone"
+
+
+def is_light(found: Import) -> bool:
+    """Whether the options of a command may load it: click, the standard library, our errors."""
+    light = {"click", *sys.stdlib_module_names}
+    return found.top in light or found.target.startswith("topo_verify.errors.")
+
+
+def objections_to_names(module: str, source: str) -> Iterator[str]:
+    """Where a file of the main house names an extra's module, or a package that an extra needs."""
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            if re.search(r"\btopo_verify[./]extra\b", node.value):
+                yield f"{module}:{node.lineno} names a module of an extra: ask topo_verify/extras.py"
+    for package in sorted({name for names in extras.PACKAGES.values() for name in names}):
+        if re.search(rf"\b{package}\b", source):
+            yield f"{module} names {package}, which an extra needs: only topo_verify/extras.py does"
 
 
 def late_part(module: str) -> str | None:
@@ -212,9 +258,14 @@ def peepholes(source: str) -> set[str]:
     return PEEPHOLES & (names | {node.attr for node in nodes if isinstance(node, ast.Attribute)})
 
 
-def sources() -> dict[str, str]:
-    """The text of every module of the package, by its dotted name."""
+def every_source() -> dict[str, str]:
+    """The text of every module of the package, extras included, by its dotted name."""
     return {module_name(path): path.read_text() for path in sorted(PACKAGE.rglob("*.py"))}
+
+
+def sources() -> dict[str, str]:
+    """The text of every module of the main house."""
+    return {name: text for name, text in every_source().items() if extra_of(name) is None}
 
 
 def long_functions(source: str, limit: int) -> list[str]:
@@ -239,7 +290,7 @@ def test_every_module_has_a_room_in_the_table() -> None:
 
 
 def test_every_room_imports_only_what_it_may() -> None:
-    found = [line for module, text in sources().items() for line in objections(module, text)]
+    found = [line for module, text in every_source().items() for line in objections(module, text)]
     assert not found, "\n".join(found)
 
 
@@ -283,6 +334,18 @@ def test_every_room_imports_only_what_it_may() -> None:
             "if TYPE_CHECKING:\n    from topo_verify.robot.simulator import Simulator",
             "may see only",
         ),
+        ("topo_verify.cli.world", "from topo_verify.extra.arena import league", "no extra"),
+        ("topo_verify.cli.world", "def f():\n    import topo_verify.extra.arena", "no extra"),
+        ("topo_verify", "from topo_verify import extra", "no extra"),
+        ("topo_verify.cli.world", "import_module('topo_verify.extra.arena')", "names a module"),
+        ("topo_verify.cli.world", "import_module(f'topo_verify.extra.{n}')", "names a module"),
+        ("topo_verify.checkers.costs", "from topo_verify import extras", "lower floors"),
+        ("topo_verify.extra.arena.a", "from topo_verify.extra.figures import b", "no other extra"),
+        ("topo_verify.extra.arena.a", "def f():\n    import topo_verify.extra.films", "no other"),
+        ("topo_verify.extra.arena.a", "from topo_verify.extra import films", "no other extra"),
+        ("topo_verify.extra.arena.a", "from .league import League", "full name"),
+        ("topo_verify.extra.films.options", "import msgspec", "click alone"),
+        ("topo_verify.extra.films.options", "from topo_verify.world import io", "click alone"),
     ],
 )
 def test_the_layer_check_sees_a_planted_breach(module: str, source: str, objection: str) -> None:
@@ -309,6 +372,11 @@ def test_the_layer_check_sees_a_planted_breach(module: str, source: str, objecti
         ("topo_verify.strategies.worlds", "from hypothesis import strategies"),
         ("topo_verify.cli.verify", "import click\nfrom topo_verify.studies.verify import verify"),
         ("topo_verify.__main__", "from topo_verify.cli import main"),
+        ("topo_verify.campaign.run", "from topo_verify import extras"),
+        ("topo_verify.extra.arena.a", "from topo_verify.extra.arena.league import League"),
+        ("topo_verify.extra.arena.a", "from topo_verify.cli.output import Output"),
+        ("topo_verify.extra.films.options", "import click\nfrom topo_verify.errors import plural"),
+        ("topo_verify.extra.films.options", "def f():\n    import topo_verify.extra.films.film"),
     ],
 )
 def test_the_layer_check_lets_pass_what_is_allowed(module: str, source: str) -> None:
@@ -332,13 +400,15 @@ def test_importing_topo_verify_loads_nothing_heavy() -> None:
 
 
 def test_no_file_is_too_long_to_read() -> None:
-    lengths = {name: len(text.splitlines()) for name, text in sources().items()}
+    lengths = {name: len(text.splitlines()) for name, text in every_source().items()}
     long = {name: n for name, n in lengths.items() if n > longest(name)[0]}
     assert not long, "over 600 lines (400 in CAREFUL): would two ideas part company?"
 
 
 def test_no_function_is_too_long_to_read() -> None:
-    functions = {name: long_functions(text, longest(name)[1]) for name, text in sources().items()}
+    functions = {
+        name: long_functions(text, longest(name)[1]) for name, text in every_source().items()
+    }
     long = {name: over for name, over in functions.items() if over}
     assert not long, "over 80 lines (60 in CAREFUL): let a part of it have a name"
 
@@ -382,7 +452,7 @@ def test_contributing_names_every_room_on_its_floor() -> None:
         named |= {
             room.removesuffix(".py"): floor for room in re.findall(r"`(\w+(?:\.py)?)/?`", rooms)
         }
-    outside = {"errors", "native", "search_entry", "", "__main__"}
+    outside = {"errors", "extras", "native", "search_entry", "", "__main__"}
     assert named == {room: number for room, number in FLOORS.items() if room not in outside}
 
 

@@ -24,6 +24,7 @@ from typing import IO, Any, NoReturn, TextIO
 import click
 from click.shell_completion import shell_complete
 
+from topo_verify import extras
 from topo_verify.cli import front
 from topo_verify.errors import LINE, HelperLost, InputError, shown
 from topo_verify.programs import interruption
@@ -194,7 +195,7 @@ SHORT_HELPS = {
     "header": "Print the C interface of native mappers, topo_verify.h.",
     "reproduce": "The paper's figures, side by side with its numbers.",
 }
-"""The commands, most important first, with their lines in --help."""
+"""The commands, those of extras among them, most important first, with their lines in --help."""
 
 
 class Commands(Mapping[str, click.Command]):
@@ -202,7 +203,11 @@ class Commands(Mapping[str, click.Command]):
 
     def __getitem__(self, name: str) -> click.Command:
         short_help = SHORT_HELPS[name]
-        command: click.Command = getattr(import_module(f"topo_verify.cli.{name}"), name)
+        command: click.Command = (
+            extras.command(name)
+            if name in extras.COMMANDS
+            else getattr(import_module(f"topo_verify.cli.{name}"), name)
+        )
         command.short_help = short_help
         return command
 

@@ -1,0 +1,1 @@
+"""What only some users need, a package for each extra; topo_verify/extras.py is the door."""

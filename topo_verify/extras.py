@@ -1,0 +1,74 @@
+"""The one door to the extras: what each brings, where it is found, and which packages it needs.
+
+An extra is a package in topo_verify/extra/ for what only some users need. It imports the main
+house, and the main house never imports it: it asks here for a thing by name, and the module of that
+thing is imported then. A new extra has its entries in the tables below; the line of a command in
+--help stands with the others in cli/.
+
+A place is `EXTRA.module:attribute`. Modules named in `COMMANDS` and `OPTIONS` load without the
+packages of their extra, so that --help works; the extra calls `require` when its work begins.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from importlib import import_module
+from importlib.util import find_spec
+from typing import Any
+
+COMMANDS: dict[str, str] = {}
+"""The place of each command."""
+
+OPTIONS: dict[str, tuple[str, ...]] = {}
+"""The places of the options that extras add to a command of the main house.
+
+They stand in the extra's options.py, each a decorator made by click. The command gets their values
+by name; what it asks of a value is a protocol in the file of the command.
+"""
+
+PACKAGES: dict[str, tuple[str, ...]] = {}
+"""The packages of other projects that an extra needs, by the names that Python imports."""
+
+
+def found(place: str) -> Any:
+    """What is at a place; its module is imported now."""
+    module, _, attribute = place.partition(":")
+    return getattr(import_module(f"topo_verify.extra.{module}"), attribute)
+
+
+def command(name: str) -> Any:
+    """The click command of this name."""
+    return found(COMMANDS[name])
+
+
+Option = Callable[[Callable[..., int]], Callable[..., int]]
+"""A decorator that adds an option to a command."""
+
+
+def options(command: str) -> Option:
+    """All options that extras add to a command, in the order of the table."""
+    added: list[Option] = [found(place) for place in OPTIONS.get(command, ())]
+
+    def decorate(run: Callable[..., int]) -> Callable[..., int]:
+        for add in reversed(added):
+            run = add(run)
+        return run
+
+    return decorate
+
+
+def require(extra: str) -> None:
+    """Check that the packages of an extra are installed.
+
+    Raises:
+        InputError: one is not; the sentence says what installs it.
+    """
+    from topo_verify.errors import InputError
+
+    missing = [name for name in PACKAGES.get(extra, ()) if find_spec(name) is None]
+    if missing:
+        raise InputError(
+            f"the extra {extra} needs {' and '.join(missing)}: {sys.executable} -m pip install"
+            f" 'topo-verify[{extra}]'"
+        )
