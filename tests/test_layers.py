@@ -218,10 +218,10 @@ def is_light(found: Import) -> bool:
 
 def objections_to_names(module: str, source: str) -> Iterator[str]:
     """Where a file of the main house names an extra's module, or a package that an extra needs."""
-    for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            if re.search(r"\btopo_verify[./]extra\b", node.value):
-                yield f"{module}:{node.lineno} names a module of an extra: ask topo_verify/extras.py"
+    texts = (node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Constant))
+    for node in texts:
+        if isinstance(node.value, str) and re.search(r"\btopo_verify[./]extra\b", node.value):
+            yield f"{module}:{node.lineno} names a module of an extra: ask topo_verify/extras.py"
     for package in sorted({name for names in extras.PACKAGES.values() for name in names}):
         if re.search(rf"\b{package}\b", source):
             yield f"{module} names {package}, which an extra needs: only topo_verify/extras.py does"
