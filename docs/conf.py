@@ -60,7 +60,6 @@ nitpick_ignore = [
         "algorithms.motion.Executed",
         "algorithms.motion.Hypothesis",
         "checkers.folding.Fold",
-        "campaign.cluster.Cluster",
         "campaign.judge.JudgedRun",
         "campaign.campaign.Backend",
         "campaign.campaign.Campaign",

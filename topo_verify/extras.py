@@ -20,14 +20,17 @@ from typing import Any
 COMMANDS: dict[str, str] = {}
 """The place of each command."""
 
-OPTIONS: dict[str, tuple[str, ...]] = {}
+OPTIONS: dict[str, tuple[str, ...]] = {"search": ("dask.options:dask",)}
 """The places of the options that extras add to a command of the main house.
 
 They stand in the extra's options.py, each a decorator made by click. The command gets their values
 by name; what it asks of a value is a protocol in the file of the command.
 """
 
-PACKAGES: dict[str, tuple[str, ...]] = {}
+BACKENDS = {"cluster": "dask.backend:DaskBackend"}
+"""The place of each backend that Python code asks for by name: made with an address."""
+
+PACKAGES: dict[str, tuple[str, ...]] = {"dask": ("distributed",)}
 """The packages of other projects that an extra needs, by the names that Python imports."""
 
 
@@ -35,6 +38,11 @@ def found(place: str) -> Any:
     """What is at a place; its module is imported now."""
     module, _, attribute = place.partition(":")
     return getattr(import_module(f"topo_verify.extra.{module}"), attribute)
+
+
+def backend(name: str) -> Any:
+    """The class of this backend."""
+    return found(BACKENDS[name])
 
 
 def command(name: str) -> Any:

@@ -217,7 +217,7 @@ def test_a_library_that_declines_the_same_worlds_each_time_does_the_same(tmp_pat
 def test_a_dask_cluster_comes_to_the_same_and_refuses_another_library(tmp_path: Path) -> None:
     pytest.importorskip("distributed")
     target = built(tmp_path)
-    ours, theirs = search(target, edges=3, dask="local"), search(target, edges=3)
+    ours, theirs = search(target, edges=3, cluster="local"), search(target, edges=3)
     assert (ours.verdict, numbers(ours)) == (theirs.verdict, numbers(theirs))
     assert ours.judgements == theirs.judgements
     campaign = search_campaign([one_target(target)], edges=3)

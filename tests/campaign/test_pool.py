@@ -209,7 +209,7 @@ def test_a_crash_is_a_finding_even_if_the_world_passes_when_tried_again(
 def test_a_loss_behind_the_counterexample_is_not_counted(*, keep_going: bool, failing: int) -> None:
     """Another worker was lost in m3/23 when m3/21 was convicted; whether it was is chance."""
     campaign = search_campaign(targets("mappers.py:exits"), edges=3, keep_going=keep_going)
-    work = backend._work(backend._job(campaign, None))
+    work = backend.work_of(backend.job_of(campaign, None))
     first = work.lost(Shard(3, 21, 22), Loss("exit code 3", None, loading=False))
     behind = Loss("exit code 3", None, loading=False)
     result = work.survived(first, [(Shard(3, 23, 24), behind)], [Shard(3, 21, 22)])

@@ -47,7 +47,7 @@ LEFT_OUT = {
     r".*prove --kind .*": "a minute and more; tests/proofs/",
     r".*topo-verify reproduce .*": "minutes; tests/cli/test_reproduce.py",
     r".*(-m |bin/)pytest.*": "tests by themselves",
-    r"dask .*": "a cluster; tests/campaign/test_cluster.py",
+    r"dask .*": "a cluster; tests/extra/dask/test_cluster.py",
     r".*conform --cmd './mapper --fast'.*": "the reader's program",
     r".* LOG( .*)?": "the reader's log",
     r"topo-verify explore .* --svg docs/.*": "tests/cli/test_explore.py compares the picture",

@@ -17,5 +17,4 @@ targets.py         what a TARGET means, and the text of a callable
 identity.py        what a mapper rests on
 work.py            tasks, and the pieces into which they are cut
 pool.py            worker processes that may die or hang; worker.py is one
-cluster.py         a Dask cluster; cluster_worker.py runs there
 """

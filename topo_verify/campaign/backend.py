@@ -1,4 +1,4 @@
-"""Examines shards in this process, in worker processes or on a Dask cluster.
+"""Examines shards in this process or in worker processes; extras have other backends.
 
 A lost worker means the same in every study:
 
@@ -15,16 +15,16 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from functools import partial, reduce
 from itertools import pairwise
+from typing import Protocol
 
 import msgspec
 
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import Look, lost_row
-from topo_verify.campaign.cluster import Cluster, ClusterPool
 from topo_verify.campaign.drawn_row import drawn_row, is_run_again
 from topo_verify.campaign.identity import Identity, merged, require_equal, source_hash
 from topo_verify.campaign.pool import Pool
@@ -115,40 +115,28 @@ def pooled(
         if not (workers or native):
             yield from here(depends=depends)(campaign, shards, in_flight)
             return
-        work = _work(_job(campaign, depends))
-        _prepare(campaign)
+        work = work_of(job_of(campaign, depends))
+        prepare(campaign)
         watched = None
         if note is not None and (native or (campaign.engine, campaign.ways) == ("reference", None)):
             watched = partial(_note_slow, campaign, note, set())
         with Pool(work, max(1, workers), in_flight=in_flight, watched=watched) as pool:
             for shard, result in pool.run(shards):
-                yield shard, _with_our_memory(work, shard, result)
+                yield shard, with_our_memory(work, shard, result)
 
     return run
 
 
-def clustered(cluster: Cluster, depends: Depends = None) -> c.Backend:
-    """The backend of a Dask cluster."""
+MakeBackend = Callable[[Depends], c.Backend]
+"""Makes a backend for a campaign whose mappers depend on these files."""
 
-    def run(
-        campaign: c.Campaign, shards: Iterator[c.Shard], in_flight: c.InFlight
-    ) -> c.ShardResults:
-        del in_flight  # a cluster reports finished shards only
-        # Always ask what mappers load: other machines may have other files.
-        depends_on = tuple(depends or ())
-        mappers = campaign.load()
-        try:
-            ours = Identity(mappers, depends_on).loaded()
-        finally:
-            c.close(mappers)
-        work = _work(_job(campaign, depends_on), ours)
-        if cluster.is_local:
-            _prepare(campaign)
-        with ClusterPool(cluster, work) as pool:
-            for shard, result in pool.run(shards):
-                yield shard, _with_our_memory(work, shard, result)
 
-    return run
+class Elsewhere(Protocol):
+    """Where shards are examined if not in processes of this machine; an extra brings it."""
+
+    def opened(self, workers: int | None = None) -> AbstractContextManager[MakeBackend]:
+        """Make it ready while the block lasts; InputError if `workers` are asked for, too."""
+        ...
 
 
 def _examined(
@@ -186,14 +174,16 @@ def calls_native(campaign: c.Campaign) -> bool:
     return is_library and campaign.engine == "compiled" and isinstance(campaign.worlds, c.Ranks)
 
 
-def _prepare(campaign: c.Campaign) -> None:
+def prepare(campaign: c.Campaign) -> None:
+    """Do once what each worker of this machine would have to do otherwise."""
     if campaign.engine == "compiled" and isinstance(campaign.worlds, c.Ranks):
         from topo_verify.campaign.compiled import warm
 
         warm(campaign)
 
 
-def _job(campaign: c.Campaign, depends: Depends) -> CampaignJob:
+def job_of(campaign: c.Campaign, depends: Depends) -> CampaignJob:
+    """The job of each worker; the mappers are loaded here for a moment."""
     mappers = campaign.load()
     try:
         sources = source_hash(mappers)
@@ -204,10 +194,10 @@ def _job(campaign: c.Campaign, depends: Depends) -> CampaignJob:
 
 def remade(job: bytes) -> Work[c.Shard, c.ShardResult]:
     """The same work on another machine, from its job as JSON."""
-    return _work(msgspec.json.decode(job, type=CampaignJob))
+    return work_of(msgspec.json.decode(job, type=CampaignJob))
 
 
-def _work(job: CampaignJob, ours: Loaded | None = None) -> Work[c.Shard, c.ShardResult]:
+def work_of(job: CampaignJob, ours: Loaded | None = None) -> Work[c.Shard, c.ShardResult]:
     """The work of a campaign's workers; `ours` is what the mappers have loaded here."""
     campaign = job.campaign
 
@@ -248,7 +238,7 @@ def _is_last(campaign: c.Campaign, parts: list[c.ShardResult], losses: int) -> b
     return campaign.stop.reached(sum((part.tally for part in parts), Tally()))
 
 
-def _with_our_memory(
+def with_our_memory(
     work: Work[c.Shard, c.ShardResult], shard: c.Shard, result: c.ShardResult
 ) -> c.ShardResult:
     """The result of a worker; if a mapper lacked memory there, the result of a process of ours.
@@ -295,7 +285,7 @@ def serve(job: bytes) -> Generator[Handler]:
                 " since this began, or is another one on this machine: start it again, with the"
                 " same sources everywhere"
             )
-        _prepare(given.campaign)
+        prepare(given.campaign)
         identity = None if given.depends is None else Identity(mappers, given.depends)
 
         def handle(task: bytes, beat: Beat) -> c.ShardResult:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import contextmanager, nullcontext
 from functools import partial
 from itertools import chain
 from pathlib import Path
 
 import click
 
-from topo_verify.campaign.backend import clustered, here, pooled
+from topo_verify import extras
+from topo_verify.campaign.backend import Elsewhere, MakeBackend, here, pooled
 from topo_verify.campaign.campaign import MAX_LOST, Backend, Campaign
-from topo_verify.campaign.cluster import Cluster, both_given, connected
 from topo_verify.campaign.run import Engine, is_native
 from topo_verify.campaign.store import Store, StoredCampaign
 from topo_verify.campaign.targets import targets
@@ -45,11 +45,7 @@ from topo_verify.world.enumeration.classes import WorldClass
 @options.number("--edges", least=1, default=5, meaning="Worlds of 1 to N edges.")
 @options.world_class
 @options.workers()
-@click.option(
-    "--dask",
-    metavar="ADDRESS",
-    help="Work on the Dask cluster of this scheduler; local: start one here.",
-)
+@extras.options("search")
 @click.option("--ledger", metavar="FILE", help="Keep finished work in FILE and resume from it.")
 @click.option(
     "--depends",
@@ -77,7 +73,7 @@ def search(
     edges: int,
     kind: str,
     workers: int | None,
-    dask: str | None,
+    elsewhere: Elsewhere | None,
     ledger: str | None,
     depends: tuple[str, ...],
     keep_going: bool,
@@ -113,13 +109,13 @@ def search(
         for path in depends:
             if not Path(path).is_file():
                 raise InputError(f"--depends {path}: there is no such file; name one that exists")
-        with _cluster(dask, workers) as cluster:
+        with nullcontext() if elsewhere is None else elsewhere.opened(workers) as opened:
             if ledger is not None:
-                watch()  # before a mapper is loaded, after Dask has read its settings
+                watch()  # before a mapper is loaded, after a backend has read its settings
             needed = None if ledger is None else depends
             for searched in _searches(mappers, compare, ledger):
                 campaign = campaign_of(searched)
-                backend = _backend(searched, workers, cluster, needed, output.note)
+                backend = _backend(searched, workers, opened, needed, output.note)
                 with _opened(output, ledger, depends, campaign, searched) as store:
                     one_search = study.Search(campaign, searched, backend, store)
                     yield from _searched(output, one_search, compare=compare is not None)
@@ -137,23 +133,15 @@ def search(
     )
 
 
-def _cluster(dask: str | None, workers: int | None) -> AbstractContextManager[Cluster | None]:
-    if dask is None:
-        return nullcontext()
-    if workers is not None:
-        raise both_given(dask, workers)
-    return connected(dask)
-
-
 def _backend(
     mappers: tuple[Target, ...],
     workers: int | None,
-    cluster: Cluster | None,
+    elsewhere: MakeBackend | None,
     depends: tuple[str, ...] | None,
     note: Callable[[str], None],
 ) -> Backend:
-    if cluster is not None:
-        return clustered(cluster, depends)
+    if elsewhere is not None:
+        return elsewhere(depends)
     number = processors() if workers is None else workers
     if number or any(map(is_native, mappers)):  # needs a worker
         return pooled(number, depends, note)

@@ -11,9 +11,9 @@ from contextlib import nullcontext
 import msgspec
 from msgspec.structs import astuple
 
+from topo_verify import extras
 from topo_verify.campaign import campaign as c
-from topo_verify.campaign.backend import calls_native, clustered, here, pooled
-from topo_verify.campaign.cluster import both_given, connected
+from topo_verify.campaign.backend import Elsewhere, calls_native, here, pooled
 from topo_verify.campaign.drawn_row import is_of_catalogue
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import PolicyCosts, Row
@@ -247,7 +247,7 @@ def search(  # noqa: PLR0913  an argument an option
     policies: Choices = "reference",
     limits: Limits | None = None,
     workers: int = 0,
-    dask: str | None = None,
+    cluster: str | None = None,
     engine: Engine | None = None,
     tell: Progress | None = None,
 ) -> SearchEntry:
@@ -259,7 +259,7 @@ def search(  # noqa: PLR0913  an argument an option
         keep_going: do not stop at the first counterexample.
         policies: which choices a catalogue algorithm is tried with; `choices.py`.
         workers: number of worker processes; 0: this one.
-        dask: the address of a Dask scheduler, or `local`.
+        cluster: the address of a scheduler, or `local`; needs the extra that works on clusters.
         tell: a progress callback, called with words (what is done, how fast), the amount done and
             the total, such as `print`; default: silent. (To resume a search, use the command line
             with `--ledger`.)
@@ -269,9 +269,7 @@ def search(  # noqa: PLR0913  an argument an option
             `import sys; sys.last_value.entry`.
     """
     mappers = targets(target) if isinstance(target, str) else (one_target(target),)
-    if workers and dask is not None:
-        raise both_given(dask, workers)
-    if (workers or dask is not None) and not isinstance(target, str):
+    if (workers or cluster is not None) and not isinstance(target, str):
         _require_texts(mappers)
     campaign = search_campaign(
         mappers,
@@ -283,9 +281,10 @@ def search(  # noqa: PLR0913  an argument an option
         engine=engine,
     )
     local = not workers and not calls_native(campaign)
-    with nullcontext() if dask is None else connected(dask) as cluster:
-        if cluster is not None:
-            backend = clustered(cluster)
+    elsewhere: Elsewhere | None = None if cluster is None else extras.backend("cluster")(cluster)
+    with nullcontext() if elsewhere is None else elsewhere.opened(workers or None) as opened:
+        if opened is not None:
+            backend = opened(None)
         else:
             backend = here(mappers) if local else pooled(workers)
         study = Search(campaign, mappers, backend, repeats=isinstance(target, str))

@@ -1,6 +1,6 @@
 """Does tasks on a Dask cluster, whichever of its workers are lost.
 
-A pool on the worker's machine (cluster_worker.py) settles what a task does to its process. So a
+A pool on the worker's machine (worker.py) settles what a task does to its process. So a
 loss here means that a whole Dask worker went:
 
 - The scheduler gives its tasks to others, as often as the setting `allowed-failures` says (3).
@@ -16,24 +16,23 @@ of a worker that loaded a file that differs here.
 from __future__ import annotations
 
 import os
-import sys
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from importlib import import_module, metadata
-from importlib.util import find_spec
 from queue import Empty, SimpleQueue
 from time import monotonic
 from typing import Any, Generic, Protocol, Self, cast
 
 import msgspec
 
-from topo_verify.campaign import cluster_worker
-from topo_verify.campaign.cluster_worker import ClusterTask, ClusterTaskDone
+from topo_verify import extras
 from topo_verify.campaign.identity import own_hash
 from topo_verify.campaign.work import Piece, Pieces, ResultT, TaskT, Work, processors
 from topo_verify.campaign.worker import WorkerFailed
 from topo_verify.errors import InputError, InternalError
+from topo_verify.extra.dask import worker
+from topo_verify.extra.dask.worker import ClusterTask, ClusterTaskDone
 
 LOCAL = "local"
 """The address that means workers on this machine."""
@@ -51,7 +50,7 @@ AHEAD = 2
 """Tasks handed out for each thread, so that none waits for the client."""
 
 
-_DO = f"__import__({cluster_worker.__name__!r}, fromlist=['do']).do(assignment)"
+_DO = f"__import__({worker.__name__!r}, fromlist=['do']).do(assignment)"
 """What a worker evaluates. Dask would read a pickled function before it knows the task, so a
 worker that lacks topo_verify would end without a useful error.
 """
@@ -109,11 +108,7 @@ def connected(address: str) -> Generator[Cluster]:
     Raises:
         InputError: dask is not installed; no scheduler answers there; it has no worker.
     """
-    if find_spec("distributed") is None:
-        raise InputError(
-            f"--dask {address} needs dask.distributed: {sys.executable} -m pip install"
-            " 'dask[distributed]'"
-        )
+    extras.require("dask")
     dask: Any = import_module("dask")
     # Its loggers would repeat what is handled or reported here.
     names = ("distributed", "distributed.client", "distributed.worker", "tornado", "bokeh")
@@ -128,7 +123,7 @@ def connected(address: str) -> Generator[Cluster]:
                 processes=True,
                 dashboard_address=":0",
                 silence_logs="CRITICAL",
-                preload=[cluster_worker.__name__],
+                preload=[worker.__name__],
             )
             stack.callback(scheduler.close, timeout=ANSWER)
         try:
@@ -147,14 +142,6 @@ def connected(address: str) -> Generator[Cluster]:
         except OSError as error:
             raise _no_worker(address) from error
         yield Cluster(address, client)
-
-
-def both_given(dask: str, workers: int) -> InputError:
-    """The error for a cluster given together with workers on this machine."""
-    return InputError(
-        f"--dask {dask} with --workers {workers}: expected one of the two, for the cluster says"
-        " how many workers it has; leave --workers out"
-    )
 
 
 def _close(client: Any) -> None:
@@ -219,7 +206,7 @@ class ClusterPool(Generic[TaskT, ResultT]):
 
     def _submit(self, piece: Piece[TaskT, ResultT]) -> None:
         assignment = ClusterTask(
-            cluster_worker.VERSION,
+            worker.VERSION,
             metadata.version("topo-verify"),
             own_hash(),
             self._remote.remade,

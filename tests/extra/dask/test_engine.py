@@ -15,15 +15,15 @@ import pytest
 pytest.importorskip("numba")
 pytest.importorskip("distributed")
 
-from tests.campaign.test_cluster import address, started, worker
+from tests.extra.dask.test_cluster import address, started, worker
 from tests.studies.search.searching import json, searched, wait_for
 from topo_verify import InputError
-from topo_verify.campaign import backend
 from topo_verify.campaign import campaign as campaigns
-from topo_verify.campaign.backend import COMPILING, _job, _work, clustered
+from topo_verify.campaign.backend import COMPILING, job_of, work_of
 from topo_verify.campaign.campaign import Campaign
-from topo_verify.campaign.cluster import Cluster, connected
 from topo_verify.campaign.targets import targets
+from topo_verify.extra.dask.backend import clustered
+from topo_verify.extra.dask.cluster import Cluster, connected
 from topo_verify.studies.search.search import Search, SearchEntry, search, search_campaign
 from topo_verify.world.enumeration import rank_order
 
@@ -56,7 +56,7 @@ def test_results_are_equal_byte_for_byte_to_those_of_workers_here(
     def found(**where: Any) -> SearchEntry:
         return search(target, edges=edges, keep_going=keep_going, engine="compiled", **where)
 
-    assert json(found(dask=address)) == json(found(workers=2))
+    assert json(found(cluster=address)) == json(found(workers=2))
 
 
 def test_a_worker_that_is_killed_changes_no_total(address: str) -> None:
@@ -97,13 +97,13 @@ def test_a_worker_without_numba_is_named_with_the_mend(folder: Path) -> None:
         worker(address, PYTHONPATH=str(hidden)),
         pytest.raises(InputError, match=words),
     ):
-        search("basic", edges=2, engine="compiled", dask=address)
+        search("basic", edges=2, engine="compiled", cluster=address)
 
 
 def test_a_worker_has_time_to_compile() -> None:
     usual = search_campaign(targets("basic"), edges=4)
-    assert _work(_job(compiled(), None)).loading == COMPILING
-    assert _work(_job(usual, None)).loading < COMPILING
+    assert work_of(job_of(compiled(), None)).loading == COMPILING
+    assert work_of(job_of(usual, None)).loading < COMPILING
 
 
 @pytest.mark.parametrize(("where", "warmed"), [("local", 1), ("tcp://host:8786", 0)])
@@ -118,7 +118,7 @@ def test_the_client_compiles_only_for_workers_of_its_machine(
 
     campaigns: list[Campaign] = []
     monkeypatch.setattr("topo_verify.campaign.compiled.warm", campaigns.append)
-    monkeypatch.setattr(backend, "ClusterPool", refuse)
+    monkeypatch.setattr("topo_verify.extra.dask.backend.ClusterPool", refuse)
     nobody: Any = None
     with pytest.raises(Refused):
         Search(compiled(), targets("basic"), clustered(Cluster(where, nobody))).work()

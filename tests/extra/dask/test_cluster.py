@@ -20,17 +20,19 @@ import msgspec
 import pytest
 
 from tests.studies.search.searching import json, searched, shards_in, wait_for
-from topo_verify import InputError, InternalError, errors
-from topo_verify.campaign import backend, cluster_worker
-from topo_verify.campaign import cluster as clusters
+from topo_verify import InputError, InternalError, errors, extras
+from topo_verify.campaign import backend
 from topo_verify.campaign.campaign import Campaign, Shard, ShardMemory, ShardResult
-from topo_verify.campaign.cluster import Cluster, ClusterPool, connected
-from topo_verify.campaign.cluster_worker import ClusterTask, ClusterTaskDone, do
 from topo_verify.campaign.identity import own_hash
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import targets
 from topo_verify.campaign.work import Work
 from topo_verify.campaign.worker import WorkerFailed
+from topo_verify.extra.dask import cluster as clusters
+from topo_verify.extra.dask import worker as worker_side
+from topo_verify.extra.dask.backend import clustered
+from topo_verify.extra.dask.cluster import Cluster, ClusterPool, connected
+from topo_verify.extra.dask.worker import ClusterTask, ClusterTaskDone, do
 from topo_verify.programs import loaded
 from topo_verify.programs.launcher import prepare
 from topo_verify.robot.stopwatch import tasks_of
@@ -107,14 +109,14 @@ def on_cluster(
     """A search on a cluster that has gone to its end."""
     mappers = targets(target)
     campaign = search_campaign(mappers, edges=edges, kind=kind)
-    study = Search(campaign, mappers, backend.clustered(cluster), store)
+    study = Search(campaign, mappers, clustered(cluster), store)
     study.work()
     return study
 
 
 def work_of(target: str, edges: int = 2) -> Work[Shard, ShardResult]:
     """What workers are to do in a search."""
-    return backend._work(backend._job(campaign_of(target, edges), None))
+    return backend.work_of(backend.job_of(campaign_of(target, edges), None))
 
 
 def campaign_of(target: str, edges: int, kind: str = "any") -> Campaign:
@@ -140,7 +142,7 @@ def test_results_are_equal_byte_for_byte_to_those_of_workers_here(
         kinds = WorldClass.parse(kind)
         return search(target, edges=3, cls=kinds, keep_going=keep_going, **where)
 
-    assert json(found(dask=address)) == json(found(workers=2))
+    assert json(found(cluster=address)) == json(found(workers=2))
 
 
 def test_a_program_runs_on_the_cluster(address: str, folder: Path) -> None:
@@ -150,7 +152,9 @@ def test_a_program_runs_on_the_cluster(address: str, folder: Path) -> None:
         "serve(CATALOGUE['basic'])\n"
     )
     target = f"--cmd {sys.executable} play.py"
-    assert json(search(target, edges=2, dask=address)) == json(search(target, edges=2, workers=2))
+    assert json(search(target, edges=2, cluster=address)) == json(
+        search(target, edges=2, workers=2)
+    )
 
 
 # ---------------------------------------------------------------- losses
@@ -158,7 +162,7 @@ def test_a_program_runs_on_the_cluster(address: str, folder: Path) -> None:
 
 def test_a_lost_worker_changes_nothing(address: str, folder: Path) -> None:
     target = "cluster_mappers.py:kills_its_dask_worker_once"
-    found = search(target, edges=4, cls=SIMPLE, dask=address)
+    found = search(target, edges=4, cls=SIMPLE, cluster=address)
     assert (folder / "killed").exists()
     assert (found.verdict, found.checked, found.lost) == ("EXHAUSTED", 32, ())
     assert json(found) == json(search(target, edges=4, cls=SIMPLE))
@@ -179,7 +183,7 @@ def test_a_mapper_that_lacks_memory_on_a_worker_alone_is_undecided() -> None:
     target = "cluster_mappers.py:takes_two_gib"
     two_gib = str(2**21)
     with started(0) as address, worker(address, memory=two_gib):
-        found = search(target, edges=3, cls=SIMPLE, dask=address)
+        found = search(target, edges=3, cls=SIMPLE, cluster=address)
     assert (found.verdict, found.checked, found.total) == ("UNKNOWN", 8, 9)
     assert found.counterexample is None
     (lost,) = found.lost
@@ -189,7 +193,7 @@ def test_a_mapper_that_lacks_memory_on_a_worker_alone_is_undecided() -> None:
 CLIENT = """
 import sys
 from topo_verify.campaign.backend import clustered
-from topo_verify.campaign.cluster import connected
+from topo_verify.extra.dask.cluster import connected
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import targets
 from topo_verify.studies.search.choices import SHARD
@@ -228,7 +232,7 @@ def test_a_lost_scheduler_ends_the_search_with_a_sentence(folder: Path) -> None:
         (folder / "scheduler").write_text(str(scheduler.pid))
         address = msgspec.json.decode((folder / "where").read_bytes())["address"]
         with worker(address), pytest.raises(InputError, match="the scheduler was lost in the cou"):
-            search("cluster_mappers.py:kills_the_scheduler", edges=3, cls=SIMPLE, dask=address)
+            search("cluster_mappers.py:kills_the_scheduler", edges=3, cls=SIMPLE, cluster=address)
 
 
 def test_a_cluster_whose_workers_are_all_lost_ends_the_search_with_a_sentence(
@@ -267,7 +271,7 @@ def test_a_worker_with_another_topo_verify_is_refused(
         worker(address, PYTHONPATH=str(folder / "other")),
         pytest.raises(InputError, match=words),
     ):
-        search("basic", edges=2, dask=address)
+        search("basic", edges=2, cluster=address)
 
 
 def test_a_worker_with_another_mapper_or_with_none_is_refused(address: str, folder: Path) -> None:
@@ -316,7 +320,7 @@ def refused(folder: Path, words: str) -> None:
         worker(address, PYTHONPATH=str(folder / "theirs")),
         pytest.raises(InputError, match=r"^worker tcp://.* of the cluster: the mapper" + words),
     ):
-        search("helped.py:explore", edges=2, dask=address)
+        search("helped.py:explore", edges=2, cluster=address)
 
 
 def test_a_worker_that_finds_another_helper_module_is_refused(
@@ -372,15 +376,15 @@ def test_without_dask_the_package_is_named(monkeypatch: pytest.MonkeyPatch) -> N
     def nothing(_name: str) -> None:
         return None
 
-    monkeypatch.setattr(clusters, "find_spec", nothing)
-    words = r"--dask local needs dask.distributed: .* -m pip install 'dask\[distributed\]'"
+    monkeypatch.setattr(extras, "find_spec", nothing)
+    words = r"the extra dask needs distributed: .* -m pip install 'topo-verify\[dask\]'"
     with pytest.raises(InputError, match=words), connected("local"):
         pass
 
 
 def test_a_cluster_and_workers_here_are_not_both_had() -> None:
     with pytest.raises(InputError, match="--dask local with --workers 2: expected one of the two"):
-        search("basic", edges=1, workers=2, dask="local")
+        search("basic", edges=1, workers=2, cluster="local")
 
 
 def test_work_that_is_not_for_other_machines_is_our_bug() -> None:
@@ -397,7 +401,7 @@ def assignment(**changed: Any) -> bytes:
     work = work_of("basic")
     assert work.remote is not None
     usual = ClusterTask(
-        cluster_worker.VERSION,
+        worker_side.VERSION,
         "1",
         own_hash(),
         work.remote.remade,
@@ -415,7 +419,7 @@ def answer(sent: bytes) -> ClusterTaskDone | WorkerFailed:
 def test_a_worker_does_a_task_in_a_process_that_ends_when_it_is_idle(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(cluster_worker, "IDLE", 0.01)
+    monkeypatch.setattr(worker_side, "IDLE", 0.01)
     before = descendants()
     done = answer(assignment())
     assert isinstance(done, ClusterTaskDone)
