@@ -10,7 +10,5 @@ twins       worlds that look alike without the marker's direction
 totals      the totals of large searches
 advice      what it costs to follow the advice of `certify`
 junctions   which rule reads the order of roads at wide junctions
-every       every choice of the policies in worlds of 5 and 6 edges
-heat        the picture of what each place of the marker costs
 game        what the best possible robot pays
 """
