@@ -2,8 +2,8 @@
 #
 #   make verify                     the main job: one report
 #   make test                       the suite and the branch coverage of the trusted rooms
-#   make long                       the tests that make test leaves out because they take long
-#   make nightly                    every test, the slow ones too, with new examples each time
+#   make long                       the tests marked `long`, which make test leaves out
+#   make nightly                    every test, those marked `nightly` too, with new examples each time
 #   make coq                        the proofs in Coq: compiled, checked again, mutants refused
 #   make mutants                    checkers and algorithms with one thing changed: each must be seen
 #   make torture                    hostile input, programs and signals: minutes, seeded
@@ -26,7 +26,7 @@ report = $(if $(JUNIT),--junitxml="$(JUNIT)/$(1).xml")
 # Few tests are long and many are short: a worker that is done takes over half of another's.
 PARALLEL := --numprocesses=auto --dist=worksteal
 TRACED := $(foreach room,world robot checkers algorithms,tests/$(room) topo_verify/$(room))
-EVERY := -m 'slow or not slow'
+EVERY := -m 'nightly or not nightly'
 # Python keeps what it compiles, whatever the environment says: the tests start hundreds of processes.
 export PYTHONDONTWRITEBYTECODE :=
 
@@ -48,14 +48,14 @@ verify: $(VENV)/.core
 	$(BIN)/topo-verify verify
 
 test: $(VENV)/.dev
-	$(PYTEST) $(PARALLEL) -m 'traced and not (slow or long)' --cov --cov-report= $(TRACED) $(call report,traced)
-	$(PYTEST) $(PARALLEL) -m 'not (traced or coq or slow or long)' $(call report,test)
+	$(PYTEST) $(PARALLEL) -m 'traced and not (nightly or long)' --cov --cov-report= $(TRACED) $(call report,traced)
+	$(PYTEST) $(PARALLEL) -m 'not (traced or coq or nightly or long)' $(call report,test)
 	@echo "Branch coverage of the trusted rooms and the algorithms (must be 100 %):"
 	$(BIN)/coverage report --fail-under=100
 
-# What tests/long.txt names, but for tests/nightly.txt; those that need Coq run in make coq.
+# Tests that need Coq run in make coq.
 long: $(VENV)/.dev
-	$(PYTEST) $(PARALLEL) -m 'long and not (slow or coq)' tests $(call report,long)
+	$(PYTEST) $(PARALLEL) -m 'long and not (nightly or coq)' tests $(call report,long)
 
 nightly: $(VENV)/.dev
 	HYPOTHESIS_PROFILE=nightly $(PYTEST) $(PARALLEL) $(EVERY)

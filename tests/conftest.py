@@ -60,14 +60,14 @@ def _is_traced(file: Path) -> bool:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark tests: `traced` measures coverage, `coq` compiles; `long` and `slow` take long."""
+    """Mark tests: `traced` measures coverage, `coq` compiles; `long` and `nightly` take long."""
     for item in items:
         if _is_traced(item.path) and item.get_closest_marker("no_cover") is None:
             item.add_marker("traced")
         if is_named(LONG, item.path, item.name):
             item.add_marker("long")
         if is_named(NIGHTLY, item.path, item.name):
-            item.add_marker("slow")
+            item.add_marker("nightly")
         if "library" in getattr(item, "fixturenames", ()):  # tests/proofs/mechanised/conftest.py
             item.add_marker("coq")
 

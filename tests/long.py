@@ -1,7 +1,7 @@
 """The tests that take long, by name: `make test` runs none of them.
 
     long.txt      about a second or more: `make long`, and so `.ci/run`, runs them
-    nightly.txt   several seconds: `make nightly` alone runs them; they are marked `slow`
+    nightly.txt   several seconds: `make nightly` alone runs them; they are marked `nightly`
 
 They are the largest sizes of statements whose smaller sizes `make test` runs, and whole commands
 whose parts it runs one by one.

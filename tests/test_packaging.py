@@ -87,6 +87,7 @@ def run_python(code: str, *, path: Path, cwd: Path) -> subprocess.CompletedProce
     return python("-P", "-c", code, environment={"PYTHONPATH": str(path)}, cwd=cwd)
 
 
+@pytest.mark.long
 def test_the_wheel_installs_one_top_level_name(built: Built) -> None:
     tops = {name.split("/")[0] for name in built.wheel_names()}
     assert tops == {"topo_verify", f"topo_verify-{topo_verify.__version__}.dist-info"}
@@ -131,6 +132,7 @@ def test_the_wheel_works_on_its_own(built: Built, tmp_path: Path) -> None:
     assert done.stdout.strip() == str(site / "topo_verify" / "__init__.py"), done.stderr
 
 
+@pytest.mark.long
 def test_the_command_of_the_wheel_works_on_its_own(built: Built, tmp_path: Path) -> None:
     site = tmp_path / "site"
     with ZipFile(built.wheel) as archive:
@@ -161,6 +163,7 @@ def test_the_sdist_holds_every_page_and_no_leftovers(built: Built) -> None:
     assert not [name for name in names if left & set(name.split("/")) or name.endswith(".pyc")]
 
 
+@pytest.mark.long
 def test_the_tests_in_the_sdist_run_where_it_is_unpacked(built: Built, tmp_path: Path) -> None:
     with tarfile.open(built.sdist) as archive:
         archive.extractall(tmp_path, filter="data")
@@ -168,7 +171,11 @@ def test_the_tests_in_the_sdist_run_where_it_is_unpacked(built: Built, tmp_path:
     tests = ["tests/docs", "tests/world/test_io.py", "-k", "not window"]  # no browser needed
     line = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-n", "0", *tests]
     done = subprocess.run(
-        [*line, "-m", "not (slow or long)"], cwd=folder, capture_output=True, text=True, check=False
+        [*line, "-m", "not (nightly or long)"],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert done.returncode == 0, done.stdout
 

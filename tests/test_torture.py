@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_the_torture_sees_its_planted_faults_and_finds_nothing_in_a_few_trials() -> None:
     torture = Path(__file__).resolve().parent.parent / "benchmarks" / "torture"
     done = subprocess.run(

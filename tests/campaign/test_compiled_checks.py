@@ -53,7 +53,7 @@ def test_it_agrees_with_the_checkers_in_small_worlds(checks: CompiledChecks, nam
     assert any(decided) or name not in CATALOGUE
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", MAPPERS)
 def test_it_agrees_with_the_checkers_in_1000_worlds(checks: CompiledChecks, name: str) -> None:
     for world in [*sampled(4, 334), *sampled(5, 333), *sampled(6, 333)]:
@@ -67,7 +67,7 @@ def test_it_agrees_with_the_checkers_in_a_lattice(checks: CompiledChecks, name: 
     require_alike(checks, families.lattice(7, 7), name)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", [name for name in MAPPERS if name != "takes-each-place-for-known"])
 def test_it_agrees_with_the_checkers_in_a_larger_lattice(checks: CompiledChecks, name: str) -> None:
     require_alike(checks, families.lattice(10, 10), name)
@@ -94,7 +94,7 @@ def test_it_agrees_with_the_checkers_on_mutated_traces(each_layout: CompiledChec
     require_alike_on_mutated_traces(each_layout, 1, 1000)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("seed", range(2, 7))
 def test_it_agrees_with_the_checkers_on_many_mutated_traces(
     each_layout: CompiledChecks, seed: int
@@ -115,7 +115,7 @@ def test_where_claim_10_is_not_asked_it_agrees_on_mutated_traces(
     require_alike_on_mutated_traces(each_layout, 7, 1000)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.usefixtures("everything_is_large")
 @pytest.mark.parametrize("seed", range(8, 13))
 def test_where_claim_10_is_not_asked_it_agrees_on_many_mutated_traces(

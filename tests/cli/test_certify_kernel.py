@@ -52,14 +52,14 @@ def test_each_verdict_is_stated_in_a_file_of_its_own(
 
 
 @pytest.mark.usefixtures("linked")
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_each_verdict_is_accepted_by_coqc(results: Results) -> None:
     found = [entry["kernel"] for entry in results(THREE, code=1)["results"]]
     assert [(one["accepted"], one["by"]) for one in found] == [(True, toolchain.version())] * 3
 
 
 @pytest.mark.usefixtures("linked")
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_the_command_that_is_printed_checks_the_certificate(call: Call, results: Results) -> None:
     text = call("certify ring.jsonl --kernel").stdout
     assert "one world alone shows its log, and it is the map in the certificate" in " ".join(
@@ -130,7 +130,7 @@ def test_a_log_without_decisions_has_no_sentence_about_them(
 
 
 @pytest.mark.usefixtures("linked")
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_a_decision_that_does_not_follow_is_not_certified(results: Results) -> None:
     trace = trace_of("m3/50")
     wrong = place(trace, Reject)
@@ -181,7 +181,7 @@ def test_decisions_are_not_certified_by_a_certificate_that_is_not_checked(
 
 @pytest.mark.coq
 @needs_coq
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_the_decisions_of_a_run_are_accepted_by_coqc(results: Results) -> None:
     write_log("run.jsonl", "enhancement-iii-all")
     (entry,) = results("certify run.jsonl --kernel")["results"]

@@ -105,7 +105,7 @@ def test_machine_code_gives_each_run_the_verdict_of_the_checkers(name: str, room
 # ---------------------------------------------------------------- the whole comparison
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", MAPPERS)
 def test_every_run_with_4_edges_has_the_verdict_of_the_checkers(name: str) -> None:
     found = [one for world in worlds(edges=4) for one in differences(world, name, 1)]
@@ -114,7 +114,7 @@ def test_every_run_with_4_edges_has_the_verdict_of_the_checkers(name: str) -> No
     assert found == []
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", MAPPERS)
 @pytest.mark.parametrize("edges", range(5, 9), ids=lambda edges: f"edges-{edges}")
 def test_runs_in_60_worlds_of_a_size_have_the_verdict_of_the_checkers(
@@ -128,7 +128,7 @@ def test_runs_in_60_worlds_of_a_size_have_the_verdict_of_the_checkers(
     assert opened == 0 or name == "folding+planar"
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", MAPPERS)
 def test_machine_code_gives_every_run_to_4_edges_the_verdict_of_the_checkers(name: str) -> None:
     faults = {name: name} if name in FAULTS else None

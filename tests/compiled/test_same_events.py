@@ -1,6 +1,6 @@
 """The compiled algorithms are the reference: every event of every run, the cost and the map.
 
-The whole comparison is marked slow; -k "edges-5" and the like run a part of it.
+The whole comparison is marked nightly; -k "edges-5" and the like run a part of it.
 """
 
 from __future__ import annotations
@@ -79,28 +79,28 @@ def ranks(edges: int, part: int) -> Iterator[World]:
         yield World.from_code(table, name=f"m{edges}/{number}")
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", CATALOGUE)
 @pytest.mark.parametrize("edges", range(1, 6), ids=lambda edges: f"edges-{edges}")
 def test_equal_events_in_every_world_to_5_edges(edges: int, name: str) -> None:
     assert list(islice(differences(worlds(edges=edges), name), 3)) == []
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", CATALOGUE)
 @pytest.mark.parametrize("part", range(SLICES), ids=lambda part: f"edges-6-part-{part}")
 def test_equal_events_in_every_world_with_6_edges(part: int, name: str) -> None:
     assert list(islice(differences(ranks(6, part), name), 3)) == []
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", CATALOGUE)
 @pytest.mark.parametrize("edges", range(7, 13), ids=lambda edges: f"edges-{edges}")
 def test_equal_events_in_ten_thousand_uniform_worlds(edges: int, name: str) -> None:
     assert list(islice(differences(uniform(edges, 1667, seed=2), name), 3)) == []
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", CATALOGUE)
 @pytest.mark.parametrize("side", [10, 20, 30], ids=lambda side: f"side-{side}")
 @pytest.mark.parametrize("holes", [0.0, 0.2], ids=["whole", "holes"])
@@ -108,7 +108,7 @@ def test_equal_events_in_lattices_to_30x30(side: int, holes: float, name: str) -
     assert difference(families.lattice(side, side, holes=holes, seed=1), name) is None
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", CATALOGUE)
 @pytest.mark.parametrize("network", NETWORKS, ids=["nyc", "oberrhein", "A10KW"])
 def test_equal_events_in_the_real_networks(network: str, name: str) -> None:

@@ -47,7 +47,7 @@ def test_the_table_has_a_row_for_each_fault() -> None:
 
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=pytest.mark.slow if edges(name) > 4 else ()) for name in FAULTY],
+    [pytest.param(name, marks=pytest.mark.nightly if edges(name) > 4 else ()) for name in FAULTY],
 )
 def test_the_reference_engine_finds_a_fault_in_the_worlds_of_the_table(name: str) -> None:
     assert by_search(by_reference, EVERY[name]) == ROWS[name][3:5]
@@ -67,7 +67,7 @@ def test_a_fault_that_small_worlds_hide_is_caught_in_the_world_of_the_table(name
 
 @pytest.mark.parametrize(
     "largest",
-    [3, pytest.param(4, marks=pytest.mark.long), pytest.param(5, marks=pytest.mark.slow)],
+    [3, pytest.param(4, marks=pytest.mark.long), pytest.param(5, marks=pytest.mark.nightly)],
 )
 @pytest.mark.parametrize("name", HARMLESS)
 def test_no_claim_fails_of_a_harmless_difference(name: str, largest: int) -> None:
@@ -91,7 +91,7 @@ def test_property_tests_find_a_fault_after_as_many_examples_as_the_table_says(na
 
 
 @pytest.mark.parametrize(
-    ("seeds", "most"), [([0], 20), pytest.param(SEEDS, EXAMPLES, marks=pytest.mark.slow)]
+    ("seeds", "most"), [([0], 20), pytest.param(SEEDS, EXAMPLES, marks=pytest.mark.nightly)]
 )
 @pytest.mark.parametrize("name", HARMLESS)
 def test_property_tests_find_no_harmless_difference(

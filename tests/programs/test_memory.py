@@ -32,7 +32,7 @@ LEEWAY = 10 * 2**20
 """Bytes; the costs that are kept world by world take two or three million."""
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="no /proc here")
 def test_the_memory_of_a_run_of_ten_thousand_worlds_is_flat() -> None:
     done = ran("-c", SCRIPT, served("basic"))

@@ -133,7 +133,7 @@ def test_a_seeded_fault_is_found_through_the_pipe_just_as_in_process(name: str) 
     assert not differences(name, tried, limits)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", [name for name in EVERY if name != REACHES])
 def test_so_it_is_in_every_world_of_three_and_four_edges(name: str) -> None:
     assert not differences(name, worlds([3, 4]), Limits(budget=200))

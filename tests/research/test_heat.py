@@ -57,7 +57,7 @@ def test_every_kind_of_drawing_can_be_coloured(name: str) -> None:
     assert untrue_colours(svg, world, costs) == []
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_of_a_large_world_the_part_that_is_shown_is_coloured() -> None:
     world = families.random_genus(900, 30, seed=1)
     costs = [dart % 97 for dart in range(len(world.alpha))]

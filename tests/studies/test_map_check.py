@@ -98,7 +98,7 @@ def test_the_way_on_proves_larger_maps_behind_any_log(world: World, data: st.Dat
 
 
 @pytest.mark.parametrize(
-    ("edges", "longest"), [(1, 4), (2, 3), pytest.param(3, 3, marks=pytest.mark.slow)]
+    ("edges", "longest"), [(1, 4), (2, 3), pytest.param(3, 3, marks=pytest.mark.nightly)]
 )
 @pytest.mark.no_cover
 def test_behind_short_logs_the_way_on_is_the_cheapest(edges: int, longest: int) -> None:

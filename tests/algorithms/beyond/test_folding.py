@@ -70,7 +70,7 @@ def test_what_is_kept_has_a_witness_in_every_small_world() -> None:
         assert_complete(world)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_what_is_kept_has_a_witness_in_every_world_with_four_edges() -> None:
     for world in worlds([4]):
         assert_complete(world)
@@ -145,7 +145,7 @@ def test_the_two_foldings_agree_on_a_walk_with_one_lie(
     assert theirs == ours
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_all_claims_hold_in_every_world_with_five_edges() -> None:
     for world in worlds([5]):
         assert set(examine("folding", world).claims.values()) == {"ok"}

@@ -36,7 +36,7 @@ LARGE = (
 )
 
 
-SLOW = [pytest.param(edges, marks=pytest.mark.slow) for edges in (4, 5)]
+SLOW = [pytest.param(edges, marks=pytest.mark.nightly) for edges in (4, 5)]
 
 
 @pytest.mark.parametrize("edges", [0, 1, 2, *SLOW])
@@ -69,13 +69,13 @@ def test_a_sample_of_each_genus_is_drawn_true(genus: int) -> None:
 # ---------------------------------------------------------------- all of it, nightly
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", LARGE)
 def test_large_members_of_the_families_are_drawn_true(name: str) -> None:
     drawn(resolve_world(f"family:{name}"))
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("genus", [0, 1, 2, 3])
 def test_250_worlds_of_each_genus_are_drawn_true(genus: int) -> None:
     random = Random(100 + genus)

@@ -53,7 +53,7 @@ def test_whole_words_hold_in_all_worlds_up_to_three_edges(one: Theorem) -> None:
     assert outcome.checked == (86 if one.name == "words-confirm" else 84)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("one", [t for t in bounded() if t.deep], ids=lambda one: one.name)
 def test_the_deep_ones_hold_too(one: Theorem) -> None:
     assert one.ok(one.prove(Budget(timeout=300)))
@@ -179,7 +179,7 @@ def test_that_there_is_no_other_world_is_certified() -> None:
     assert theorem.ok(outcome)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_with_five_edges_too() -> None:
     assert missing_and_spurious(5) == (8162, [], [])
 

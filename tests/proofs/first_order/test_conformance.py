@@ -57,14 +57,14 @@ def test_every_decision_in_every_world_to_four_edges(name: str) -> None:
         assert not differences(trace, name)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", DESCRIBED)
 def test_every_decision_in_every_world_of_five_edges(name: str) -> None:
     for world in worlds([5]):
         assert not differences(trace_of(world, name), name), world.id
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", DESCRIBED)
 def test_every_decision_in_500_generated_worlds(name: str) -> None:
     _in_generated_worlds(name, 500)

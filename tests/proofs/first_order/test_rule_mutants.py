@@ -50,7 +50,7 @@ def test_mutants_change_rules_that_are_proved() -> None:
     assert len({mutant.name for mutant in EVERY}) == len(EVERY)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("mutant", EVERY, ids=lambda one: one.name)
 def test_no_smaller_scene_shows_it(mutant: RuleMutant) -> None:
     for edges in range(1, mutant.size[0] + 1):

@@ -38,7 +38,7 @@ def test_its_mutant_is_refuted_by_a_structure(one: Theorem) -> None:
     assert one.ok(outcome)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("one", theorems.OBLIGATIONS, ids=NAMES)
 def test_every_premise_that_is_named_is_needed(one: Obligation) -> None:
     for lost in one.needs:

@@ -20,7 +20,7 @@ LIMIT = 300.0
 """Seconds for each call of a program, on a machine that has other things to do."""
 
 
-RARE = (pytest.mark.slow, pytest.mark.rare)
+RARE = (pytest.mark.nightly, pytest.mark.rare)
 """For tests that only `make nightly` runs."""
 
 

@@ -173,7 +173,7 @@ def test_coqc_refuses_what_is_tampered_with(place: Path, kind: str) -> None:
     assert "Error" in found.why
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_coqc_certifies_a_lattice_of_10_by_10(place: Path) -> None:
     certificate = certificates.certificate_of(log_of(families.lattice(10, 10)))
     assert certificate.statement == "map"
@@ -337,7 +337,7 @@ def test_the_extracted_program_reads_no_signs_and_no_words(place: Path) -> None:
 
 
 @needs_ocaml
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_the_extracted_program_certifies_ten_thousand_moves(place: Path) -> None:
     log = log_of(families.lattice(15, 15), "enhancement-ii")
     assert len(of_type(Move, log)) > 10_000

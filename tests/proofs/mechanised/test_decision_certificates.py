@@ -80,7 +80,7 @@ def test_the_extracted_program_accepts_them_too(place: Path) -> None:
 
 
 @needs_ocaml
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_the_extracted_program_accepts_those_of_every_world_of_3_edges(place: Path) -> None:
     for world in worlds([3]):
         for name in CATALOGUE:
@@ -89,7 +89,7 @@ def test_the_extracted_program_accepts_those_of_every_world_of_3_edges(place: Pa
                 assert by_program(place, certificate).accepted, (name, world)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     ("world", "mapper"),
     [("family:lattice(4,4)", "basic"), *((f"m5/{i}", "enhancement-iii-all") for i in (900, 5000))],

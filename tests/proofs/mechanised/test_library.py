@@ -183,7 +183,7 @@ def test_an_axiom_is_named_by_coqchk(place: Path) -> None:
     assert toolchain.recheck(place, ["Whole"], timeout=LIMIT).accepted
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.rare
 def test_no_proof_relies_on_a_name_that_coq_chose(library: Path, tmp_path: Path) -> None:
     del library

@@ -114,7 +114,7 @@ def test_the_symbols_are_the_statement_in_its_file_with_the_variables_of_its_sec
         assert not {"(*", "Proof", "Theorem", "Lemma", "Qed"} & {*text.split()}
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.usefixtures("linked")
 def test_the_whole_compiled_library_is_checked_again() -> None:
     for theorem in MECHANISED:

@@ -97,7 +97,7 @@ def test_the_states_have_the_costs_and_verdicts_of_all_runs_one_by_one(name: str
             assert costs_of_all(graph) == {cost for cost, _ in runs}
 
 
-@pytest.mark.parametrize("step", [20, pytest.param(6, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("step", [20, pytest.param(6, marks=pytest.mark.nightly)])
 @pytest.mark.parametrize("name", ["basic", "enhancement-iii-one+i", "folding"])
 def test_the_states_have_the_costs_of_all_runs_in_worlds_of_three_edges(
     name: str, step: int
