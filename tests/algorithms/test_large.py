@@ -8,6 +8,7 @@ from tests.helpers import SURE, path
 from topo_verify import examine
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SURE)
 @pytest.mark.no_cover
 def test_a_path_of_5000_vertices_is_walked_once(name: str) -> None:

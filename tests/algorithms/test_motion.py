@@ -113,6 +113,7 @@ def test_what_is_executed_already_is_confirmed_without_motion() -> None:
     assert (confirm.hypothesis, cited(reject)[1].marker) == (9, 1)
 
 
+@pytest.mark.long
 @pytest.mark.no_cover
 def test_the_marker_direction_counts_where_the_whole_way_is_executed_already() -> None:
     # Overlap with no rule in between: what the direction excludes is rejected when it is looked at.

@@ -17,6 +17,7 @@ PICKS = (*policies.PICKS, "random(1)", "random(2)")
 ORDERS = (*policies.ORDERS, "random(1)")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("pick", "order"), list(product(PICKS, ORDERS)))
 @pytest.mark.no_cover
 def test_every_pair_of_policies_keeps_all_claims_on_every_world_with_3_edges(

@@ -87,6 +87,7 @@ def turned(fold: Fold, place: Place) -> Place:
     return place[0], (place[1] + 1) % fold.degree(place[0])
 
 
+@pytest.mark.nightly
 @given(any_world(max_edges=9), st.randoms(use_true_random=False))
 def test_what_is_met_is_what_follows_in_any_order(world: World, shuffle: Random) -> None:
     for at, ends in enumerate(rejections(trace_of(world, "folding"))):

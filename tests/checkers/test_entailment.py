@@ -60,6 +60,7 @@ def lucky(report: Report) -> bool:
     return all(s != "failed" for claim, s in report.claims.items() if "entailed" not in claim)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "worlds_where_lucky"),
     [("elimination", {3: 3, 4: 61}), ("the only one", {2: 1, 3: 15, 4: 207})],
@@ -84,6 +85,7 @@ def test_where_a_guess_is_lucky_its_witness_breaks_it(
     assert convicted == worlds_where_lucky
 
 
+@pytest.mark.long
 @pytest.mark.no_cover
 def test_a_silent_guess_is_convicted_by_its_history_alone() -> None:
     guesser = EVERY["joins-the-last-two-unseen"]

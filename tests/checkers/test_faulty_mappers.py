@@ -111,6 +111,7 @@ CLASSES: dict[str, Callable[[World], bool]] = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("mapper", "smallest"),
     [

@@ -118,6 +118,7 @@ def test_what_no_world_shows_contradicts(
     assert re.search(why, told)
 
 
+@pytest.mark.long
 @pytest.mark.no_cover
 def test_what_contradicts_in_no_way_can_be_joined_and_looking_leaves_no_trace() -> None:
     joined = 0

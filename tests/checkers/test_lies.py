@@ -32,6 +32,7 @@ from topo_verify.robot.simulator import Misuse, SimulatedRobot
 names = st.sampled_from(PAPER)
 
 
+@pytest.mark.long
 @settings(max_examples=400)
 @given(case=doctored())
 @pytest.mark.no_cover
@@ -91,6 +92,7 @@ def test_any_other_map_is_caught_unless_it_is_isomorphic(
     assert ("map-isomorphic" in failing(world, lie)) != isomorphic(drawn, world)
 
 
+@pytest.mark.nightly
 @settings(max_examples=300)
 @given(
     world=any_world(max_edges=3),

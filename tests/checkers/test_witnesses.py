@@ -208,6 +208,7 @@ def test_the_declared_planarity_of_the_world_excuses_no_other_guess() -> None:
     assert told > 100
 
 
+@pytest.mark.long
 @pytest.mark.no_cover
 def test_a_dart_is_rejected_by_planarity_just_if_the_edge_would_raise_the_genus_of_s() -> None:
     """Claim 8 walks the face of e; here the darts are joined, and the genus is counted."""

@@ -34,6 +34,7 @@ def test_every_claim_has_a_second_opinion() -> None:
     assert EIGHT | STATEMENTS.keys() == CLAIMS.keys()
 
 
+@pytest.mark.long
 @every_strategy
 @given(data=st.data())
 def test_every_claim_is_true_of_every_run(strategy: str, data: st.DataObject) -> None:
@@ -42,6 +43,7 @@ def test_every_claim_is_true_of_every_run(strategy: str, data: st.DataObject) ->
     assert run.cost >= run.world.least_cost()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("claim", STATEMENTS)
 @given(run=runs(any_world(max_edges=3)))
 def test_what_a_run_says_of_all_worlds_is_true_of_those_of_about_its_size(
@@ -59,6 +61,7 @@ def judged(run: Exploration) -> dict[str, str]:
     return dict(judge(run).claims)
 
 
+@pytest.mark.long
 @every_strategy
 @pytest.mark.parametrize("name", SURE)
 @few
@@ -81,6 +84,7 @@ def test_every_claim_of_folding_holds_whatever_it_meets_first(
     assert judged(run) == dict.fromkeys(CLAIMS, "ok")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("strategy", ["planar_worlds", "tree_worlds", "lattices"])
 @given(data=st.data())
 def test_every_claim_of_what_assumes_a_plane_holds_in_planar_worlds(

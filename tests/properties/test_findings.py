@@ -39,6 +39,7 @@ def dearer(name: str, than: str, edges: range) -> list[str]:
     ]
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     ("stronger", "weaker", "first", "worlds_of_that_size"),
     [
@@ -62,6 +63,7 @@ def test_a_stronger_algorithm_may_cost_more(
     assert (found[0], len(found)) == (first, worlds_of_that_size)
 
 
+@pytest.mark.nightly
 def test_rules_without_motion_save_more_or_less_than_enhancement_i_where_all_degrees_are_one() -> (
     None
 ):

@@ -130,6 +130,7 @@ class Exploration(stateful.RuleBasedStateMachine):
         assert len(moves) == self.robot.cost == self.pilot.cost
 
 
+@pytest.mark.nightly
 def test_whatever_is_explored_in_whatever_order_s_stays_true() -> None:
     stateful.run_state_machine_as_test(
         Exploration, settings=settings(max_examples=settings().max_examples, stateful_step_count=30)

@@ -71,7 +71,10 @@ def place(fold: Fold, entries: list[tuple[int, int]], end: tuple[int, int]) -> t
     return number, (end[1] - entries[number][1]) % fold.degree(end[0])
 
 
-@pytest.mark.parametrize("edges", [1, 2, 3, pytest.param(4, marks=pytest.mark.nightly)])
+@pytest.mark.parametrize(
+    "edges",
+    [1, 2, pytest.param(3, marks=pytest.mark.long), pytest.param(4, marks=pytest.mark.nightly)],
+)
 @pytest.mark.no_cover
 def test_it_is_what_brute_force_finds(edges: int) -> None:
     for world in worlds([edges]):
@@ -100,7 +103,8 @@ def proved(world: World, doors: tuple[int, ...]) -> bool:
     return fold.open_darts() == 0 and fold.world().code == world.code
 
 
-@pytest.mark.parametrize("edges", [0, 1, 2, 3, 4, 5, pytest.param(6, marks=pytest.mark.nightly)])
+@pytest.mark.nightly
+@pytest.mark.parametrize("edges", range(7))
 @pytest.mark.no_cover
 def test_it_proves_every_world_at_the_least_cost(edges: int) -> None:
     for world in worlds([edges]):

@@ -76,6 +76,7 @@ def test_what_is_kept_has_a_witness_in_every_world_with_four_edges() -> None:
         assert_complete(world)
 
 
+@pytest.mark.nightly
 @pytest.mark.no_cover
 @given(any_world(max_edges=16))
 def test_what_is_kept_has_a_witness_in_larger_worlds(world: World) -> None:

@@ -32,6 +32,7 @@ def test_every_planar_world_is_mapped() -> None:
             assert set(report.claims.values()) == {"ok"}, str(report)
 
 
+@pytest.mark.long
 @pytest.mark.no_cover
 def test_every_nonplanar_world_is_mapped_wrong_and_caught() -> None:
     nonplanar = [world for world in worlds(range(1, 5)) if not world.is_planar]
@@ -57,6 +58,7 @@ def test_it_rejects_before_any_motion() -> None:
 STEERED_ON_A_PLANE = [name for name, mapper in STEERED.items() if mapper.assumes == "planar"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", STEERED_ON_A_PLANE)
 @given(world=planar_worlds(max_edges=15))
 def test_every_claim_of_those_that_steer_holds_in_planar_worlds(name: str, world: World) -> None:

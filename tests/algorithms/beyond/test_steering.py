@@ -83,6 +83,7 @@ def test_every_claim_holds_in_larger_worlds(name: str, text: str) -> None:
     assert every_claim_holds(report), str(report)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", [name for name in STEERED if STEERED[name].assumes is None])
 @given(world=any_world(max_edges=12))
 def test_every_claim_holds_in_worlds_drawn(name: str, world: World) -> None:

@@ -88,6 +88,7 @@ def test_a_drawing_of_both_directions_is_read_as_the_world_that_was_drawn(kind: 
     assert refused_of(drawings(kind, FEW), both=True) <= 1
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("kind", KINDS)
 def test_few_of_many_drawings_are_refused_and_none_is_misread(kind: str) -> None:
     for change in CHANGES.values():

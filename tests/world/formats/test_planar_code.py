@@ -43,6 +43,7 @@ def test_nautys_solids_are_ours(graph: int, name: str) -> None:
     assert world.name == f"solids-{graph}"
 
 
+@pytest.mark.long
 @pytest.mark.no_cover
 def test_nautys_grid_of_300_vertices_is_our_lattice() -> None:
     world = World.load(DATA / "grid_300.pc")
@@ -71,6 +72,7 @@ def test_every_small_simple_planar_world_comes_back(edges: int) -> None:
         assert planar_code.decode(World, planar_code.encode(world)).code == world.code
 
 
+@pytest.mark.long
 @given(seed=st.integers(0, 99), holes=st.floats(0, 0.5), rows=st.integers(2, 20))
 @pytest.mark.no_cover
 def test_a_lattice_comes_back_with_its_marker(seed: int, holes: float, rows: int) -> None:

@@ -61,6 +61,7 @@ def doctored(**fields: Any) -> str:
 # ---------------------------------------------------------------- there and back
 
 
+@pytest.mark.nightly
 @given(world=dressed_worlds())
 @pytest.mark.no_cover
 def test_a_world_comes_back_with_all_that_it_carries(world: World) -> None:
