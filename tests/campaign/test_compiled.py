@@ -56,15 +56,16 @@ def campaign(target: str, edges: int, **options: Any) -> Campaign:
 # ---------------------------------------------------------------- the same results
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("target", "edges", "kind", "keep_going"),
     [
         ("basic", 4, "any", False),
         ("folding", 4, "genus<=1", False),
         ("enhancement-iii-all+i", 5, "simple", True),
-        ("enhancement-ii,enhancement-i", 4, "any", False),
+        pytest.param("enhancement-ii,enhancement-i", 4, "any", False, marks=pytest.mark.nightly),
         ("folding+planar", 3, "any", False),
-        ("folding+planar", 4, "any", True),
+        pytest.param("folding+planar", 4, "any", True, marks=pytest.mark.nightly),
     ],
 )
 def test_the_compiled_engine_counts_what_the_checkers_count(
@@ -83,6 +84,7 @@ def test_the_compiled_engine_counts_what_the_checkers_count(
     assert others == ones
 
 
+@pytest.mark.nightly
 def test_slices_and_workers_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     whole = searched("basic", edges=4, engine="compiled")
     study = search_of("basic", edges=4, engine="compiled", workers=2)
@@ -104,6 +106,7 @@ WRONG = {
 """Algorithms, and the mistakes that are planted in them here."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("keep_going", [False, True])
 @pytest.mark.parametrize(("edges", "start", "stop"), [(3, 0, 74), (4, 300, 500)])
 def test_several_algorithms_that_fail_are_counted_as_the_checkers_count_them(
@@ -183,6 +186,7 @@ def worst() -> set[int]:
     return {row.place for row in rows if row.cost == most}
 
 
+@pytest.mark.long
 def test_the_first_worlds_and_about_one_in_a_thousand_are_judged_by_the_checkers_too(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -470,6 +474,7 @@ def test_a_store_never_mixes_engines(folder: Path) -> None:
 # ---------------------------------------------------------------- verify
 
 
+@pytest.mark.long
 def test_verify_goes_one_size_further_and_compares_the_engines(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -11,6 +11,7 @@ pytest.importorskip("numba", reason="the compiled engine needs numba")
 
 from tests.compiled.judged import as_judged, sampled
 from tests.compiled.mutations import mutated_traces
+from tests.marks import with_marks
 from topo_verify import CATALOGUE, World, explore, families
 from topo_verify.campaign import compiled_checks
 from topo_verify.campaign import judge as judging
@@ -46,7 +47,7 @@ def require_alike(checks: CompiledChecks, world: World, name: str) -> bool:
     return decided
 
 
-@pytest.mark.parametrize("name", MAPPERS)
+@pytest.mark.parametrize("name", with_marks(MAPPERS, long=["takes-each-place-for-known"]))
 def test_it_agrees_with_the_checkers_in_small_worlds(checks: CompiledChecks, name: str) -> None:
     worlds = [*sampled(4, 6), *sampled(5, 6), *sampled(6, 3)]
     decided = [require_alike(checks, world, name) for world in worlds]

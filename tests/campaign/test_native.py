@@ -56,6 +56,7 @@ def firsts(entry: SearchEntry) -> list[tuple[str, int, str]]:
     return [(one.claim, one.failing, one.smallest.world) for one in entry.claims]
 
 
+@pytest.mark.nightly
 def test_the_example_comes_to_what_basic_comes_to(tmp_path: Path) -> None:
     ours = search(built(tmp_path), edges=4)
     theirs = search("basic", edges=4, engine="compiled")
@@ -66,6 +67,7 @@ def test_the_example_comes_to_what_basic_comes_to(tmp_path: Path) -> None:
     assert [one.worst for one in ours.by_edges] == [one.worst for one in theirs.by_edges]
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("option", ["-DWRONG", "-DUNDIRECTED"])
 def test_the_wrong_example_fails_where_it_fails_behind_the_pipe(
     option: str, tmp_path: Path
@@ -78,6 +80,7 @@ def test_the_wrong_example_fails_where_it_fails_behind_the_pipe(
     assert sorted(firsts(ours)) == sorted(firsts(theirs))
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("deed", MISDEEDS)
 def test_a_misdeed_convicts_the_mapper_in_its_world(deed: str, tmp_path: Path) -> None:
     # It skips worlds of several vertices, so nothing is EXHAUSTED; m2/7 is the first of degree 4.
@@ -107,6 +110,7 @@ def test_a_limit_of_a_move_is_taken_and_one_of_a_whole_run_is_refused(tmp_path: 
         search_campaign(mappers, edges=2, limits=Limits(world_timeout=1))
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("deed", ["crash", "leave", "loop", "double_itself"])
 def test_a_misdeed_of_a_numba_function_convicts_it_in_its_world(deed: str) -> None:
     entry = search(f"{HOSTILE_NUMBA}:{deed}", edges=2)
@@ -116,6 +120,7 @@ def test_a_misdeed_of_a_numba_function_convicts_it_in_its_world(deed: str) -> No
     assert MISDEEDS[deed] in entry.counterexample.message
 
 
+@pytest.mark.nightly
 def test_a_numba_function_that_starts_threads_comes_to_a_verdict(tmp_path: Path) -> None:
     mapper = tmp_path / "parallel.py"
     mapper.write_text(
@@ -132,6 +137,7 @@ def test_a_numba_function_that_starts_threads_comes_to_a_verdict(tmp_path: Path)
     assert search(f"{mapper}:explore", edges=3).verdict == "EXHAUSTED"
 
 
+@pytest.mark.nightly
 def test_a_numba_function_comes_to_what_basic_comes_to() -> None:
     ours = search(f"{ROOT}/examples/native_numba/mapper.py:explore", edges=4)
     theirs = search("basic", edges=4, engine="compiled")
@@ -140,12 +146,14 @@ def test_a_numba_function_comes_to_what_basic_comes_to() -> None:
     assert ours.judgements == theirs.judgements
 
 
+@pytest.mark.nightly
 def test_all_other_worlds_are_judged(tmp_path: Path) -> None:
     entry = search(hostile(tmp_path, "crash"), edges=2, keep_going=True)
     by_edges = entry.by_edges[-1]
     assert (by_edges.checked, by_edges.failing, by_edges.undecided) == (3, 3, 7)
 
 
+@pytest.mark.nightly
 def test_a_crash_that_does_not_recur_leaves_its_world_undecided(tmp_path: Path) -> None:
     entry = search(hostile(tmp_path, "once"), edges=2)
     assert entry.verdict == "UNKNOWN"
@@ -170,7 +178,7 @@ def test_a_second_pass_over_a_slice_replaces_no_run(
     assert entry.verdict in ("UNKNOWN", "REFUTED")
 
 
-@pytest.mark.parametrize("deed", ["files", "memory"])
+@pytest.mark.parametrize("deed", ["files", pytest.param("memory", marks=pytest.mark.long)])
 def test_what_native_code_takes_from_its_worker_is_no_bug_of_ours(
     deed: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -180,6 +188,7 @@ def test_what_native_code_takes_from_its_worker_is_no_bug_of_ours(
     assert entry.lost
 
 
+@pytest.mark.long
 def test_a_library_that_costs_its_worker_in_each_world_is_given_up(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -214,6 +223,7 @@ def test_a_library_that_declines_the_same_worlds_each_time_does_the_same(tmp_pat
     assert (entry.verdict, entry.lost) == ("UNKNOWN", ())
 
 
+@pytest.mark.nightly
 def test_a_dask_cluster_comes_to_the_same_and_refuses_another_library(tmp_path: Path) -> None:
     pytest.importorskip("distributed")
     target = built(tmp_path)

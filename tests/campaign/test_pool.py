@@ -50,6 +50,7 @@ pytestmark = pytest.mark.usefixtures("small_shards")
 # ---------------------------------------------------------------- the same results
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     ("target", "kind", "keep_going"),
     [
@@ -100,6 +101,7 @@ def test_progress_is_told_while_workers_work() -> None:
 # ---------------------------------------------------------------- killers
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(("name", "how"), [("exits", "exit code 3"), ("segfaults", "signal 11")])
 @pytest.mark.parametrize("number", [1, 2])
 def test_a_world_that_kills_its_worker_twice_is_a_finding(name: str, how: str, number: int) -> None:
@@ -112,6 +114,7 @@ def test_a_world_that_kills_its_worker_twice_is_a_finding(name: str, how: str, n
     assert found.checked == 12 + 22
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("number", [1, 2])
 def test_a_world_whose_worker_is_killed_twice_by_sigkill_is_undecided(number: int) -> None:
     found = search("mappers.py:kills_itself", edges=3, workers=number)
@@ -121,6 +124,7 @@ def test_a_world_whose_worker_is_killed_twice_by_sigkill_is_undecided(number: in
     assert [one.how for one in found.lost] == [found.lost[0].how] * 5
 
 
+@pytest.mark.long
 def test_a_world_whose_worker_was_killed_is_not_run_again(monkeypatch: pytest.MonkeyPatch) -> None:
     """It would be killed there, too, and it did not pass before."""
     monkeypatch.setattr(again, "MOST", 20)
@@ -133,6 +137,7 @@ def test_a_world_whose_worker_was_killed_is_not_run_again(monkeypatch: pytest.Mo
     assert found.run_again == again.RunAgain(found.checked, found.checked, same=found.checked)
 
 
+@pytest.mark.nightly
 def test_all_worlds_that_kill_their_workers_are_found() -> None:
     killed = search("mappers.py:exits", edges=3, workers=2, keep_going=True)
     looped = search("mappers.py:loops", edges=3, limits=LOOPED, keep_going=True)
@@ -216,12 +221,14 @@ def test_a_loss_behind_the_counterexample_is_not_counted(*, keep_going: bool, fa
     assert result.tally.failing == failing
 
 
+@pytest.mark.long
 def test_a_worker_that_is_killed_once_leaves_the_verdict_open() -> None:
     found = search("mappers.py:killed_once", edges=3, workers=2)
     assert (found.verdict, found.checked, found.counterexample) == ("UNKNOWN", 85, None)
     assert [(one.world, one.how) for one in found.lost] == [("m3/21", "signal 9")]
 
 
+@pytest.mark.long
 def test_a_lost_worker_is_remembered_by_a_store(folder: Path) -> None:
     mappers = targets("mappers.py:killed_once")
     identity = search_campaign(mappers, edges=3).identity(source_hash(mappers))
@@ -237,6 +244,7 @@ def test_a_lost_worker_is_remembered_by_a_store(folder: Path) -> None:
     assert (folder / "done").exists()
 
 
+@pytest.mark.nightly
 def test_a_shard_that_strangers_kill_again_and_again_is_cut_down_to_worlds_and_done(
     stranger: Callable[..., list[Shard]],
 ) -> None:
@@ -246,6 +254,7 @@ def test_a_shard_that_strangers_kill_again_and_again_is_cut_down_to_worlds_and_d
     assert all(kills.count(shard) <= 2 for shard in kills)
 
 
+@pytest.mark.nightly
 def test_a_mapper_that_cannot_be_interrupted_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(backend, "SILENCE_GRACE", 1.0 - Limits().world_timeout)
     found = search("mappers.py:holds", edges=3, workers=2, limits=SHORT)
@@ -255,6 +264,7 @@ def test_a_mapper_that_cannot_be_interrupted_is_given_up(monkeypatch: pytest.Mon
     assert "its process was ended, for it gave no sign of life for" in first.message
 
 
+@pytest.mark.nightly
 def test_a_mapper_that_loops_ends_at_its_time_limit() -> None:
     found = search("mappers.py:loops", edges=3, workers=2, limits=LOOPED)
     alone = search("mappers.py:loops", edges=3, limits=LOOPED)
@@ -291,6 +301,7 @@ def explore(robot): return CATALOGUE["basic"](Robot(robot))
 """
 
 
+@pytest.mark.nightly
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="no /proc to look for processes")
 @pytest.mark.parametrize("workers", [0, 1])
 def test_a_machine_that_is_frozen_for_longer_than_a_limit_convicts_no_mapper(
@@ -393,6 +404,7 @@ def pids_in(folder: Path) -> list[int]:
     return [*map(int, file.read_text().split())] if file.exists() else []
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="no /proc to look for processes")
 def test_no_worker_is_left_when_a_search_is_over() -> None:
     prepare()  # what starts the workers stays
@@ -487,6 +499,7 @@ def test_a_task_that_lost_its_workers_has_one_result() -> None:
         assert sorted(pool.run(tasks)) == [([-1], [-5]), ([1], [1]), ([2, -1], [2, -5]), ([3], [3])]
 
 
+@pytest.mark.nightly
 @pytest.mark.usefixtures("toy")
 def test_the_item_that_hangs_is_found() -> None:
     assert results(toy_work(silence=3.0, attempts=1), [1, -2, 3]) == [[1, -9, 3]]

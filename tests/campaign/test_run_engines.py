@@ -90,6 +90,7 @@ def test_the_reference_engine_leaves_targets_as_they_are() -> None:
 # ---------------------------------------------------------------- record
 
 
+@pytest.mark.long
 def test_both_engines_record_the_same_baseline() -> None:
     made = [recording(one_target("folding"), "edges<=3", engine=engine) for engine in ENGINES]
     assert made[0] == made[1]
@@ -158,6 +159,7 @@ def test_a_cost_without_a_trace_is_held_to_the_bound() -> None:
         judge(replace(run, cost=1))
 
 
+@pytest.mark.nightly
 def test_workers_use_the_engine_that_is_asked_for(tmp_path: Path) -> None:
     here = rows(tmp_path, "compiled")
     (tmp_path / "compiled.db").unlink()

@@ -159,6 +159,7 @@ def test_a_search_that_is_done_goes_on_to_larger_worlds() -> None:
     assert searched(SMALL) == search("basic", edges=3)
 
 
+@pytest.mark.long
 def test_a_counterexample_is_found_in_the_ledger_again() -> None:
     campaign = planned("mappers.py:forgets", 3)
     once = searched(campaign)
@@ -187,6 +188,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.nightly
 def test_killed_at_random_moments_it_ends_with_the_same_totals(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -28,6 +28,7 @@ def unprivileged() -> None:
         ctypes.CDLL(None).prctl(24, *map(ctypes.c_ulong, (capability, 0, 0, 0)))
 
 
+@pytest.mark.nightly
 @LINUX
 @pytest.mark.parametrize("privileged", [True, False])
 def test_a_mapper_that_tries_from_its_first_line_on_gets_hold_of_no_worker(

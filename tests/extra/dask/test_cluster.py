@@ -126,6 +126,7 @@ def campaign_of(target: str, edges: int, kind: str = "any") -> Campaign:
 # ---------------------------------------------------------------- the same results
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     ("target", "kind", "keep_going"),
     [
@@ -145,6 +146,7 @@ def test_results_are_equal_byte_for_byte_to_those_of_workers_here(
     assert json(found(cluster=address)) == json(found(workers=2))
 
 
+@pytest.mark.nightly
 def test_a_program_runs_on_the_cluster(address: str, folder: Path) -> None:
     (folder / "play.py").write_text(
         "from topo_verify import CATALOGUE\n"
@@ -160,6 +162,7 @@ def test_a_program_runs_on_the_cluster(address: str, folder: Path) -> None:
 # ---------------------------------------------------------------- losses
 
 
+@pytest.mark.nightly
 def test_a_lost_worker_changes_nothing(address: str, folder: Path) -> None:
     target = "cluster_mappers.py:kills_its_dask_worker_once"
     found = search(target, edges=4, cls=SIMPLE, cluster=address)
@@ -168,6 +171,7 @@ def test_a_lost_worker_changes_nothing(address: str, folder: Path) -> None:
     assert json(found) == json(search(target, edges=4, cls=SIMPLE))
 
 
+@pytest.mark.nightly
 def test_a_world_that_takes_every_worker_with_it_is_undecided_and_convicts_nobody() -> None:
     with started(2, **{"allowed-failures": 0}) as address:
         target = "cluster_mappers.py:kills_its_dask_worker"
@@ -179,6 +183,7 @@ def test_a_world_that_takes_every_worker_with_it_is_undecided_and_convicts_nobod
     assert (lost.world.partition("/")[0], lost.how) == ("m3", backend.MACHINES)
 
 
+@pytest.mark.nightly
 def test_a_mapper_that_lacks_memory_on_a_worker_alone_is_undecided() -> None:
     target = "cluster_mappers.py:takes_two_gib"
     two_gib = str(2**21)
@@ -207,6 +212,7 @@ with Store("search.db") as store, connected(sys.argv[1]) as there:
 """
 
 
+@pytest.mark.nightly
 def test_a_client_that_is_killed_resumes_from_its_store(address: str, folder: Path) -> None:
     with subprocess.Popen([sys.executable, "-c", CLIENT, address]) as client:
         wait_for(lambda: shards_in(folder / "search.db") >= 2)
@@ -223,6 +229,7 @@ def test_a_client_that_is_killed_resumes_from_its_store(address: str, folder: Pa
     assert (study.entry().verdict, study.entry().checked) == ("EXHAUSTED", 32)
 
 
+@pytest.mark.nightly
 def test_a_lost_scheduler_ends_the_search_with_a_sentence(folder: Path) -> None:
     words = ["-m", "distributed.cli.dask_scheduler", "--port", "0", "--no-dashboard"]
     with subprocess.Popen(
@@ -235,6 +242,7 @@ def test_a_lost_scheduler_ends_the_search_with_a_sentence(folder: Path) -> None:
             search("cluster_mappers.py:kills_the_scheduler", edges=3, cls=SIMPLE, cluster=address)
 
 
+@pytest.mark.nightly
 def test_a_cluster_whose_workers_are_all_lost_ends_the_search_with_a_sentence(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -248,6 +256,7 @@ def test_a_cluster_whose_workers_are_all_lost_ends_the_search_with_a_sentence(
 # ---------------------------------------------------------------- identity
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("change", "words"),
     [
@@ -274,6 +283,7 @@ def test_a_worker_with_another_topo_verify_is_refused(
         search("basic", edges=2, cluster=address)
 
 
+@pytest.mark.long
 def test_a_worker_with_another_mapper_or_with_none_is_refused(address: str, folder: Path) -> None:
     work = work_of("mappers.py:right")
     with (folder / "mappers.py").open("a") as file:  # what a worker finds there
@@ -323,6 +333,7 @@ def refused(folder: Path, words: str) -> None:
         search("helped.py:explore", edges=2, cluster=address)
 
 
+@pytest.mark.long
 def test_a_worker_that_finds_another_helper_module_is_refused(
     folder: Path, helper: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -331,6 +342,7 @@ def test_a_worker_that_finds_another_helper_module_is_refused(
     refused(folder, f"'s module {helper} is .*ours.* in one process and .*theirs.* in another")
 
 
+@pytest.mark.long
 def test_a_worker_with_another_helper_that_it_loads_late_is_refused(
     folder: Path, helper: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -362,6 +374,7 @@ def test_what_is_no_address_is_told_at_once(address: str) -> None:
         pass
 
 
+@pytest.mark.long
 def test_a_scheduler_without_workers_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(clusters, "PATIENCE", 0.1)
     with (

@@ -46,6 +46,7 @@ def compiled() -> Campaign:
     return search_campaign(targets("basic"), edges=4, engine="compiled", keep_going=True)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     ("target", "edges", "keep_going"),
     [("enhancement-ii,enhancement-i", 4, True), ("folding+planar", 3, False)],
@@ -59,6 +60,7 @@ def test_results_are_equal_byte_for_byte_to_those_of_workers_here(
     assert json(found(cluster=address)) == json(found(workers=2))
 
 
+@pytest.mark.nightly
 def test_a_worker_that_is_killed_changes_no_total(address: str) -> None:
     killed: list[int] = []
     with connected(address) as cluster:
@@ -84,6 +86,7 @@ def test_a_worker_that_is_killed_changes_no_total(address: str) -> None:
     assert study.tallies == alone.tallies
 
 
+@pytest.mark.long
 def test_a_worker_without_numba_is_named_with_the_mend(folder: Path) -> None:
     hidden = folder / "hidden"
     hidden.mkdir()
