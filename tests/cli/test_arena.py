@@ -52,6 +52,7 @@ def test_sound_mappers_have_places(results: Results) -> None:
     assert envelope["timing"]["memory_mib"]["small"]["basic"] > 1
 
 
+@pytest.mark.long
 def test_a_seeded_fault_and_a_lucky_guesser_have_no_place(call: Call, results: Results) -> None:
     line = f"arena basic {FAULT} mappers.py:lucky --suite triangle,small --workers 0 --in-process"
     envelope = results(line, code=1)
@@ -71,6 +72,7 @@ def test_a_seeded_fault_and_a_lucky_guesser_have_no_place(call: Call, results: R
     assert "again: topo-verify replay" in broken
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("then", "now"), [("--in-process", ""), ("", "--in-process")])
 def test_runs_in_our_process_and_runs_apart_do_not_meet(call: Call, then: str, now: str) -> None:
     """In our process a mapper can replace the checkers: `--in-process` says what a run is worth."""
@@ -99,6 +101,7 @@ def kills(robot):
 """
 
 
+@pytest.mark.nightly
 def test_a_league_that_is_killed_goes_on_where_it_was(call: Call) -> None:
     Path("killer.py").write_text(KILLER)
     line = "arena killer.py:kills folding --suite tiny --workers 0 --in-process --out here"
@@ -126,6 +129,7 @@ def peeks(robot):
 """
 
 
+@pytest.mark.long
 def test_the_seed_of_drawn_worlds_is_out_of_reach(call: Call) -> None:
     """docs/arena.md says what secrecy is worth."""
     Path("spy.py").write_text(SPY)
@@ -142,6 +146,7 @@ def maps(robot):
 """
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     ("file", "content", "change"),
     [
@@ -174,6 +179,7 @@ def test_a_changed_mapper_costs_its_own_runs_alone(
     assert "making" not in last.stderr
 
 
+@pytest.mark.long
 def test_a_report_says_which_runs_of_the_store_it_does_not_show(call: Call) -> None:
     assert "not shown" not in call(f"{LINE} --out here".replace("small", "small,triangle")).stdout
     words = "In here/runs.db and not shown: 1 run of basic, 5 runs of folding. To show"
@@ -335,6 +341,7 @@ def test_a_program_takes_part_over_the_pipe_and_pays_what_its_twin_pays(results:
     assert program["claims"] == twin["claims"]
 
 
+@pytest.mark.long
 def test_what_is_not_decided_has_no_place_and_exits_3(call: Call) -> None:
     done = call("arena basic mappers.py:loops --suite triangle --world-timeout 0.02 --workers 0")
     assert done.exit_code == 3
@@ -358,6 +365,7 @@ def test_the_line_of_a_hanging_mapper_is_in_no_file_but_those_of_its_run(call: C
     assert "the mapper did not move for 0.05 s" in Path("here/table.md").read_text()
 
 
+@pytest.mark.long
 def test_the_standings_come_first_then_where_each_lost(call: Call) -> None:
     text = call(LINE.replace("small", "small,triangle")).stdout
     words = [
@@ -406,6 +414,7 @@ def denies(robot):
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "words"),
     [
@@ -429,6 +438,7 @@ def test_an_interrupted_league_says_how_many_runs_are_done(call: Call) -> None:
     assert "interrupted after 4 of 8 runs" in call(f"{LINE} --out here").stderr
 
 
+@pytest.mark.nightly
 @pytest.mark.usefixtures("cut_off")
 def test_the_same_bytes_however_many_workers_and_however_often_interrupted(call: Call) -> None:
     require_same_bytes(call, LINE[:-2], 8, files)

@@ -33,6 +33,7 @@ def _baselines(recorded: Path, folder: Path) -> None:
     shutil.copytree(recorded, folder, dirs_exist_ok=True)
 
 
+@pytest.mark.long
 def test_nothing_has_changed_for_the_same_mapper(results: Results) -> None:
     envelope = results("compare basic.gz basic")
     assert envelope["format"] == "topo-verify/compare"
@@ -42,6 +43,7 @@ def test_nothing_has_changed_for_the_same_mapper(results: Results) -> None:
     assert entry["examples"] == []
 
 
+@pytest.mark.long
 def test_a_lower_cost_passes_and_a_higher_one_does_not(results: Results, call: Call) -> None:
     (better,) = results("compare basic.gz enhancement-i")["results"]
     assert (better["cheaper"], better["other_decisions"], better["dearer"]) == (2, 1, 0)
@@ -59,6 +61,7 @@ def test_what_is_dearer_within_the_tolerance_exits_0(results: Results) -> None:
     assert (entry["tolerance"], entry["dearer"], entry["beyond"]) == ("77.8", 2, 0)
 
 
+@pytest.mark.long
 def test_a_wrong_mapper_exits_1_and_the_line_shows_it_again(results: Results, call: Call) -> None:
     (entry,) = results("compare basic.gz mappers.py:guesses --tolerance 100", code=1)["results"]
     assert entry["wrong"] == 88
@@ -79,6 +82,7 @@ def test_a_silent_mapper_exits_1_against_a_baseline_with_decisions(
     assert "A regression: in 89 worlds the mapper declares nothing and the baseline" in text
 
 
+@pytest.mark.long
 def test_workers_and_a_store_change_nothing(results: Results) -> None:
     line = "compare basic.gz mappers.py:guesses"
     alone = results(line, code=1)["results"]
@@ -88,6 +92,7 @@ def test_workers_and_a_store_change_nothing(results: Results) -> None:
         assert envelope["timing"]["from_store"] == stored
 
 
+@pytest.mark.nightly
 def test_a_time_out_is_incomplete(call: Call, results: Results) -> None:
     call("record mappers.py:strolls --worlds m1/0 --worlds m6/8161 --world-timeout 1.5 --out s.gz")
     (entry,) = results("compare s.gz mappers.py:strolls", code=3)["results"]
@@ -98,6 +103,7 @@ def test_a_time_out_is_incomplete(call: Call, results: Results) -> None:
     )
 
 
+@pytest.mark.long
 def test_an_algorithm_has_the_policies_of_the_baseline_unless_others_are_asked_for(
     call: Call, results: Results
 ) -> None:
@@ -115,6 +121,7 @@ def test_a_report_shows_each_group_and_each_change(call: Call) -> None:
     assert "`topo-verify replay nyc --target basic`" in text
 
 
+@pytest.mark.long
 def test_only_what_has_changed_has_a_row(call: Call) -> None:
     text = call("compare basic.gz enhancement-i").stdout
     assert re.search(r"^edges 51-100 +1 +1 +0 +1,468 +982 +-33\.1$", text, re.MULTILINE)
@@ -122,6 +129,7 @@ def test_only_what_has_changed_has_a_row(call: Call) -> None:
     assert "by class" not in call("compare basic.gz basic").stdout
 
 
+@pytest.mark.long
 def test_two_comparisons_are_equal_but_for_the_time(program: Program) -> None:
     first, second = (
         program("compare basic.gz enhancement-i --format json", PYTHONHASHSEED=seed).stdout
@@ -131,6 +139,7 @@ def test_two_comparisons_are_equal_but_for_the_time(program: Program) -> None:
     assert '"timing"' in first
 
 
+@pytest.mark.nightly
 def test_the_page_shows_what_is_printed(call: Call) -> None:
     page = (Path(__file__).parents[2] / "docs" / "baselines.md").read_text()
     record, compare = re.findall(r"^    \$ topo-verify (.*)$", page, re.MULTILINE)

@@ -47,6 +47,7 @@ def test_the_page_gives_this_line() -> None:
     assert f"    {LINE}\n" in PAGE
 
 
+@pytest.mark.long
 def test_bash_offers_commands_options_and_values() -> None:
     offered = {
         "topo-verify repl": ["replay"],

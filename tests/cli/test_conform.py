@@ -17,6 +17,7 @@ SKIPS = f"--cmd '{sys.executable} {ROOM / 'misbehaving.py'} skips'"
 BATCH = f"--cmd '{sys.executable} {ROOM / 'batch_program.py'} right'"
 
 
+@pytest.mark.long
 def test_each_level_has_an_entry(results: Results) -> None:
     found = results(f"conform {BASIC} --like basic --worlds edges<=2 --workers 1")
     assert found["format"] == "topo-verify/conform"
@@ -144,6 +145,7 @@ def explore(robot):
 """
 
 
+@pytest.mark.nightly
 def test_a_program_meets_the_worlds_in_an_order_that_is_drawn_anew(
     results: Results, folder: Path
 ) -> None:

@@ -45,6 +45,7 @@ def test_a_run_judged_in_part_is_shown_as_such(results: Results, call: Call) -> 
     assert "true-hypothesis-posed 1 of 73" in text
 
 
+@pytest.mark.long
 def test_a_search_and_a_report_over_many_worlds_say_so_as_well(
     results: Results, call: Call
 ) -> None:

@@ -139,8 +139,8 @@ def test_a_mapper_that_ends_its_process_decides_nothing(folder: Path, mapper: st
         "search ends.py:leaves --edges 2 --workers 0",
         "conform ends.py:leaves --worlds m2/5 --workers 0",
         "record ends.py:leaves --worlds m2/5 --out b.gz",
-        "arena ends.py:leaves --worlds m2/5 --workers 0",
-        "verify ends.py:leaves --quick",
+        pytest.param("arena ends.py:leaves --worlds m2/5 --workers 0", marks=pytest.mark.long),
+        pytest.param("verify ends.py:leaves --quick", marks=pytest.mark.long),
         "replay m2/5 --target ends.py:leaves",
         "play m2/5 --target ends.py:leaves",
     ],
@@ -273,7 +273,7 @@ files.write = write
         ("conform basic --worlds edges<=2 --workers 0", 0),
         ("arena basic --worlds edges<=2 --workers 0", 0),
         ("explore m2/5 --target basic", 0),
-        ("verify basic --quick", 0),
+        pytest.param("verify basic --quick", 0, marks=pytest.mark.long),
     ],
 )
 def test_signals_are_ignored_once_output_begins(folder: Path, line: str, right: int) -> None:
@@ -405,8 +405,8 @@ def _await(condition: Callable[[], bool]) -> None:
     "line",
     [
         "explore m1/0 --target ends.py:{}",
-        "search ends.py:{} --edges 1 --workers 1",
-        "conform ends.py:{} --worlds edges<=1 --workers 1",
+        pytest.param("search ends.py:{} --edges 1 --workers 1", marks=pytest.mark.long),
+        pytest.param("conform ends.py:{} --worlds edges<=1 --workers 1", marks=pytest.mark.long),
     ],
 )
 def test_a_mapper_that_ends_our_process_from_outside_decides_nothing(

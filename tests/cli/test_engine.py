@@ -42,6 +42,7 @@ def test_a_counterexample_of_the_compiled_engine_exits_1_and_its_line_shows_it_a
     assert call(entry["counterexample"]["replay"].removeprefix("topo-verify ")).exit_code == 1
 
 
+@pytest.mark.nightly
 def test_a_local_cluster_gives_the_entry_of_workers_here(results: Results) -> None:
     pytest.importorskip("numba")
     pytest.importorskip("distributed")

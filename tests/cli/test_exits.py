@@ -122,6 +122,7 @@ def test_version_names_the_program_and_its_version(call: Call) -> None:
 # ---------------------------------------------------------------- streams
 
 
+@pytest.mark.long
 def test_what_a_mapper_prints_goes_to_stderr(program: Program) -> None:
     done = program("explore m3/14 --target mappers.py:nonsense --format json")
     json.loads(done.stdout)
@@ -134,12 +135,14 @@ def test_quiet_keeps_remarks_off_stderr_but_no_errors(call: Call) -> None:
     assert call("explore nowhere.json --quiet").stderr != ""
 
 
+@pytest.mark.nightly
 def test_a_terminal_without_our_letters_gets_others(program: Program) -> None:
     done = program("verify basic,enhancement-i --quick", PYTHONIOENCODING="ascii")
     assert done.returncode == 0, done.stderr
     assert "\\xd7 2 mappers" in done.stdout
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     ("line", "code"),
     [
@@ -165,9 +168,9 @@ def test_runs_differ_in_timing_alone(program: Program, line: str, code: int) -> 
     ("line", "code"),
     [
         ("--help", 0),
-        ("explore nyc", 0),
+        pytest.param("explore nyc", 0, marks=pytest.mark.long),
         ("world show nyc --format json", 0),
-        ("verify", 3),  # the work ends early
+        pytest.param("verify", 3, marks=pytest.mark.long),  # the work ends early
     ],
 )
 def test_a_reader_who_leaves_is_no_error(folder: Path, line: str, code: int) -> None:
@@ -184,6 +187,7 @@ def test_a_reader_who_leaves_is_no_error(folder: Path, line: str, code: int) -> 
     assert (done.returncode, done.stderr) == (code, b"")
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full here")
 @pytest.mark.parametrize(
     ("line", "code", "said"),
@@ -234,6 +238,7 @@ def test_what_the_machine_lacks_is_no_bug_of_ours(
 # ---------------------------------------------------------------- Ctrl-C
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
 def test_ctrl_c_and_sigterm_exit_3_and_print_what_is_done(folder: Path, by: signal.Signals) -> None:
     words = ("verify", "mappers.py:starts_and_sleeps", "--move-timeout", "60", "--format", "json")
@@ -245,6 +250,7 @@ def test_ctrl_c_and_sigterm_exit_3_and_print_what_is_done(folder: Path, by: sign
     assert error == "topo-verify: interrupted after 1 result\n"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupted_explore_keeps_the_runs_that_are_done(
     folder: Path, by: signal.Signals
@@ -267,6 +273,7 @@ def test_ctrl_c_before_any_work_exits_3(call: Call, monkeypatch: pytest.MonkeyPa
 # ---------------------------------------------------------------- what is left in the folder
 
 
+@pytest.mark.long
 def test_worlds_are_drawn_and_hypothesis_leaves_no_folder(program: Program, folder: Path) -> None:
     line = "world sample --strategy 'worlds(max_edges=9)' -n 40"
     before = sorted(folder.iterdir())

@@ -26,6 +26,7 @@ def test_an_entry_tells_of_the_world_and_of_the_run(results: Results) -> None:
     assert (entry["least_cost"], entry["entailed"], entry["stopped"]) == (4, True, None)
 
 
+@pytest.mark.long
 def test_without_algorithm_the_whole_catalogue_is_run(results: Results) -> None:
     entries = results("explore nyc")["results"]
     assert [entry["algorithm"] for entry in entries] == SURE
@@ -55,6 +56,7 @@ def test_a_marker_laid_elsewhere_makes_another_world(results: Results) -> None:
     assert entry["world"] == World.from_id("m3/14").with_marker(5).id != "m3/14"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("mapper", "options", "words"),
     [
@@ -84,6 +86,7 @@ def test_a_faulty_mapper_is_found_and_its_line_shows_it_again(
     assert [f["message"] for f in repeated["findings"]] == [f["message"] for f in entry["findings"]]
 
 
+@pytest.mark.long
 def test_a_mapper_that_moves_on_when_time_is_up_is_not_decided(
     results: Results, call: Call
 ) -> None:
@@ -143,6 +146,7 @@ def test_a_small_world_from_stdin_is_found_again_by_its_id(results: Results) -> 
     assert again == f"topo-verify replay {moved.id} --target mappers.py:guesses"
 
 
+@pytest.mark.long
 def test_a_large_world_from_stdin_is_kept_in_a_file_for_the_line(
     results: Results, call: Call, folder: Path
 ) -> None:
@@ -199,6 +203,7 @@ def test_the_trace_of_a_run_is_written_and_judged_again(
     assert (entry["target"], entry["world"], entry["ok"]) == ("enhancement-ii", "m5/17", True)
 
 
+@pytest.mark.long
 def test_one_world_gets_a_table_of_algorithms(call: Call) -> None:
     lines = call("explore nyc").stdout.splitlines()
     assert lines[0] == "nyc_osmnx: 46 vertices, 73 edges, genus 0, least cost 415"

@@ -63,6 +63,7 @@ LINES = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("rude")
 @pytest.mark.parametrize("line", LINES.values(), ids=LINES)
 def test_what_a_mapper_prints_stands_marked_on_standard_error(program: Program, line: str) -> None:
@@ -113,6 +114,7 @@ def test_a_trace_with_fewer_moves_than_were_made_is_a_finding(results: Results) 
     assert "AttributeError" in entry["stopped"]
 
 
+@pytest.mark.long
 def test_workers_run_no_code_from_the_current_folder(folder: Path) -> None:
     (folder / "json.py").write_text("raise SystemExit('not the standard library')\n")
     line = "conform basic --worlds edges<=2 --workers 2"

@@ -110,6 +110,7 @@ def test_every_algorithm_counts(results: Results) -> None:
     assert page["algorithms"] == ["basic", "folding"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("line", "targets"),
     [
@@ -145,7 +146,12 @@ def test_a_wrong_file_in_a_list_is_named(refused: Refused) -> None:
 
 @pytest.mark.parametrize("classes", [("planar", "simple"), ("simple", "planar"), ("any", "simple")])
 @pytest.mark.parametrize(
-    "line", ["search basic --edges 3", "world count --edges 3", "world list --edges 3"]
+    "line",
+    [
+        pytest.param("search basic --edges 3", marks=pytest.mark.long),
+        "world count --edges 3",
+        "world list --edges 3",
+    ],
 )
 def test_classes_are_joined_as_by_a_comma(line: str, classes: tuple[str, str], call: Call) -> None:
     """Of one class given twice every world has both properties."""

@@ -175,6 +175,7 @@ OUTCOMES = [
 ]
 
 
+@pytest.mark.nightly
 @pytest.mark.usefixtures("baseline")
 @pytest.mark.parametrize(("line", "code"), OUTCOMES, ids=lambda one: str(one).partition(" ")[0])
 def test_every_form_of_an_outcome_agrees(line: str, code: int, call: Call) -> None:
@@ -268,6 +269,7 @@ def test_an_interrupted_run_that_has_no_report_is_not_ok(
 # ---------------------------------------------------------------- lost workers, resumed runs
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     "line",
     [
@@ -281,6 +283,7 @@ def test_every_form_of_a_killed_mapper_agrees(line: str, call: Call) -> None:
     require_agreement(forms(call, line, lambda: Path("killed").unlink(missing_ok=True)), 3)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     ("line", "at"),
     [

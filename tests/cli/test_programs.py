@@ -14,6 +14,7 @@ RIGHT = f"{shlex.quote(sys.executable)} -m topo_verify.programs.serve basic"
 WRONG = f"{shlex.quote(sys.executable)} -m topo_verify.programs.serve mappers.py:guesses"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("workers", [0, 2])
 def test_search_goes_through_all_worlds_with_a_program(results: Results, workers: int) -> None:
     (entry,) = results(f'search --cmd "{RIGHT}" --edges 3 --workers {workers}')["results"]
@@ -22,6 +23,7 @@ def test_search_goes_through_all_worlds_with_a_program(results: Results, workers
     assert entry["by_edges"][2]["max_cost"] == 10
 
 
+@pytest.mark.nightly
 def test_a_wrong_program_has_its_smallest_counterexample_which_replay_shows(
     results: Results,
 ) -> None:
@@ -33,6 +35,7 @@ def test_a_wrong_program_has_its_smallest_counterexample_which_replay_shows(
     assert again["findings"]
 
 
+@pytest.mark.nightly
 def test_a_changed_program_does_not_go_on_with_a_ledger(
     call: Call, refused: Refused, folder: Path
 ) -> None:
@@ -66,6 +69,7 @@ def test_a_search_in_which_a_program_skips_worlds_is_open(results: Results) -> N
     assert (entry["verdict"], entry["checked"], entry["counterexample"]) == ("UNKNOWN", 1, None)
 
 
+@pytest.mark.nightly
 def test_verify_and_explore_run_programs(results: Results) -> None:
     parts = results(f'verify --cmd "{RIGHT}" --quick')["results"]
     assert {part["ok"] for part in parts} == {True}

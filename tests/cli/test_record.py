@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from tests.cli.conftest import Call, Refused, Results
 from topo_verify.studies.baseline import file
 
 
+@pytest.mark.nightly
 def test_the_default_corpus_is_recorded(results: Results, folder: Path) -> None:
     envelope = results("record basic --out b.jsonl.gz")
     assert (envelope["format"], envelope["seed"]) == ("topo-verify/record", 0)
@@ -20,6 +23,7 @@ def test_the_default_corpus_is_recorded(results: Results, folder: Path) -> None:
     assert sum(one.cost for one in written.entries) == entry["cost"]
 
 
+@pytest.mark.long
 def test_workers_and_a_store_change_nothing_in_the_file(
     call: Call, results: Results, folder: Path
 ) -> None:
@@ -77,6 +81,7 @@ def test_a_mapper_that_fails_is_recorded_and_exits_1(results: Results, call: Cal
     assert "written: b" in text
 
 
+@pytest.mark.nightly
 def test_a_mapper_that_hangs_has_no_baseline(call: Call, results: Results, folder: Path) -> None:
     line = "record mappers.py:loops --worlds 'edges<=2' --move-timeout 0.06 --out b"
     (entry,) = results(line, code=1)["results"]

@@ -76,6 +76,7 @@ def test_an_edited_trace_is_refuted(call: Call, trace: Path) -> None:
     assert "!! cost-honest: the mapper reports a cost of 12" in done.stdout
 
 
+@pytest.mark.nightly
 def test_the_trace_of_a_large_world_needs_the_world(
     call: Call, results: Results, folder: Path
 ) -> None:

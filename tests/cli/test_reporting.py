@@ -40,9 +40,16 @@ COMMANDS = {
     "compare base.gz basic --tolerance 5": (1, "REFUTED, a regression in 1 of 2 worlds"),
     "compare base.gz enhancement-ii": (0, "SAMPLED, 2 of 2 worlds without regression"),
 }
+TAKE_LONG = {"prove", "conform", "compare"}
 
 
-@pytest.mark.parametrize("line", COMMANDS)
+@pytest.mark.parametrize(
+    "line",
+    [
+        pytest.param(line, marks=pytest.mark.long if line.split()[0] in TAKE_LONG else ())
+        for line in COMMANDS
+    ],
+)
 def test_each_command_gives_an_account_in_three_forms(line: str, call: Call) -> None:
     code, words = COMMANDS[line]
     if line.startswith("compare"):
@@ -69,6 +76,7 @@ def test_a_page_shows_each_counterexample_with_its_player(call: Call) -> None:
     assert "topo-verify replay m1/1 --target mappers.py:guesses" in page
 
 
+@pytest.mark.nightly
 def test_verify_has_a_suite_a_part_and_a_case_a_claim(call: Call) -> None:
     assert call(f"verify mappers.py:guesses --quick {FILES}").exit_code == 1
     suites = list(ET.parse("r.xml").getroot())  # noqa: S314  written by us a moment ago
@@ -81,6 +89,7 @@ def test_verify_has_a_suite_a_part_and_a_case_a_claim(call: Call) -> None:
     assert found["decisions-entailed"] == ["skipped"]
 
 
+@pytest.mark.long
 def test_two_runs_have_one_page_but_for_the_timing(call: Call) -> None:
     cut = re.compile(r'<section id="timing">.*?</section>', re.DOTALL)
     pages: list[str] = []
@@ -90,6 +99,7 @@ def test_two_runs_have_one_page_but_for_the_timing(call: Call) -> None:
     assert pages[0] == pages[1]
 
 
+@pytest.mark.long
 def test_what_is_printed_is_the_same_with_a_report_and_without(call: Call) -> None:
     line = "search mappers.py:guesses --edges 2 --workers 0"
     assert call(line).stdout == call(f"{line} --report r.html").stdout
@@ -142,19 +152,25 @@ def test_a_summary_opens_with_the_verdict_on_all(call: Call) -> None:
 
 
 NARROW = (
-    "search basic --edges 3 --worst --workers 0",
-    "search --compare enhancement-ii,enhancement-i --edges 3 --workers 0",
+    pytest.param("search basic --edges 3 --worst --workers 0", marks=pytest.mark.long),
+    pytest.param(
+        "search --compare enhancement-ii,enhancement-i --edges 3 --workers 0",
+        marks=pytest.mark.long,
+    ),
     "conform basic --like enhancement-ii --worlds m4/41 --workers 0 --seed 0:0",
-    "prove percept undirected-any",
+    pytest.param("prove percept undirected-any", marks=pytest.mark.long),
     "explore m4/41 m3/14 --target basic,folding",
     "explore m4/41 --gap",
-    "explore 'family:lattice(10,10,holes=0.2,seed=7)' --target enhancement-iii-all+i",
+    pytest.param(
+        "explore 'family:lattice(10,10,holes=0.2,seed=7)' --target enhancement-iii-all+i",
+        marks=pytest.mark.long,
+    ),
     "explore m3/14 --target mappers.py:ignores_direction",
     "world show m4/41",
     "world count --edges 1..7",
     "world list --edges 2 -n 3",
     "record basic --worlds edges<=2 --out b.gz",
-    "verify mappers.py:guesses --quick",
+    pytest.param("verify mappers.py:guesses --quick", marks=pytest.mark.long),
 )
 
 

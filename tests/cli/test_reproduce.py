@@ -83,6 +83,7 @@ def test_another_seed_draws_other_graphs(results: Results) -> None:
     assert one != other
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("fast")
 def test_people_see_a_table_a_paragraph_exponents_and_what_was_judged(call: Call) -> None:
     text = call("reproduce --quick --figure 3,6a --graphs 2").stdout
@@ -136,6 +137,7 @@ def test_a_foreign_store_is_one_sentence(refused: Refused) -> None:
     refused(LINE, "figures/runs.db: it is no store of topo-verify")
 
 
+@pytest.mark.nightly
 @pytest.mark.usefixtures("cut_off")
 def test_the_same_bytes_however_many_workers_and_however_often_interrupted(call: Call) -> None:
     require_same_bytes(call, LINE[:-2], 16, csv)

@@ -23,6 +23,7 @@ def test_the_entry_of_an_exhausted_class_has_its_numbers_and_worst_worlds(result
     assert entry["by_edges"][2]["worst"] == ["m3/9"]
 
 
+@pytest.mark.long
 def test_a_counterexample_exits_1_and_its_line_shows_it_again(results: Results, call: Call) -> None:
     (entry,) = results("search mappers.py:guesses --edges 3 --workers 2", code=1)["results"]
     first = entry["counterexample"]
@@ -32,6 +33,7 @@ def test_a_counterexample_exits_1_and_its_line_shows_it_again(results: Results, 
     assert call(first["replay"].removeprefix("topo-verify ")).exit_code == 1
 
 
+@pytest.mark.nightly
 def test_a_mapper_out_of_time_exits_3(results: Results, call: Call) -> None:
     line = "search mappers.py:loops --edges 1 --workers 0 --world-timeout 0.02"
     (entry,) = results(line, code=3)["results"]
@@ -78,6 +80,7 @@ def test_the_walk_of_other_policies_is_shown_too(call: Call, policies: str) -> N
     assert "!! true-hypothesis-kept" in walk
 
 
+@pytest.mark.long
 def test_keeping_going_shows_the_smallest_world_of_each_claim(call: Call) -> None:
     text = call("search mappers.py:guesses --edges 3 --workers 0 --keep-going").stdout
     assert "claim that fails   in worlds  smallest\n" in text
@@ -92,6 +95,7 @@ def test_worst_shows_costs_and_the_worlds_that_have_them(call: Call) -> None:
     assert "m2/1, m2/2, m2/6" in lines[3]
 
 
+@pytest.mark.nightly
 def test_compare_shows_where_the_first_costs_more(call: Call, results: Results) -> None:
     line = "search --compare enhancement-ii,enhancement-i --edges 4 --workers 0"
     (entry,) = results(line)["results"]
@@ -106,6 +110,7 @@ def test_compare_shows_where_the_first_costs_more(call: Call, results: Results) 
     assert "A enhancement-ii, B enhancement-i: worlds of 1 to 4 edges" in text
 
 
+@pytest.mark.long
 def test_claims_without_declarations_are_named(call: Call) -> None:
     text = " ".join(call("search mappers.py:silent --edges 2 --workers 0").stdout.split())
     assert (
@@ -116,6 +121,7 @@ def test_claims_without_declarations_are_named(call: Call) -> None:
 # ---------------------------------------------------------------- ledger, Ctrl-C
 
 
+@pytest.mark.long
 def test_a_ledger_is_resumed(results: Results, folder: Path) -> None:
     line = "search basic --workers 2 --ledger done --edges"
     (before,) = results(f"{line} 2")["results"]
@@ -125,6 +131,7 @@ def test_a_ledger_is_resumed(results: Results, folder: Path) -> None:
     assert after["checked"] == 86
 
 
+@pytest.mark.long
 def test_ctrl_c_exits_3_and_prints_what_is_done(folder: Path) -> None:
     line = "search mappers.py:starts_and_sleeps --move-timeout 60 --format json --workers 2"
     code, out, error = interrupted(folder, *line.split())

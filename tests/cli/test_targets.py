@@ -155,6 +155,7 @@ def test_a_mapper_whose_name_is_not_utf8_is_bad_input(call: Call, folder: Path, 
     assert done.stderr.isascii()
 
 
+@pytest.mark.long
 def test_a_mapper_that_reads_a_file_whose_name_is_not_utf8_has_no_ledger(
     call: Call, refused: Refused, folder: Path
 ) -> None:

@@ -12,6 +12,7 @@ pytestmark = pytest.mark.usefixtures("proved_once")
 PARTS = ["counts", "small-worlds", "proofs", "sampled-worlds", "generated-worlds", "street-network"]
 
 
+@pytest.mark.nightly
 def test_quick_checks_the_catalogue_in_six_parts(results: Results) -> None:
     envelope = results("verify --quick")
     assert (envelope["format"], envelope["seed"]) == ("topo-verify/verify", 0)
@@ -30,6 +31,7 @@ def test_quick_checks_the_catalogue_in_six_parts(results: Results) -> None:
     assert parts[-1]["costs"][0]["ratio"] == 1
 
 
+@pytest.mark.long
 def test_each_part_has_its_own_line(call: Call) -> None:
     lines = call("verify basic --quick --seed 3").stdout.splitlines()
     assert lines[0].endswith("basic, 10 claims, seed 3")
@@ -39,6 +41,7 @@ def test_each_part_has_its_own_line(call: Call) -> None:
     ]
 
 
+@pytest.mark.nightly
 def test_what_does_not_concern_a_mapper_of_ones_own_is_left_out_and_said(
     results: Results, call: Call
 ) -> None:
@@ -55,6 +58,7 @@ def test_what_does_not_concern_a_mapper_of_ones_own_is_left_out_and_said(
     assert results("verify basic --quick")["left_out"] == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("target", "style"),
     [("basic", "pretty"), ("mappers.py:silent", "json"), ("mappers.py:guesses", "markdown")],
@@ -64,6 +68,7 @@ def test_the_word_verified_is_never_printed(call: Call, target: str, style: str)
     assert "verified" not in done.output.lower()
 
 
+@pytest.mark.nightly
 def test_a_silent_mapper_passes_with_four_claims_not_declared(results: Results, call: Call) -> None:
     parts = results("verify mappers.py:silent --quick")["results"]
     assert parts[0]["summary"] == (
@@ -76,6 +81,7 @@ def test_a_silent_mapper_passes_with_four_claims_not_declared(results: Results, 
     assert "Not judged, because the mapper declares nothing about it: true-hypothesis-posed" in text
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     ("mapper", "smallest"),
     [
@@ -98,6 +104,7 @@ def test_a_faulty_mapper_is_refuted_and_the_line_shows_it_again(
     assert len({finding["world"] for finding in part["findings"]}) <= 3
 
 
+@pytest.mark.long
 def test_a_refuted_part_shows_its_smallest_counterexample(call: Call) -> None:
     text = call("verify mappers.py:guesses --quick").stdout
     assert "smallest counterexample here: m1/1:" in text
@@ -108,6 +115,7 @@ def test_a_refuted_part_shows_its_smallest_counterexample(call: Call) -> None:
     assert walk.endswith("  again: topo-verify replay m1/1 --target mappers.py:guesses\n")
 
 
+@pytest.mark.nightly
 def test_time_outs_leave_a_part_undecided(results: Results, call: Call) -> None:
     line = "verify mappers.py:loops --quick --world-timeout 0.02"
     parts = results(line, code=3)["results"]
