@@ -60,7 +60,8 @@ def test_a_range_that_ends_beyond_the_last_world_ends_with_it(edges: int) -> Non
     ("text", "edges"),
     [
         *(("any", 7), ("planar", 8), ("genus:1", 7), ("genus:3", 7), ("genus<=1", 7)),
-        *(("genus:2", 8), ("simple", 10), ("loopless", 8), ("max-degree:4", 8)),
+        pytest.param("genus:2", 8, marks=pytest.mark.long),
+        *(("simple", 10), ("loopless", 8), ("max-degree:4", 8)),
         ("simple,max-degree:3", 10),
     ],
 )

@@ -46,6 +46,7 @@ def test_a_run_that_fills_its_trace_is_made_again_with_more_room(
     assert run_world(WORLD, "enhancement-ii", trace=True) == whole
 
 
+@pytest.mark.long
 def test_a_run_that_fills_the_small_layout_is_made_in_the_large_one(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -63,6 +64,7 @@ def test_a_run_that_fills_the_small_layout_is_made_in_the_large_one(
     assert used == ["small", "large"]
 
 
+@pytest.mark.long
 def test_a_trace_grows_until_it_holds_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
     world = families.lattice(5, 5)
     whole = run_world(world, "basic", trace=True)

@@ -9,6 +9,7 @@ import pytest
 
 from tests.compiled.twins import difference
 from tests.faults.table import stored
+from tests.marks import with_marks
 from topo_verify import World, worlds
 from topo_verify.compiled.explore import CompiledJob, run_world
 from topo_verify.compiled.faults import PLANTED
@@ -33,6 +34,7 @@ def changed(world: World, name: str) -> bool:
     return run_world(world, algorithm, trace=True, fault=name).trace != right.trace
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", PLANTED)
 def test_equal_events_in_every_world_to_3_edges(name: str) -> None:
     small = (world for edges in range(1, 4) for world in worlds(edges=edges))
@@ -40,7 +42,19 @@ def test_equal_events_in_every_world_to_3_edges(name: str) -> None:
     assert list(islice(filter(None, found), 3)) == []
 
 
-@pytest.mark.parametrize("name", PLANTED)
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "name",
+    with_marks(
+        PLANTED,
+        nightly=[
+            "retraces-in-the-wrong-order",
+            "compares-before-the-door",
+            "records-a-loop-from-dart-0",
+            "records-from-the-near-end",
+        ],
+    ),
+)
 def test_equal_events_in_some_worlds_in_which_the_mistake_shows(name: str) -> None:
     showing = (world for world in worlds(edges=FIRST[name]) if changed(world, name))
     found = [fault_difference(world, name) for world in islice(showing, 100)]
@@ -48,6 +62,7 @@ def test_equal_events_in_some_worlds_in_which_the_mistake_shows(name: str) -> No
     assert list(filter(None, found)) == []
 
 
+@pytest.mark.long
 def test_a_mistake_is_seen_as_a_difference_from_the_reference() -> None:
     name = "restores-with-the-wrong-sign"
     seen = [difference(world, "basic", fault=name) for world in worlds(edges=3)]
@@ -64,6 +79,7 @@ def beyond_its_fields(space: Sequence[int], layout: WordLayout) -> list[str]:
     return [name for name, end in ends.items() if end < len(space) and space[end] != 0]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", PLANTED)
 def test_a_wrong_mapper_writes_nothing_beyond_a_field(name: str) -> None:
     algorithm = PLANTED[name][1]

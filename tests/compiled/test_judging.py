@@ -26,6 +26,7 @@ from tests.compiled.judged import (
     run_of,
     sampled,
 )
+from tests.marks import with_marks
 from topo_verify import CATALOGUE, World, worlds
 from topo_verify.campaign.compiled_shard import examine_range
 from topo_verify.checkers import CLAIMS
@@ -60,13 +61,15 @@ def differences(world: World, name: str, ways: int) -> Iterator[Difference]:
             yield run.what, expected, found
 
 
-@pytest.mark.parametrize("name", MAPPERS)
+@pytest.mark.long
+@pytest.mark.parametrize("name", with_marks(MAPPERS, nightly=["takes-each-place-for-known"]))
 def test_every_run_to_3_edges_has_the_verdict_of_the_checkers(name: str) -> None:
     small = (world for edges in range(1, 4) for world in worlds(edges=edges))
     assert [found for world in small for found in differences(world, name, 1)] == []
 
 
-@pytest.mark.parametrize("name", MAPPERS)
+@pytest.mark.long
+@pytest.mark.parametrize("name", with_marks(MAPPERS, nightly=["takes-each-place-for-known"]))
 def test_sampled_runs_with_4_edges_have_the_verdict_of_the_checkers(name: str) -> None:
     some = sampled(4, 20)
     assert [found for world in some for found in differences(world, name, 2)] == []
@@ -199,6 +202,7 @@ def judged_runs() -> Iterator[tuple[Run, Judged]]:
     return ((run, checked(run)) for run in some_runs())
 
 
+@pytest.mark.nightly
 def test_every_claim_has_a_mistake_and_the_judge_as_it_is_has_none() -> None:
     assert {claim for claim, *_ in MISTAKES} == set(range(1, len(CLAIMS) + 1))
     verdicts = [(run.is_map_doctored, by_judge(run), expected) for run, expected in judged_runs()]
@@ -237,6 +241,7 @@ def differ_by_parts() -> Iterator[Run]:
             yield run
 
 
+@pytest.mark.long
 def test_every_run_has_the_same_verdict_part_by_part(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(fold, "LEAST_TIDIED", 0)
     assert not [*differ_by_parts()]

@@ -52,6 +52,7 @@ def plant_another_version(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(kernel, "module_source", source)
 
 
+@pytest.mark.long
 def test_every_index_is_unsigned() -> None:
     functions = [
         n for n in ast.parse(module_source(ws.SMALL)).body if isinstance(n, ast.FunctionDef)
@@ -62,6 +63,7 @@ def test_every_index_is_unsigned() -> None:
     assert {ast.unparse(one).partition("(")[0] for one in slices} == {"np.uint64"}
 
 
+@pytest.mark.long
 def test_every_layout_has_its_own_constants() -> None:
     sources = {one.name: module_source(one) for one in (ws.SMALL, ws.FAULTY, ws.LARGE)}
     for one in (ws.SMALL, ws.FAULTY, ws.LARGE):
@@ -82,6 +84,7 @@ def test_no_two_fields_share_a_word() -> None:
     assert offsets == list(range(0, 3 * len(ws.RUN.all), 3))
 
 
+@pytest.mark.long
 def test_machine_code_is_kept_and_found_again(
     cache: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -100,6 +103,7 @@ def test_machine_code_is_kept_and_found_again(
     )
 
 
+@pytest.mark.long
 def test_processes_do_not_compile_the_same_kernels_at_the_same_time(cache: Path) -> None:
     code = (
         "from topo_verify.compiled.events import digest\n"
@@ -120,6 +124,7 @@ def test_processes_do_not_compile_the_same_kernels_at_the_same_time(cache: Path)
     assert other.returncode == 0
 
 
+@pytest.mark.long
 def test_a_change_in_any_kernel_is_a_change_of_all_machine_code(
     cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -196,6 +201,7 @@ def remove_sums(kept: Path) -> None:
 FLIPS = [partial(flipped, suffix=suffix) for suffix in ("nbc", "nbi", "sums")]
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("damage", [*FLIPS, copy_code, copy_all, remove_sums])
 def test_damaged_machine_code_is_compiled_again_with_a_warning(
     damage: Callable[[Path], None], kept: Path, capsys: pytest.CaptureFixture[str]
@@ -210,6 +216,7 @@ def test_damaged_machine_code_is_compiled_again_with_a_warning(
     assert capsys.readouterr().err == ""
 
 
+@pytest.mark.long
 def test_the_source_in_the_cache_is_not_believed(
     kept: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -222,6 +229,7 @@ def test_the_source_in_the_cache_is_not_believed(
     assert source.read_text() == text
 
 
+@pytest.mark.long
 def test_what_an_interrupted_process_left_is_removed(kept: Path) -> None:
     code = kept / "__pycache__"
     left = [kept / "kernels_small.py.x.new", code / "kernels_small.sums.y.new"]
@@ -249,6 +257,7 @@ LIMITED = (
 """A process that compiles a kernel, and whose files may have 1,000 bytes, as on a full disk."""
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("written", ["nothing", "the source"])
 def test_a_full_disk_is_an_error_that_names_the_folder_and_leaves_nothing(
     written: str, cache: Path
@@ -264,6 +273,7 @@ def test_a_full_disk_is_an_error_that_names_the_folder_and_leaves_nothing(
     assert files <= {"lock", "kernels_small.py"}
 
 
+@pytest.mark.long
 def test_a_damaged_folder_is_an_error_that_names_it(kept: Path) -> None:
     shutil.rmtree(kept / "__pycache__")
     (kept / "__pycache__").touch()

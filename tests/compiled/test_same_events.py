@@ -13,6 +13,7 @@ import pytest
 
 from tests.compiled.twins import difference, differences, uniform
 from tests.helpers import EMPTY
+from tests.marks import with_marks
 from topo_verify import World, families, worlds
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.compiled.explore import KERNELS
@@ -24,7 +25,7 @@ def test_every_algorithm_of_the_catalogue_has_a_kernel() -> None:
     assert list(KERNELS) == list(CATALOGUE)
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", with_marks(CATALOGUE, long=["folding+planar"]))
 def test_equal_events_in_every_world_to_4_edges(name: str) -> None:
     small = (world for edges in range(1, 5) for world in worlds(edges=edges))
     assert list(islice(differences(small, name), 3)) == []
@@ -35,12 +36,14 @@ def test_equal_events_in_the_world_without_a_dart(name: str) -> None:
     assert difference(EMPTY, name) is None
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.long
+@pytest.mark.parametrize("name", with_marks(CATALOGUE, nightly=["folding+planar"]))
 def test_equal_events_in_uniform_worlds_of_7_to_12_edges(name: str) -> None:
     some = (world for edges in range(7, 13) for world in uniform(edges, 20, seed=1))
     assert list(islice(differences(some, name), 3)) == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", CATALOGUE)
 @pytest.mark.parametrize(
     "world",
@@ -63,6 +66,7 @@ DATA = Path(__file__).parent.parent / "data" / "worlds"
 NETWORKS = ("nyc", f"{DATA}/pp_mv_oberrhein.json", f"{DATA}/sumo_A10KW.json")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("network", NETWORKS, ids=["nyc", "oberrhein", "A10KW"])
 def test_equal_events_in_a_real_network(network: str) -> None:
     assert difference(resolve_world(network), "enhancement-iii-all+i") is None

@@ -73,6 +73,7 @@ def test_every_claim_has_the_status_and_share_that_the_checkers_give(name: str, 
     assert judged_by_kernel(examine_range([name], edges)) == judged_by_checkers(name, edges)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", PLANTED)
 def test_a_seeded_fault_has_the_verdicts_that_the_checkers_give(name: str) -> None:
     for edges in (2, 3):
@@ -80,6 +81,7 @@ def test_a_seeded_fault_has_the_verdicts_that_the_checkers_give(name: str) -> No
         assert judged_by_kernel(end) == judged_by_checkers(FAULTS[name], edges), edges
 
 
+@pytest.mark.long
 def test_a_range_stops_behind_its_first_failing_world() -> None:
     name = "leaves-out-the-darts-of-vk"
     whole = examine_range([name], 3, faults={name: name})
@@ -122,6 +124,7 @@ LONG_TRACE = 273_516
 """The rank of a world with 7 edges in which the planar prior is wrong and the run is long."""
 
 
+@pytest.mark.long
 def test_a_run_of_more_words_than_the_workspace_has_is_judged_by_the_checkers() -> None:
     world = World.from_id(f"m7/{LONG_TRACE}")
     run = explore(world, "folding+planar", engine="compiled")
