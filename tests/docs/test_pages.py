@@ -125,6 +125,7 @@ def do(step: Step, folder: Path, names: dict[str, object]) -> None:
             pass
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("page", DONE)
 def test_what_a_page_says_can_be_done_and_prints_what_it_shows(page: str, folder: Path) -> None:
     if "node " in (text := (DOCS / page).read_text(encoding="utf-8")) and not shutil.which("node"):

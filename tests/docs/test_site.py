@@ -141,6 +141,7 @@ def test_a_folder_of_this_machine_is_seen(tmp_path: Path) -> None:
     assert "which a reader does not have" in seen
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "command",
     [

@@ -107,6 +107,7 @@ def test_the_robot_stands_at_its_vertex_at_the_end_of_every_moment() -> None:
         assert dist(film.place(group, at), centre) < 0.05
 
 
+@pytest.mark.nightly
 def test_on_a_torus_the_robot_leaves_on_one_side_and_comes_back_on_the_other() -> None:
     world = families.torus(3, 3)
     playback = Playback(world, explore(world, "folding").trace)

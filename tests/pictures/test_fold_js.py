@@ -141,6 +141,7 @@ def judged() -> tuple[list[Trace], list[Any]]:
     return traces, [plain(in_python(trace)) for trace in traces]
 
 
+@pytest.mark.long
 def test_it_shows_what_the_trusted_fold_shows(judged: tuple[list[Trace], list[Any]]) -> None:
     traces, expected = judged
     doubts = [why for shown in expected for _, why, _ in shown["doubts"]]
@@ -156,6 +157,7 @@ def test_it_shows_what_the_trusted_fold_shows(judged: tuple[list[Trace], list[An
     assert differing(traces, expected) == 0
 
 
+@pytest.mark.nightly
 def test_it_shows_that_on_every_golden_trace() -> None:
     traces = golden(SURE)
     assert len(traces) == 207

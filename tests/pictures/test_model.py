@@ -102,7 +102,10 @@ def compare_all(show: Open, world: World, runs: Sequence[PlayedRun]) -> None:
         compare(one, run, Playback(world, run.trace, run.judgements, run.stopped))
 
 
-@pytest.mark.parametrize("world", ["lattice", "m3/8", "m4/41", "m2/9", "m5/17"])
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "world", [pytest.param("lattice", marks=pytest.mark.nightly), "m3/8", "m4/41", "m2/9", "m5/17"]
+)
 def test_the_page_and_the_checkers_agree_on_every_algorithm(show: Open, world: str) -> None:
     drawn = families.lattice(3, 4) if world == "lattice" else World.from_id(world)
     compare_all(show, drawn, [played(drawn, name) for name in CATALOGUE])
@@ -112,6 +115,7 @@ SHORT = 500
 """Events of a run that is compared here: a wrong mapper may go on and on."""
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("world", ["m3/8", "m2/1"])
 def test_the_page_and_the_checkers_agree_on_wrong_mappers(show: Open, world: str) -> None:
     drawn = World.from_id(world)

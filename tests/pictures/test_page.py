@@ -80,6 +80,7 @@ def test_the_street_network_with_1468_moves_takes_less_than_156_kilobytes() -> N
     assert len(page.encode()) < 156_000
 
 
+@pytest.mark.long
 def test_a_network_of_216_edges_takes_less_than_300_kilobytes() -> None:
     world = families.king(10, 10, holes=0.2, seed=1)
     assert len(world.edges) == 216

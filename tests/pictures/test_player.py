@@ -69,6 +69,7 @@ def title(page: Page) -> str:
     return page.inner_text(".say h3")
 
 
+@pytest.mark.long
 def test_a_run_without_findings_opens_at_its_first_question(show: Open, lattice: str) -> None:
     page = show(lattice)
     assert step(page) > 0
@@ -80,6 +81,7 @@ def test_a_run_without_findings_opens_at_its_first_question(show: Open, lattice:
     assert title(page) == "The robot wakes up beside the marker"
 
 
+@pytest.mark.long
 def test_a_run_without_a_question_opens_at_its_first_decision_if_it_has_one(show: Open) -> None:
     page = show(page_of(World.from_id("m1/0"), "basic"))
     assert step(page) > 0
@@ -104,6 +106,7 @@ def test_a_walk_in_circles_opens_at_the_end_of_its_first_round(show: Open) -> No
     assert page.inner_text("#key").count("moves") == 1
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("width", "height"), [(1366, 768), (1280, 800), (1600, 900), (720, 691)])
 def test_no_caption_is_cut(show: Open, wrong: str, two: str, width: int, height: int) -> None:
     for text in (wrong, two):
@@ -130,6 +133,7 @@ def test_a_small_world_fills_its_pane(show: Open) -> None:
     assert 0.6 < max(shares) <= 1
 
 
+@pytest.mark.long
 def test_the_address_says_which_step(show: Open, lattice: str) -> None:
     page = show(lattice, at="#step=21")
     assert step(page) == 21
@@ -138,6 +142,7 @@ def test_the_address_says_which_step(show: Open, lattice: str) -> None:
     assert title(show(lattice, at="#step=999999")) == "The map is complete"
 
 
+@pytest.mark.long
 def test_buttons_and_keys_step_either_way(show: Open, lattice: str) -> None:
     page = show(lattice, at="#step=0")
     for _ in range(3):
@@ -154,6 +159,7 @@ def test_buttons_and_keys_step_either_way(show: Open, lattice: str) -> None:
     assert step(page) == 0
 
 
+@pytest.mark.nightly
 def test_decisions_are_found_from_either_side(show: Open, lattice: str) -> None:
     page = show(lattice, at="#step=16")
     page.click("#after")
@@ -166,6 +172,7 @@ def test_decisions_are_found_from_either_side(show: Open, lattice: str) -> None:
     assert step(page) < after
 
 
+@pytest.mark.long
 def test_play_pauses_on_demand_and_runs_to_the_end(show: Open, lattice: str) -> None:
     page = show(lattice, at="#step=3")
     page.keyboard.press("Space")
@@ -181,6 +188,7 @@ def test_play_pauses_on_demand_and_runs_to_the_end(show: Open, lattice: str) -> 
     assert title(page) == "The map is complete"
 
 
+@pytest.mark.long
 def test_slider_and_chart_lead_to_a_step(show: Open, lattice: str) -> None:
     page = show(lattice)
     page.fill("#slider", "40")
@@ -191,6 +199,7 @@ def test_slider_and_chart_lead_to_a_step(show: Open, lattice: str) -> None:
     assert abs(step(page) - 56) <= 1
 
 
+@pytest.mark.long
 def test_a_run_with_findings_opens_at_the_first_and_goes_on_to_the_next(
     show: Open, wrong: str
 ) -> None:
@@ -211,6 +220,7 @@ def test_a_run_with_findings_opens_at_the_first_and_goes_on_to_the_next(
     assert step(page) == first
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("fault", ["mirrors-the-direction", "ignores-direction-behind-e"])
 def test_the_page_of_a_wrong_confirmation_says_what_speaks_against_it(
     show: Open, fault: str
@@ -224,6 +234,7 @@ def test_the_page_of_a_wrong_confirmation_says_what_speaks_against_it(
     assert page.inner_text(".compared b") == "≠"
 
 
+@pytest.mark.long
 def test_luck_is_shown_beside_the_witness(show: Open, lucky: str) -> None:
     page = show(lucky)
     assert page.input_value("#view") == "witness"
@@ -234,6 +245,7 @@ def test_luck_is_shown_beside_the_witness(show: Open, lucky: str) -> None:
     assert page.locator(".map").count() == 1
 
 
+@pytest.mark.long
 def test_two_mappers_go_in_step_by_cost_or_by_edge(show: Open, two: str) -> None:
     page = show(two, at="#step=10")
     assert page.locator("main h2 span").all_inner_texts() == ["basic", "folding"]
@@ -256,6 +268,7 @@ def test_two_mappers_go_in_step_by_cost_or_by_edge(show: Open, two: str) -> None
     assert page.locator(".map").count() == 1
 
 
+@pytest.mark.long
 def test_what_the_robot_does_not_know_is_faint_or_hidden(show: Open, lattice: str) -> None:
     page = show(lattice, at="#step=0")
     assert page.locator(".world .vertex.far").count() == 11
@@ -276,6 +289,7 @@ def test_a_cut_surface_has_sides_and_its_map_once_an_edge_leaves_by_one(show: Op
     assert sorted(letters) == sorted("abcdabcd")
 
 
+@pytest.mark.long
 def test_both_panes_pan_and_zoom_together(show: Open, lattice: str) -> None:
     def boxes() -> list[Any]:
         boxes: list[Any] = page.eval_on_selector_all(
@@ -303,6 +317,7 @@ def test_both_panes_pan_and_zoom_together(show: Open, lattice: str) -> None:
 SIZES = ((1400, 900), (390, 800), (360, 740), (1600, 1000), (3840, 2160))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["lattice", "wrong", "two"])
 def test_nothing_has_to_be_scrolled(show: Open, name: str, request: pytest.FixtureRequest) -> None:
     page = show(request.getfixturevalue(name))
@@ -327,6 +342,7 @@ def test_three_findings_can_be_read_whole_on_a_phone(show: Open) -> None:
     assert page.evaluate("document.documentElement.scrollHeight") == 740
 
 
+@pytest.mark.long
 def test_every_control_has_a_name_and_a_place_in_the_order_of_focus(show: Open, wrong: str) -> None:
     page = show(wrong)
     names = page.eval_on_selector_all(
@@ -346,6 +362,7 @@ def test_every_control_has_a_name_and_a_place_in_the_order_of_focus(show: Open, 
     assert "Step" in (page.get_attribute("#slider", "aria-valuetext") or "")
 
 
+@pytest.mark.long
 def test_help_names_the_signs_and_closes(show: Open, lattice: str) -> None:
     page = show(lattice)
     page.keyboard.press("?")
@@ -377,6 +394,7 @@ def test_hostile_names_are_shown_as_text(show: Open) -> None:
     assert page.locator("img").count() == 0
 
 
+@pytest.mark.long
 def test_a_rejection_by_folding_rings_the_two_places_that_would_be_one(show: Open) -> None:
     run = played(families.dodecahedron(), "folding")
     (event, *_) = fold_places(Playback(families.dodecahedron(), run.trace).moments).clashes
@@ -386,6 +404,7 @@ def test_a_rejection_by_folding_rings_the_two_places_that_would_be_one(show: Ope
     assert page.locator("figcaption").all_inner_texts() == ["one place", "the other"]
 
 
+@pytest.mark.long
 def test_in_a_frame_that_is_hidden_at_first_it_waits_for_its_room(show: Open) -> None:
     world = families.lattice(2, 2)
     inside = html.escape(player_page(world, [played(world, "basic")]))
@@ -398,6 +417,7 @@ def test_in_a_frame_that_is_hidden_at_first_it_waits_for_its_room(show: Open) ->
     assert 0 < layers.evaluate("e => parseFloat(e.style.getPropertyValue('--u'))") < 5
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("is_light", "system"), [("true", "dark"), ("false", "light")])
 def test_a_notebook_s_frame_plays_on_its_own_in_the_notebook_s_theme(
     show: Open, is_light: str, system: str
@@ -433,6 +453,7 @@ def test_numbers_badges_and_the_question_of_neighbouring_exits_keep_apart(show: 
     assert signs > 28
 
 
+@pytest.mark.long
 def test_a_wrong_confirmation_is_drawn_as_wrong(show: Open, wrong: str) -> None:
     page = show(wrong, at="#step=54")
     assert title(page) == "Guess 1 is right, it says"

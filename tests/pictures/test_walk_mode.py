@@ -43,6 +43,7 @@ def follow(page: Page, events: tuple[Event, ...]) -> None:
             page.click(f'#walk .badge[data-dart="{event.dart}"]')
 
 
+@pytest.mark.long
 def test_who_walks_as_a_sound_mapper_does_has_proved_the_map(show: Open, text: str) -> None:
     page = show(text, at="#walk")
     page.wait_for_timeout(200)  # the player writes its step after 120 ms, but not while one walks
@@ -65,6 +66,7 @@ def test_who_walks_as_a_sound_mapper_does_has_proved_the_map(show: Open, text: s
     assert drawings[0] == drawings[1]
 
 
+@pytest.mark.nightly
 def test_who_guesses_right_is_told_that_it_was_luck(show: Open, text: str) -> None:
     page = show(text, at="#walk")
     trace = explore(WORLD, "enhancement-ii").trace
@@ -93,6 +95,7 @@ def test_who_guesses_right_is_told_that_it_was_luck(show: Open, text: str) -> No
     assert page.inner_text("#walk .pane h2 span") == "The world"
 
 
+@pytest.mark.long
 def test_a_wrong_declaration_is_shown_where_it_is_wrong(show: Open, text: str) -> None:
     page = show(text, at="#walk")
     keys(page, "0 n 1 n 1 n 1 a 1")
@@ -126,6 +129,7 @@ def test_where_a_wrong_road_ends_is_ringed_and_one_can_go_on_from_there(show: Op
     assert page.locator("#walk .badge").count() == 3
 
 
+@pytest.mark.long
 def test_at_the_marker_only_an_exit_at_the_marker_is_offered(show: Open) -> None:
     page = show(page_of(World.from_id("m1/1"), "basic"), at="#walk")
     keys(page, "0")
@@ -136,6 +140,7 @@ def test_at_the_marker_only_an_exit_at_the_marker_is_offered(show: Open) -> None
     assert page.inner_text("#walk .says p").startswith(words)
 
 
+@pytest.mark.long
 def test_where_nothing_can_be_said_the_map_is_wrong_and_one_can_go_back(show: Open) -> None:
     page = show(page_of(World.from_id("m3/14"), "basic"), at="#walk")
     keys(page, "0 n 0 1 b")  # the wrong exit
@@ -153,6 +158,7 @@ def test_where_nothing_can_be_said_the_map_is_wrong_and_one_can_go_back(show: Op
     assert not said(page).startswith("Your map contradicts")
 
 
+@pytest.mark.long
 def test_it_may_be_said_at_once_and_taken_back(show: Open, text: str) -> None:
     page = show(text, at="#walk")
     page.check("#walk input[type=checkbox]")
@@ -167,6 +173,7 @@ def test_it_may_be_said_at_once_and_taken_back(show: Open, text: str) -> None:
     assert page.inner_text("#walk .says .end") == "6 moves"
 
 
+@pytest.mark.long
 def test_the_reader_sees_percepts_only(show: Open, text: str) -> None:
     page = show(text, at="#walk")
     assert page.locator("#walk .vertex").count() == 2  # the place where one is, and S
@@ -225,6 +232,7 @@ def test_help_opens_in_the_game_and_a_key_closes_it_alone(show: Open, text: str,
     assert page.is_visible("#walk")
 
 
+@pytest.mark.long
 def test_no_key_reaches_the_player_and_escape_leads_back(show: Open, text: str) -> None:
     page = show(text, at="#step=3")
     page.click("#walk-it")
@@ -239,6 +247,7 @@ def test_no_key_reaches_the_player_and_escape_leads_back(show: Open, text: str) 
     assert page.inner_text("#walk .says .end") == "1 move"
 
 
+@pytest.mark.long
 def test_a_world_is_built_corner_by_corner_and_walked(show: Open, text: str) -> None:
     page = show(text, at="#walk")
     page.select_option("#walk select", "own")
@@ -253,6 +262,7 @@ def test_a_world_is_built_corner_by_corner_and_walked(show: Open, text: str) -> 
     assert page.inner_text("#walk .pane h2 small") == "1 place, 2 roads, genus 1"
 
 
+@pytest.mark.nightly
 def test_worlds_of_the_gallery_and_worlds_drawn_by_lot_can_be_walked(show: Open, text: str) -> None:
     page = show(text, at="#walk")
     names = page.locator("#walk option").all_inner_texts()
@@ -274,12 +284,14 @@ def test_worlds_of_the_gallery_and_worlds_drawn_by_lot_can_be_walked(show: Open,
     assert ", 9 roads, genus " in page.inner_text("#walk .pane h2 small")
 
 
+@pytest.mark.long
 def test_a_world_without_a_road_is_proved_by_looking(show: Open) -> None:
     page = show(page_of(World((), (), None), "basic"), at="#walk")
     keys(page, "Enter")
     assert said(page) == "Your walk proves this map"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("width", "height"), [(360, 780), (1600, 900)])
 def test_it_fits(show: Open, text: str, width: int, height: int) -> None:
     page = show(text, at="#walk", width=width, height=height)

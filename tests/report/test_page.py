@@ -104,6 +104,7 @@ def test_a_large_world_is_named_and_not_drawn() -> None:
     assert "<img" not in page
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("width", [360, 1600])
 def test_a_player_opens_at_a_click_and_is_shown_whole(show: Open, width: int) -> None:
     page = show(report_page(account(HOSTILE), RUN), width=width)
@@ -117,6 +118,7 @@ def test_a_player_opens_at_a_click_and_is_shown_whole(show: Open, width: int) ->
     assert page.locator("iframe").get_attribute("sandbox") == "allow-scripts"
 
 
+@pytest.mark.long
 def test_a_page_can_be_read_in_the_dark(show: Open) -> None:
     text = report_page(account(), RUN)
     light, dark = (

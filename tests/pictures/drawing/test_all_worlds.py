@@ -11,6 +11,7 @@ from random import Random
 import pytest
 
 from tests.helpers import worlds
+from tests.marks import with_marks
 from tests.pictures.drawing.pictures import drawn
 from topo_verify.world import families
 from topo_verify.world.resolve import resolve_world
@@ -36,10 +37,9 @@ LARGE = (
 )
 
 
-SLOW = [pytest.param(edges, marks=pytest.mark.nightly) for edges in (4, 5)]
-
-
-@pytest.mark.parametrize("edges", [0, 1, 2, *SLOW])
+@pytest.mark.parametrize(
+    "edges", [0, 1, 2, *(pytest.param(edges, marks=pytest.mark.nightly) for edges in (4, 5))]
+)
 def test_every_world_of_a_size_is_drawn_true(edges: int) -> None:
     for world in worlds([edges]):
         drawn(world)
@@ -55,7 +55,7 @@ def test_the_families_here_are_all_that_there_are() -> None:
     assert {name.split("(")[0] for name in FAMILIES} == families.FAMILIES.keys()
 
 
-@pytest.mark.parametrize("name", FAMILIES)
+@pytest.mark.parametrize("name", with_marks(FAMILIES, long=["king_torus(3,4)"]))
 def test_every_family_is_drawn_true(name: str) -> None:
     drawn(resolve_world(f"family:{name}"))
 

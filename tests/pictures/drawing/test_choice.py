@@ -171,6 +171,7 @@ def test_sides_of_a_polygon_that_are_paired_wrongly_are_seen() -> None:
         read_back.read(svg.replace('"abacdcdb"', '"abacdcda"'))
 
 
+@pytest.mark.long
 def test_a_map_of_loops_within_loops_is_shown_whole_with_marker_and_names() -> None:
     world = families.random_planar(250, seed=1)
     layout = drawn(world)
@@ -209,6 +210,7 @@ def test_a_ball_may_be_around_another_dart_of_a_world_of_any_size(large: World) 
     assert drawn(small, centre=0).kind == "ball"
 
 
+@pytest.mark.nightly
 def test_the_same_bytes_in_every_process() -> None:
     code = (
         "import topo_verify as tv;"

@@ -47,7 +47,14 @@ def test_the_gap_beneath_a_bridge_shows_on_both_sides_of_it(radius: float) -> No
 CROWDED = families.regular(10, 7, seed=1)
 
 
-@pytest.mark.parametrize("world", [World.from_id("m4/300"), families.lattice(4, 4), CROWDED])
+@pytest.mark.parametrize(
+    "world",
+    [
+        World.from_id("m4/300"),
+        families.lattice(4, 4),
+        pytest.param(CROWDED, marks=pytest.mark.long),
+    ],
+)
 def test_a_number_stands_beside_its_own_edge_and_on_no_other_number(world: World) -> None:
     layout = lay_out(world)
     words = {dart: str(dart) for rotation in world.vertices for dart in rotation}

@@ -28,6 +28,7 @@ def words(svg: bytes) -> set[str]:
     return set(re.findall(r"<!-- (.*?) -->", svg.decode()))
 
 
+@pytest.mark.long
 def test_every_line_and_axis_is_named_and_the_stated_costs_are_marked() -> None:
     found = words(picture(FIGURE, points(), "svg"))
     assert {SHORT[name] for name in (*FIGURE.lines, "edges", "least-cost")} <= found
@@ -40,6 +41,7 @@ def test_without_the_point_there_is_no_mark() -> None:
     assert not [text for text in words(picture(FIGURE, small, "svg")) if "paper" in text]
 
 
+@pytest.mark.long
 def test_the_same_points_give_the_same_bytes_with_no_date() -> None:
     first, second = (picture(FIGURE, points(), "svg") for _ in range(2))
     assert first == second
