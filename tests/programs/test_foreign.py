@@ -478,6 +478,7 @@ def test_one_process_plays_all_worlds_though_the_robot_stops(folder: Path, name:
     assert len(processes(folder, name)[0]) == 1
 
 
+@pytest.mark.long
 def test_a_mapper_that_does_not_come_back_is_ended(folder: Path) -> None:
     assert len(processes(folder, "stays")[0]) == 3
 

@@ -24,6 +24,7 @@ MISDEEDS = {
 """Each misdeed of hostile_numba.py, and what is said of it behind the pipe."""
 
 
+@pytest.mark.long
 def test_the_example_makes_the_events_of_basic_and_the_wrong_one_does_not() -> None:
     target = one_target(f"{EXAMPLE}:explore")
     assert target.text == f"--library {EXAMPLE}:explore"
@@ -34,6 +35,7 @@ def test_the_example_makes_the_events_of_basic_and_the_wrong_one_does_not() -> N
     assert not examine(one_target(f"{EXAMPLE}:wrong"), World.from_id("m3/5")).ok
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("deed", MISDEEDS)
 def test_a_misdeed_is_a_finding_in_its_world(deed: str) -> None:
     target = one_target(f"{HOSTILE}:{deed}")
@@ -42,6 +44,7 @@ def test_a_misdeed_is_a_finding_in_its_world(deed: str) -> None:
     assert examine(target, World.from_id("m1/1")).ok
 
 
+@pytest.mark.long
 def test_what_is_no_native_mapper_is_refused_in_one_sentence() -> None:
     for name, words in (
         (f"--library {HOSTILE}:plain", "expected a function compiled by numba, got function"),

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.marks import with_marks
 from tests.programs.natives import ROOT, built, hostile
 from topo_verify import InputError, World, examine, explore
 from topo_verify.campaign.targets import one_target, target_arguments, target_text
@@ -38,6 +39,7 @@ def test_the_example_makes_the_events_of_basic(tmp_path: Path) -> None:
         assert explore(world, target).trace[1:] == explore(world, "basic").trace[1:]
 
 
+@pytest.mark.long
 def test_the_wrong_example_is_found_out(tmp_path: Path) -> None:
     found = search(built(tmp_path, "-DWRONG"), edges=3, engine="reference").counterexample
     assert found is not None
@@ -51,7 +53,7 @@ def test_a_silent_mapper_is_judged_on_its_map(tmp_path: Path) -> None:
     assert report.claims["true-hypothesis-kept"] == "not-declared"
 
 
-@pytest.mark.parametrize("deed", MISDEEDS)
+@pytest.mark.parametrize("deed", with_marks(MISDEEDS, long=["walk"]))
 def test_a_misdeed_is_a_finding_in_its_world(deed: str, tmp_path: Path) -> None:
     target = one_target(hostile(tmp_path, deed))
     assert examine(target, World.from_id("m1/1")).ok

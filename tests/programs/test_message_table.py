@@ -150,6 +150,7 @@ def refusals(child: Foreign, ask: Callable[[], object], *before: str) -> dict[st
     return told
 
 
+@pytest.mark.long
 def test_while_a_mapper_is_loaded_every_line_but_one_is_bad_input(child: Foreign) -> None:
     told = refusals(child, child.start)
     assert told.keys() == LINES.keys() - {"ready"}
@@ -157,6 +158,7 @@ def test_while_a_mapper_is_loaded_every_line_but_one_is_bad_input(child: Foreign
     assert all(text.startswith("target 'mine.py:explore': ") for text in told.values())
 
 
+@pytest.mark.long
 def test_between_worlds_every_line_but_what_is_loaded_is_unlisted(child: Foreign) -> None:
     told = refusals(child, child.loaded, "ready")
     assert told.keys() == LINES.keys() - {"loaded"}

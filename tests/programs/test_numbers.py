@@ -125,6 +125,7 @@ def test_in_a_library(tmp_path: Path, use: str, number: int) -> None:
     require_right(use, number, failing(one_target(text)))
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not available(), reason="numba is not installed")
 @pytest.mark.parametrize("use", ["reports a cost", "declares a dart"])
 @pytest.mark.parametrize("number", [2**63 - 1, -(2**63)])

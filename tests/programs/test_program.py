@@ -77,6 +77,7 @@ def said(player: Program) -> str:
 # ---------------------------------------------------------------- as in Python
 
 
+@pytest.mark.long
 def test_through_the_pipe_every_run_is_the_same_as_in_process() -> None:
     for name in ("basic", "enhancement-iii-all+i", "folding"):
         with program(served(name)) as player:
@@ -125,6 +126,7 @@ def differences(name: str, tried: Iterable[World], limits: Limits) -> list[str]:
     return found
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", [name for name in EVERY if name != REACHES])
 def test_a_seeded_fault_is_found_through_the_pipe_just_as_in_process(name: str) -> None:
     limits = Limits(budget=60)

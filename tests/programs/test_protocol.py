@@ -41,6 +41,7 @@ def test_there_is_no_schema_of_nothing() -> None:
     assert ours == {f"{name}.schema.json" for name in ms.SCHEMAS}
 
 
+@pytest.mark.long
 def test_every_line_of_a_conversation_meets_its_schema() -> None:
     program = Program(served("basic").removeprefix("--cmd "), record=True)
     with program:
