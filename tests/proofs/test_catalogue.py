@@ -53,6 +53,7 @@ def test_every_step_that_is_argued_stands_in_the_page_on_proofs() -> None:
             assert step in page, (theorem.name, step)
 
 
+@pytest.mark.nightly
 def test_each_question_is_a_whole_script_and_says_what_is_expected() -> None:
     for theorem in (*INDUCTIVE, *AXIOM_MUTANTS):
         for query in theorem.queries():
@@ -80,6 +81,7 @@ def test_no_such_theorem_is_refused_with_what_comes_near() -> None:
         choose(["trace-stop"])
 
 
+@pytest.mark.long
 def test_the_package_alone_loads_no_solver() -> None:
     code = "import topo_verify, topo_verify.cli, sys; print('z3' in sys.modules)"
     done = python("-c", code, check=True)

@@ -62,6 +62,7 @@ def _numbered(world: World, known: tuple[Dart, ...], explored: frozenset[Dart]) 
     return tuple(degrees), alpha, len(known), frozenset(number[dart] for dart in explored)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("edges", [1, 2, 3])
 def test_the_maps_are_exactly_those_that_an_exploration_can_draw(edges: int) -> None:
     world = Worlds(edges)
@@ -129,6 +130,7 @@ LOOKED: dict[MarkerDetail, Callable[[Percept], object]] = {
 }
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("marker", LOOKED)
 def test_percepts_are_alike_as_far_as_the_marker_is_looked_at(marker: MarkerDetail) -> None:
     for world in worlds([2]):

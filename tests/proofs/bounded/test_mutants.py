@@ -125,6 +125,7 @@ def test_a_rule_without_its_fault_rejects_nothing() -> None:
         replay_rejection(decode(encoded, model), "history", "")
 
 
+@pytest.mark.long
 def test_the_counterexample_is_the_same_in_every_run() -> None:
     (theorem,) = (one for one in mutants.NEGATIVES if one.name == "undirected-simple")
     first, again = theorem.prove(BUDGET), theorem.prove(Budget(seed=7))

@@ -11,6 +11,7 @@ from unittest.mock import Mock
 
 import pytest
 
+from tests.marks import with_marks
 from topo_verify.errors import InputError
 from topo_verify.proofs.bounded import statements, theorems
 from topo_verify.proofs.bounded.cnf import REFUTED, SolverGaveUp, solve
@@ -35,7 +36,13 @@ BUDGET = Budget()
 
 
 @pytest.mark.parametrize(
-    "one", [theorem(s, range(1, 5)) for s in ONE_DOOR_STATEMENTS], ids=lambda one: one.name
+    "one",
+    with_marks(
+        (theorem(s, range(1, 5)) for s in ONE_DOOR_STATEMENTS),
+        long=["bounded-door", "bounded-confirm-back"],
+        nightly=["bounded-pose"],
+    ),
+    ids=lambda one: one.name,
 )
 def test_one_door_theorems_hold_in_all_worlds_up_to_four_edges(one: Theorem) -> None:
     outcome = one.prove(BUDGET)
@@ -45,7 +52,13 @@ def test_one_door_theorems_hold_in_all_worlds_up_to_four_edges(one: Theorem) -> 
 
 
 @pytest.mark.parametrize(
-    "one", [theorem(s, range(1, 4)) for s in WHOLE_WORD_STATEMENTS], ids=lambda one: one.name
+    "one",
+    with_marks(
+        (theorem(s, range(1, 4)) for s in WHOLE_WORD_STATEMENTS),
+        long=["words-records-one"],
+        nightly=["words-records-all"],
+    ),
+    ids=lambda one: one.name,
 )
 def test_whole_words_hold_in_all_worlds_up_to_three_edges(one: Theorem) -> None:
     outcome = one.prove(BUDGET)
@@ -152,6 +165,7 @@ def test_too_many_edges_are_refused_with_a_sentence(edges: int) -> None:
         bounded(edges)
 
 
+@pytest.mark.long
 def test_each_question_is_a_script_of_its_own() -> None:
     names = [query.name for one in bounded() for query in one.queries()]
     assert len(names) == len(set(names))
@@ -162,6 +176,7 @@ def test_each_question_is_a_script_of_its_own() -> None:
     assert query.expected == "unsat"
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(("edges", "worlds"), [(1, 2), (2, 10), (3, 74), (4, 706)])
 def test_the_models_are_exactly_the_canonical_codes(edges: int, worlds: int) -> None:
     found = list(codes(edges))

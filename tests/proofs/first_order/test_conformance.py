@@ -49,6 +49,7 @@ def rejections(traces: Sequence[Trace]) -> int:
     return sum(isinstance(event, Reject) for trace in traces for event in trace)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", DESCRIBED)
 def test_every_decision_in_every_world_to_four_edges(name: str) -> None:
     traces = [trace_of(world, name) for world in worlds(range(1, 5))]
@@ -130,6 +131,7 @@ def never(*_: object) -> None:
     return None
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     ("algorithm", "place", "name", "change"),
     [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -92,6 +93,7 @@ def folded(world: World, doors: list[int]) -> tuple[Structure, Fold]:
 p, q = Var("p", "P"), Var("q", "P")
 
 
+@pytest.mark.long
 @given(world=any_world(max_edges=4), doors=st.lists(st.integers(0, 7), max_size=4))
 def test_a_world_fits_its_own_walk_and_folds_identify_only_what_is_one_dart(
     world: World, doors: list[int]

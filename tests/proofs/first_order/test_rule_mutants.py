@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from tests.marks import with_marks
 from tests.proofs.first_order import refuted, scenes
 from tests.proofs.first_order.mutants import RuleMutant
 from tests.proofs.first_order.mutants.growth import PLANAR as PLANAR_SCENE
@@ -33,7 +34,11 @@ def require_refuted(one: Theorem, budget: Budget) -> None:
         robot.move(door)  # raises if there is no such door
 
 
-@pytest.mark.parametrize("one", [*refuted.FAULTY_RULES, refuted.PLANAR], ids=lambda one: one.name)
+@pytest.mark.parametrize(
+    "one",
+    with_marks([*refuted.FAULTY_RULES, refuted.PLANAR], long=["records-stale-root"]),
+    ids=lambda one: one.name,
+)
 def test_it_is_refuted_in_a_world_and_replayed(one: Theorem) -> None:
     require_refuted(one, BUDGET)
 
@@ -78,6 +83,7 @@ def test_a_mutant_without_a_scene_is_not_refuted() -> None:
     assert one.status(outcome) == "failed"
 
 
+@pytest.mark.long
 def test_a_stage_draws_the_map_of_the_scene() -> None:
     mutant = next(one for one in refuted.RULE_MUTANTS if one.name == "records-stale-root")
     edges, known = mutant.size

@@ -90,6 +90,7 @@ def formulas() -> st.SearchStrategy[terms.Term]:
     return st.recursive(st.one_of(atoms, quantified), larger, max_leaves=6)
 
 
+@pytest.mark.nightly
 @given(
     formula=formulas(),
     of_f=st.tuples(st.integers(0, 1), st.integers(0, 1)),

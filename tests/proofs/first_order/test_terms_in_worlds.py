@@ -102,6 +102,7 @@ def test_every_axiom_holds_in_every_small_world_and_its_whole_map(name: str) -> 
         assert whole.holds(t.AXIOMS[name]), world.id
 
 
+@pytest.mark.long
 @given(structure=some_maps)
 def test_every_axiom_holds_on_every_map_of_a_world(structure: Structure) -> None:
     for names in THEMES.values():
@@ -121,6 +122,7 @@ ABOUT_MAPS = [
 ]
 
 
+@pytest.mark.long
 @given(structure=some_maps, draw=st.data())
 def test_the_obligations_hold_of_any_places_and_doors(
     structure: Structure, draw: st.DataObject
@@ -188,6 +190,7 @@ def test_records_have_their_own_axioms() -> None:
     assert not TRUE_RECORDS.keys() & t.AXIOMS.keys()
 
 
+@pytest.mark.long
 @given(structure=some_maps, word=st.lists(st.integers(0, 5), max_size=4), draw=st.data())
 def test_what_inductions_over_words_say_holds_of_any_word(
     structure: Structure, word: list[int], draw: st.DataObject

@@ -206,6 +206,7 @@ def test_the_judge_agrees_with_the_compiled_one(program: Path, edges: int) -> No
             assert (judged, of) == tally.shares[claim]
 
 
+@pytest.mark.long
 def test_the_random_changes_make_every_claim_fail_and_every_status_occur() -> None:
     judgements = [one for run in changed_runs(1000, 0) for one in by_checkers(run)]
     assert {one.claim for one in judgements if one.status == "failed"} == {*CLAIMS}

@@ -70,6 +70,7 @@ def test_no_name_is_declared_twice() -> None:
     assert homonyms(sources()) == {}
 
 
+@pytest.mark.long
 def test_no_notation_gives_a_public_name_another_meaning() -> None:
     assert {file: lost for file, text in sources().items() if (lost := misleading(text))} == {}
     assert misleading("Notation link := (same assumed L).\nNotation same := (same A).") == ["link"]

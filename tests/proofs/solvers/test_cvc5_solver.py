@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.marks import with_marks
 from tests.proofs.bounded.mutants import MUTANTS, NEGATIVES
 from topo_verify.errors import InputError
 from topo_verify.proofs.bounded.theorems import bounded
@@ -25,7 +26,12 @@ CONTRADICTION = Query(
 
 
 @pytest.mark.parametrize(
-    "one", [one for one in bounded(3) if not one.deep], ids=lambda one: one.name
+    "one",
+    with_marks(
+        (one for one in bounded(3) if not one.deep),
+        long=["words-records-one", "words-records-all"],
+    ),
+    ids=lambda one: one.name,
 )
 def test_it_agrees_on_the_bounded_theorems(one: Theorem) -> None:
     for query in one.queries():
