@@ -7,6 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).resolve().parents[2]
 
 RUN_BY = {
@@ -61,6 +63,7 @@ def test_the_quiet_mapper_is_the_declared_one_without_its_declarations() -> None
     assert sum("self.say(" in line for line in declared) == 4
 
 
+@pytest.mark.long
 def test_the_pytest_file_beside_the_python_mapper_passes(tmp_path: Path) -> None:
     mapper_folder = shutil.copytree(ROOT / "examples" / "mapper_python", tmp_path / "a")
     line = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test_mapper.py"]

@@ -62,20 +62,24 @@ def test_it_is_committed_without_outputs() -> None:
     assert all((cell["outputs"], cell["execution_count"]) == ([], None) for cell in code)
 
 
+@pytest.mark.nightly
 def test_worlds_are_pictures(outputs: Cells) -> None:
     for cell in ("world", "town"):
         assert "<img " in outputs[cell]["text/html"]
         assert "text/plain" in outputs[cell]
 
 
+@pytest.mark.long
 def test_a_run_is_a_page_in_a_frame(outputs: Cells) -> None:
     assert "<iframe class=" in outputs["run"]["text/html"]
 
 
+@pytest.mark.long
 def test_the_catalogue_holds_what_is_claimed(outputs: Cells) -> None:
     assert "10 of 10 claims hold" in words(outputs["report"]["text/html"])
 
 
+@pytest.mark.long
 def test_the_mapper_is_right_by_luck_and_its_witness_tells(outputs: Cells) -> None:
     report = words(outputs["mapper"]["text/html"])
     assert "map-isomorphic ✓ ok" in report
@@ -86,6 +90,7 @@ def test_the_mapper_is_right_by_luck_and_its_witness_tells(outputs: Cells) -> No
     assert outputs["proof"]["stdout"] == "in the triangle: ok\nin the witness:  failed\n"
 
 
+@pytest.mark.long
 def test_the_hunt_ends_in_the_world_of_docs_search(outputs: Cells) -> None:
     assert outputs["town"]["stdout"] == "every claim holds: True\n"
     assert "undirected in m4/183, " in words(outputs["smallest"]["text/html"])
@@ -93,6 +98,7 @@ def test_the_hunt_ends_in_the_world_of_docs_search(outputs: Cells) -> None:
     assert "smallest counterexample: m4/183" in words(outputs["search"]["text/html"])
 
 
+@pytest.mark.long
 def test_the_costs_are_a_plot_and_the_log_proves_a_ring(outputs: Cells) -> None:
     assert "image/png" in outputs["costs"]
     assert "PROVED: one world alone shows this log" in words(outputs["log"]["text/html"])

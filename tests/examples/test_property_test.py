@@ -33,6 +33,7 @@ def test_the_page_shows_the_example_as_it_is() -> None:
     assert (EXAMPLE / "test_my_mapper.py").read_text() == blocks[0]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("arguments", "world"), [("", "m1/1"), (", simple=True", "m3/13")])
 def test_it_fails_with_the_world_that_the_page_says(
     arguments: str, world: str, tmp_path: Path
@@ -51,6 +52,7 @@ def test_it_fails_with_the_world_that_the_page_says(
     assert f"`{world}`" in PAGE
 
 
+@pytest.mark.long
 def test_the_other_tests_of_the_page_pass(tmp_path: Path) -> None:
     blocks = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)[1:]
     for number, block in enumerate(blocks):

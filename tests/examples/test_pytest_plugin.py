@@ -46,6 +46,7 @@ def test_the_page_shows_the_file_as_it_is() -> None:
     assert shown == [(EXAMPLES / "pytest_plugin" / "test_mapper.py").read_text()]
 
 
+@pytest.mark.long
 def test_the_mapper_passes_its_tests(repository: Path) -> None:
     done = shell("pytest -q -W error -p no:cacheprovider", repository)
     assert done.returncode == 0, done.stdout
@@ -55,6 +56,7 @@ def test_the_mapper_passes_its_tests(repository: Path) -> None:
     assert summary in PAGE
 
 
+@pytest.mark.nightly
 def test_a_wrong_one_fails_with_the_world(repository: Path) -> None:
     shutil.move(repository / "mapper.py", repository / "right.py")
     wrong = (EXAMPLES / "mapper_python" / "wrong.py").read_text()
@@ -69,6 +71,7 @@ def test_a_wrong_one_fails_with_the_world(repository: Path) -> None:
     assert shell(again[1], repository).returncode == 1
 
 
+@pytest.mark.nightly
 def test_the_steps_of_the_workflow_work(repository: Path) -> None:
     (record,) = re.findall(r"^#   (topo-verify record .*)$", WORKFLOW, re.MULTILINE)
     steps = re.findall(r"^ +run: (.*)$", WORKFLOW, re.MULTILINE)

@@ -114,7 +114,14 @@ def keeps(world: World, asked: dict[str, Any]) -> bool:
     )
 
 
-@pytest.mark.parametrize(("make", "takes"), TAKES, ids=lambda value: getattr(value, "__name__", ""))
+@pytest.mark.parametrize(
+    ("make", "takes"),
+    [
+        pytest.param(make, takes, marks=pytest.mark.long if make is dense_worlds else ())
+        for make, takes in TAKES
+    ],
+    ids=lambda value: getattr(value, "__name__", ""),
+)
 @settings(max_examples=150)
 @given(data=st.data())
 def test_every_bound_is_kept(
@@ -128,6 +135,7 @@ def test_every_bound_is_kept(
     assert keeps(data.draw(strategy), asked)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("make", [make for make, _ in TAKES])
 def test_the_default_bounds_are_the_widest(make: Make) -> None:
     """Up to 200 edges, which is the most that has an id to print."""
@@ -135,6 +143,7 @@ def test_the_default_bounds_are_the_widest(make: Make) -> None:
     assert len(world.edges) <= 200
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("make", [make for make, _ in TAKES if make is not nonplanar_worlds])
 def test_the_world_without_an_edge_is_drawn_on_request_only(make: Make) -> None:
     """verify, search and the marks of pytest never try m0/0: a property test agrees with them."""
@@ -142,6 +151,7 @@ def test_the_world_without_an_edge_is_drawn_on_request_only(make: Make) -> None:
     assert find(make(min_edges=0), lambda _: True).id == "m0/0"
 
 
+@pytest.mark.nightly
 def test_strategies_compose_as_strategies_do() -> None:
     mirrors = worlds(min_edges=2, max_edges=9).map(World.mirror).filter(lambda w: w.genus == 1)
     assert find(mirrors, lambda _: True).genus == 1

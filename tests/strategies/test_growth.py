@@ -66,7 +66,7 @@ def grown(shape: Shape, steps: bytes, root: int) -> World | None:
     return World(it.alpha, it.sigma, 0 if shape.leaf else root % len(it.sigma))
 
 
-@pytest.mark.parametrize("edges", [1, 2, 3, 4])
+@pytest.mark.parametrize("edges", [1, 2, 3, pytest.param(4, marks=pytest.mark.long)])
 @pytest.mark.parametrize("shape", SHAPES, ids=str)
 def test_every_world_within_the_bounds_grows_and_no_other(shape: Shape, edges: int) -> None:
     wanted = {world.code for world in every_world([edges]) if keeps(world, shape)}

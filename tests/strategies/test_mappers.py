@@ -35,6 +35,7 @@ def test_all_of_the_catalogue_is_drawn_and_what_assumes_a_plane_only_if_asked_fo
     assert drawn_names(mappers(algorithms=["folding+planar"])) == {"folding+planar"}
 
 
+@pytest.mark.long
 def test_they_shrink_to_basic_and_to_the_reference_policies() -> None:
     assert find(policies(), lambda _: True) == Policies("nearest", "shortest")
     assert find(mappers(), lambda _: True) == CATALOGUE["basic"]
@@ -62,6 +63,7 @@ def test_a_robot_can_take_the_doors_of_a_word(data: st.DataObject, world: World)
     assert 1 <= robot.cost == len(doors) <= 9
 
 
+@pytest.mark.long
 def test_door_words_reach_every_vertex_and_shrink_to_few_low_doors() -> None:
     lattice = World.from_id("m4/0")  # a path of five vertices, from its end
     for length in range(5):

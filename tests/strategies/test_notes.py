@@ -38,6 +38,7 @@ def test_no_name_of_a_mapper_controls_a_terminal() -> None:
     assert describe(run).startswith("a\\x1b[31m.py:explore (pick ")
 
 
+@pytest.mark.nightly
 def test_the_failing_example_prints_its_world_and_the_run() -> None:
     @settings(database=None, derandomize=True)
     @given(world=worlds(), mapper=mappers())
@@ -53,6 +54,7 @@ def test_the_failing_example_prints_its_world_and_the_run() -> None:
     assert "basic (pick nearest, order shortest) in m2/8: " in notes
 
 
+@pytest.mark.nightly
 def test_the_failing_example_can_be_pasted_as_it_is_printed() -> None:
     """Below `import topo_verify as tv`, with which every file of tests in docs/ begins."""
     drawn: dict[str, object] = {}
@@ -111,6 +113,7 @@ test()
 """
 
 
+@pytest.mark.nightly
 def test_with_hypothesiss_own_switch_on_every_run_carries_its_features(tmp_path: Path) -> None:
     env = {**os.environ, "HYPOTHESIS_EXPERIMENTAL_OBSERVABILITY": "1"}
     subprocess.run([sys.executable, "-c", TEST], env=env, cwd=tmp_path, check=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import Phase, find, settings
 from hypothesis import strategies as st
 
@@ -15,6 +16,7 @@ def printed(code: str) -> str:
     return python("-W", "error", "-c", code, check=True).stdout.strip()
 
 
+@pytest.mark.long
 def test_worlds_are_drawn_wherever_a_world_is_annotated() -> None:
     code = """
 from hypothesis import find, strategies as st
@@ -28,6 +30,7 @@ print(find(st.builds(edges), lambda number: number > 2))
     assert printed(code) == "3"
 
 
+@pytest.mark.nightly
 def test_a_mapper_is_drawn_wherever_an_algorithm_is_annotated() -> None:
     code = """
 from hypothesis import find, strategies as st
@@ -62,6 +65,7 @@ print([name for name in heavy if name in sys.modules])
     assert printed(code) == "[]"
 
 
+@pytest.mark.long
 def test_it_works_from_either_end() -> None:
     """Whichever is imported first, each asks for the other half-way."""
     assert printed("import topo_verify.strategies as s; print(s.worlds is not None)") == "True"

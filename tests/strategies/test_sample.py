@@ -62,8 +62,10 @@ def test_every_exported_strategy_of_worlds_has_its_name() -> None:
         ("nonplanar_worlds", "m2/8"),
         ("nonplanar_worlds(genus=2)", "m4/629"),
         ("worlds( min_edges = 3 , simple = True )", "m3/24"),
-        ("worlds(min_edges=1, marker='leaf', max_genus=None)", "m1/0"),
-        ('worlds(min_edges=1, marker="hub")', "m1/0"),
+        pytest.param(
+            "worlds(min_edges=1, marker='leaf', max_genus=None)", "m1/0", marks=pytest.mark.long
+        ),
+        pytest.param('worlds(min_edges=1, marker="hub")', "m1/0", marks=pytest.mark.long),
         ("uniform_worlds(edges=12)", "m12/0"),
     ],
 )

@@ -108,7 +108,16 @@ SINCE_6_152_9 = {"m11/134485045224", "m2/7"}
 """Pinned with Hypothesis 6.152.9 and later; with those before, the ends are m5/842 and m4/602."""
 
 
-@pytest.mark.parametrize(("condition", "simplest"), SHRINKS)
+TAKE_LONG = {"m4/629", "m11/134485045224", "m1/1", "m2/7"}
+
+
+@pytest.mark.parametrize(
+    ("condition", "simplest"),
+    [
+        pytest.param(condition, end, marks=pytest.mark.long if end in TAKE_LONG else ())
+        for condition, end in SHRINKS
+    ],
+)
 def test_what_worlds_shrink_to(condition: Condition, simplest: str) -> None:
     if simplest in SINCE_6_152_9 and older("hypothesis", 6, 152, 9):
         pytest.skip("Hypothesis before 6.152.9 draws other worlds and ends in another minimum")
@@ -160,6 +169,7 @@ SMALLEST = [
 """What is compared, where, and the edges of the smallest world of all in which it goes wrong."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("last_percept", "strategy", "edges"), SMALLEST)
 def test_a_planted_fault_shrinks_to_within_one_edge_of_its_smallest_world(
     last_percept: type[Percept], strategy: SearchStrategy[World], edges: int

@@ -125,7 +125,12 @@ def test_loops_shift_where_loops_are_forbidden() -> None:
 
 
 @pytest.mark.parametrize(
-    ("what", "edges"), [("cycle", 6), ("K5", 10), ("K4", 6), ("prism", 9), ("torus", 18)]
+    ("what", "edges"),
+    [
+        *(("cycle", 6), ("K5", 10), ("K4", 6)),
+        pytest.param("prism", 9, marks=pytest.mark.long),
+        pytest.param("torus", 18, marks=pytest.mark.nightly),
+    ],
 )
 def test_well_known_worlds_are_found(what: str, edges: int) -> None:
     known = {

@@ -27,6 +27,7 @@ def test_greater_bytes_never_mean_a_lower_rank(one: bytes, other: bytes) -> None
     assert 0 <= scaled(8162, *low) <= scaled(8162, *high) < 8162
 
 
+@pytest.mark.long
 def test_a_thousand_draws_of_74_worlds_are_spread_evenly() -> None:
     """The sum of (seen - expected)² / expected has mean 73 and standard deviation 12."""
     seen: Counter[str] = Counter()
@@ -42,6 +43,7 @@ def test_a_thousand_draws_of_74_worlds_are_spread_evenly() -> None:
     assert len(seen) == 74
 
 
+@pytest.mark.long
 def test_they_have_the_edges_that_were_asked_for_and_shrink_towards_rank_0() -> None:
     assert find(uniform_worlds(edges=30), lambda _: True).id == "m30/0"
     world = find(uniform_worlds(edges=4), lambda w: w.genus == 2)

@@ -74,6 +74,7 @@ def coarse(moment: ChoicePoint, world: World) -> object:
     return *drawn, darts[moment.e], remaining, sequences[-1].doors if sequences else ()
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", KNOWN)
 @pytest.mark.parametrize("edges", [1, 2, 3])
 def test_it_finds_the_states_the_choices_and_the_costs_that_the_mapper_has(
@@ -85,6 +86,7 @@ def test_it_finds_the_states_the_choices_and_the_costs_that_the_mapper_has(
         assert found[1:5] == counted(name, world)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", KNOWN)
 def test_it_does_so_where_rules_and_motions_differ(
     name: str, counted: Callable[[str, World], tuple[int, ...]]

@@ -104,13 +104,14 @@ def test_the_bounds_change_no_value(mean: bool) -> None:
     assert total(PROOF, mean=mean) == total(GameEnding(is_closed, one_a_move), mean=mean)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("mean", [False, True])
 def test_the_bounds_change_no_value_of_three_edges(mean: bool) -> None:
     crossing = GameEnding(is_closed, DrawnWorld.crossing_bound)
     assert total(PROOF, 3, mean=mean) == total(crossing, 3, mean=mean)
 
 
-@pytest.mark.parametrize("edges", [2, 3])
+@pytest.mark.parametrize("edges", [2, pytest.param(3, marks=pytest.mark.long)])
 def test_no_bound_is_above_the_value(edges: int) -> None:
     found = drawn(edges)
     rules = ProofRules(found, GameEnding(is_closed, DrawnWorld.crossing_bound))

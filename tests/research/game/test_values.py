@@ -89,7 +89,7 @@ def test_plain_recursion_finds_the_same_values_where_three_edges_are_known(
         ("any", "m", 4, 167),
         ("any", "m and n", 4, 142),
         ("planar", "nothing", 7, 211),
-        ("planar", "planar", 7, 211),
+        pytest.param("planar", "planar", 7, 211, marks=pytest.mark.long),
         ("planar", "m", 4, 123),
         ("planar", "m and planar", 3, 117),
     ],
