@@ -43,6 +43,7 @@ class Walker:
         return len(self.log) - before
 
 
+@pytest.mark.long
 def test_who_follows_it_proves_the_map_of_100_random_worlds() -> None:
     """From the start, it costs what `homing` costs; after a stroll it proves the map, too."""
     random = Random(2026)

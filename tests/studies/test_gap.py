@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from tests.helpers import trace_of, worlds
 from topo_verify import CATALOGUE
 from topo_verify.studies.gap import Gap, gap
@@ -21,6 +23,7 @@ def test_the_complete_rule_has_none() -> None:
         assert total("folding", edges).refutable == 0
 
 
+@pytest.mark.nightly
 def test_the_basic_algorithm_has_the_largest() -> None:
     gaps = {name: total(name, 4) for name in CATALOGUE if "planar" not in name}
     assert len({g.false for g in gaps.values()}) == 1

@@ -72,6 +72,7 @@ def test_after_the_start_alone_the_way_on_is_the_tour() -> None:
         assert len(found.unproved) == len(world.edges)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("edges", [1, 2, 3])
 def test_the_way_on_proves_the_map_behind_every_log(edges: int) -> None:
     for world in worlds([edges]):
@@ -85,6 +86,7 @@ def test_the_way_on_proves_the_map_behind_every_log(edges: int) -> None:
             assert (found.verdict == "PROVED") == (certify(log).map is not None)
 
 
+@pytest.mark.long
 @given(any_world(max_edges=15), st.data())
 def test_the_way_on_proves_larger_maps_behind_any_log(world: World, data: st.DataObject) -> None:
     at, doors = world.root or 0, list[int]()

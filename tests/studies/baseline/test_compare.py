@@ -158,6 +158,7 @@ def test_the_limits_are_those_of_the_baseline() -> None:
     assert found.examples[0].replay.endswith("--budget 1000")
 
 
+@pytest.mark.long
 def test_the_worlds_are_those_of_the_file() -> None:
     baseline = recorded("basic", "family:lattice(11,11)")  # too large for an id
     text = baseline.entries[0].world
@@ -221,6 +222,7 @@ def test_classes_come_in_their_order_and_say_what_changed(basic: Baseline) -> No
     assert ("edges", "3") not in changed
 
 
+@pytest.mark.long
 def test_classes_of_the_extremes_have_names() -> None:
     large = ("family:lattice(11,11)", "family:random_genus(12,4)")
     found = compare(recorded("basic", *large), one_target("basic"))

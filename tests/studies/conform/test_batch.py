@@ -27,12 +27,13 @@ def test_runs_are_judged_on_every_level() -> None:
     ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("way", "kind", "words"),
     [
         ("exits", "crashed", "ended with exit code 3 before it wrote a run for this world"),
         ("leaves out", "crashed", "ended with exit code 0"),
-        ("hangs", "silent", "wrote no run for 4 s"),
+        pytest.param("hangs", "silent", "wrote no run for 4 s", marks=pytest.mark.nightly),
         ("garbage", "not-json", "spam"),
         ("half a line", "half-line", "in the middle of a line"),
         ("10 MB", "too-long", "a line of more than 1048576 bytes"),

@@ -86,6 +86,7 @@ def test_costs_are_those_of_worlds_that_are_mapped_rightly() -> None:
     assert len(found["cost"].priced) == found["cost"].passed
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("workers", [0, 1, 3])
 def test_the_number_of_workers_changes_nothing(workers: int) -> None:
     target, limits = served(f"{MAPPERS}:ignores_direction"), Limits(budget=60)
@@ -115,6 +116,7 @@ def test_a_program_that_hangs_in_each_of_the_first_worlds_is_not_tried_in_the_re
     assert (found["result"].failed, found["result"].not_tried) == (3, 5)
 
 
+@pytest.mark.nightly
 def test_after_many_time_outs_the_rest_is_not_tried(tmp_path: Path) -> None:
     mapper = tmp_path / "stuck.py"
     mapper.write_text(
@@ -185,6 +187,7 @@ def test_a_trace_that_is_kept_says_why_the_run_ended(tmp_path: Path) -> None:
 # ---------------------------------------------------------------- the examples
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("language", ["c", "js", "python", "short python"])
 def test_the_examples_decide_as_the_reference_event_for_event(
     language: str, tmp_path: Path
@@ -200,6 +203,7 @@ def test_the_examples_decide_as_the_reference_event_for_event(
     assert {standing.passed for standing in found.values()} == {953}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("language", "first", "words"),
     [

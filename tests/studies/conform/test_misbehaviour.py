@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.marks import with_marks
 from tests.programs.misbehaving import WAYS
 from tests.programs.programs import kinds, messages, misbehaving, outcomes
 from topo_verify.programs.misbehaviour import MISBEHAVIOURS
@@ -98,7 +99,22 @@ def test_a_program_that_ends_after_its_map_is_started_again() -> None:
     assert [one.states["result"] for one in made] == ["passed"] * 3
 
 
-@pytest.mark.parametrize("way", EXPECTED)
+@pytest.mark.parametrize(
+    "way",
+    with_marks(
+        EXPECTED,
+        long=[
+            "hangs",
+            "closes its output",
+            "closes its input",
+            "floods stderr",
+            "prints half a line and hangs",
+            "delivers and reads no more",
+            "floods declarations of 1 MB",
+        ],
+        nightly=["floods declarations", "ignores SIGTERM"],
+    ),
+)
 def test_misbehaviour_is_one_finding_for_its_world(way: str) -> None:
     kind, words = EXPECTED[way]
     limits = LIMITS if kind in HANG else PATIENT

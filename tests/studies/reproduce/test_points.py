@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
+from tests.marks import with_marks
 from tests.studies.reproduce.rows import made_up, measured, planned_runs, rows_of
 from topo_verify.campaign.row import Row
 from topo_verify.report.figures.words import LADDER
@@ -100,7 +101,9 @@ def test_csv_has_a_row_a_point() -> None:
 # ---------------------------------------------------------------- docs/figures
 
 
-@pytest.mark.parametrize("name", FIGURES)
+@pytest.mark.parametrize(
+    "name", with_marks(FIGURES, long=["6a", "6b", "6c", "6d"], nightly=["6e", "6f"])
+)
 def test_the_points_in_docs_are_those_that_this_code_makes(name: str) -> None:
     """The smallest size of each line, recomputed and compared to the byte."""
     figure = FIGURES[name]

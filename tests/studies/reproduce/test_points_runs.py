@@ -45,6 +45,7 @@ def test_a_row_has_what_the_run_cost_and_how_many_claims_held() -> None:
     assert ({judged.status for judged in row.claims}, row.findings) == ({"ok"}, ())
 
 
+@pytest.mark.long
 def test_workers_make_the_same_rows(tmp_path: Path) -> None:
     with Store(tmp_path / "one.db") as one, Store(tmp_path / "two.db") as two:
         here = made(line_campaigns([FIGURE], EXTENT, "reference", one))

@@ -42,6 +42,7 @@ def exit_code(line: str) -> int:
     return CliRunner().invoke(main, shlex.split(line)[1:]).exit_code
 
 
+@pytest.mark.nightly
 @pytest.mark.usefixtures("folder")
 def test_a_world_that_fails_after_others_only_is_shown_after_others() -> None:
     found = searched("remembers")
@@ -55,6 +56,7 @@ def test_a_world_that_fails_after_others_only_is_shown_after_others() -> None:
     assert exit_code("topo-verify explore m3/8 --target mappers.py:remembers") == 0
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("folder")
 def test_a_world_that_passes_after_others_only_is_a_finding() -> None:
     found = searched("learns", edges=2)
@@ -67,6 +69,7 @@ def test_a_world_that_passes_after_others_only_is_a_finding() -> None:
     assert [one.failing for one in found.claims if one.claim == "not-deterministic"] == [10]
 
 
+@pytest.mark.nightly
 @pytest.mark.usefixtures("folder")
 def test_a_mapper_that_is_right_alone_and_in_the_order_of_the_search_is_tried_in_another() -> None:
     found = searched("shrinks")
@@ -106,6 +109,7 @@ def test_the_row_has_every_world_once_and_an_order_drawn_by_the_seed() -> None:
     assert drawn_row(whole) == drawn_row(msgspec.structs.replace(whole, worlds=Ranks(5)))
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("folder")
 @pytest.mark.parametrize(("alone", "row"), [(9, 0), (0, 30)])
 def test_a_mapper_that_draws_lots_leaves_the_verdict_open(
@@ -148,6 +152,7 @@ def test_an_interrupted_repetition_leaves_the_verdict_open() -> None:
     assert 0 < entry.run_again.same < 50
 
 
+@pytest.mark.nightly
 @pytest.mark.usefixtures("folder")
 @pytest.mark.parametrize(("name", "verdict"), [("right", "EXHAUSTED"), ("forgets", "REFUTED")])
 def test_a_mapper_that_does_the_same_each_time_is_judged_as_before(name: str, verdict: str) -> None:
@@ -160,6 +165,7 @@ def test_a_mapper_that_does_the_same_each_time_is_judged_as_before(name: str, ve
     assert "not-deterministic" not in [one.claim for one in found.claims]
 
 
+@pytest.mark.nightly
 def test_a_program_is_run_again_too(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(again, "MOST", 2)
     found = search(served(f"{folder / 'mappers.py'}:remembers"), edges=3)
@@ -169,6 +175,7 @@ def test_a_program_is_run_again_too(folder: Path, monkeypatch: pytest.MonkeyPatc
     assert "--cmd" in found.counterexample.replay
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("folder")
 def test_where_no_row_of_worlds_makes_it_fail_the_search_is_named(
     monkeypatch: pytest.MonkeyPatch,

@@ -36,7 +36,9 @@ def test_all_policies_are_every_pick_with_every_order() -> None:
     assert pairs == [*product([*PICKS, *names], [*ORDERS, *names])]
 
 
-@pytest.mark.parametrize("name", ["basic", "enhancement-ii+i"])
+@pytest.mark.parametrize(
+    "name", ["basic", pytest.param("enhancement-ii+i", marks=pytest.mark.long)]
+)
 def test_every_choice_goes_through_all_policies_too_and_costs_no_less_than_they_do(
     name: str,
 ) -> None:
@@ -57,6 +59,7 @@ def test_the_algorithm_is_right_whatever_it_chooses() -> None:
     assert search("enhancement-ii+i", edges=2, policies="all").verdict == "EXHAUSTED"
 
 
+@pytest.mark.long
 def test_a_finding_names_the_fewest_choices_and_the_run_that_shows_it_again() -> None:
     found = search("folding+planar", edges=2, policies="every")
     first = found.counterexample

@@ -36,13 +36,13 @@ EVERY = [(*pair, *way) for pair, way in zip(PAIRS, islice(cycle(WAYS), 7, None),
 
 SELECTED = [
     ("map", "skip", "child", 0, False),
-    ("skip", "doors", "library", 0, True),
+    pytest.param("skip", "doors", "library", 0, True, marks=pytest.mark.long),
     ("doors", "hang", "child", 2, False),
     ("cost", "kill", "program", 1, True),
     ("kill", "error", "program", 2, False),
-    ("hang", "cost", "child", 1, True),
+    pytest.param("hang", "cost", "child", 1, True, marks=pytest.mark.long),
     ("error", "map", "program", 0, True),
-    ("nothing", "nothing", "library", 1, False),
+    pytest.param("nothing", "nothing", "library", 1, False, marks=pytest.mark.long),
 ]
 """Each deed in both places, each way."""
 
@@ -99,6 +99,7 @@ def test_a_selection_of_misdeeds_is_never_exhausted(
     require_open(once, later, way, workers, is_resumed, monkeypatch)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(("once", "later", "way", "workers", "is_resumed"), EVERY)
 def test_every_pair_of_misdeeds_is_never_exhausted(
     once: str, later: str, way: str, workers: int, is_resumed: bool, monkeypatch: pytest.MonkeyPatch
@@ -115,7 +116,9 @@ def require_open(
         assert resumed(text, workers) in ("UNKNOWN", "REFUTED", "refused")
 
 
-@pytest.mark.parametrize("way", ["child", "program", "library"])
+@pytest.mark.parametrize(
+    "way", ["child", "program", pytest.param("library", marks=pytest.mark.long)]
+)
 def test_without_a_misdeed_it_is_exhausted(way: str, monkeypatch: pytest.MonkeyPatch) -> None:
     text = target(way, "at_9999_map", monkeypatch)
     assert verdict(text, 2, has_ledger=True) == "EXHAUSTED"

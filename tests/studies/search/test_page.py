@@ -9,6 +9,7 @@ from topo_verify.studies.search.search import search
 from topo_verify.world.enumeration.classes import WorldClass
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("kind", "undirected", "unmarked"), [("any", 2, 2), ("loopless", 3, 2), ("simple", 4, 3)]
 )

@@ -33,6 +33,7 @@ def of_class(text: str) -> WorldClass:
 # ---------------------------------------------------------------- exhausted
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("text", "numbers"),
     [
@@ -50,6 +51,7 @@ def test_a_class_is_exhausted_when_its_number_is_met(text: str, numbers: list[in
     assert [size.checked for size in found.by_edges] == numbers
 
 
+@pytest.mark.nightly
 def test_the_planar_prior_is_right_in_planar_worlds_and_wrong_in_all_others() -> None:
     planar = search("folding+planar", edges=4, cls=of_class("planar"))
     assert planar.verdict == "EXHAUSTED"
@@ -104,6 +106,7 @@ def test_a_search_that_cannot_end_is_refused(edges: int, kind: str, words: str) 
         search(basic, edges=edges, cls=kind)
 
 
+@pytest.mark.long
 def test_keeping_going_tells_of_each_claim_how_often_it_fails_and_where_first() -> None:
     found = search(mappers.guesses, edges=3, keep_going=True)
     assert (found.verdict, found.checked) == ("REFUTED", 86)
@@ -135,6 +138,7 @@ def test_a_mapper_that_is_out_of_time_is_neither_right_nor_wrong() -> None:
     assert [size.undecided for size in found.by_edges] == [2, 10]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("deed", "verdict"), [("killed_once", "UNKNOWN"), ("segfaults_once", "REFUTED")]
 )
@@ -198,6 +202,7 @@ def test_a_search_that_would_take_for_ever_ends_after_its_time_outs() -> None:
 # ---------------------------------------------------------------- costs
 
 
+@pytest.mark.long
 def test_the_highest_costs_are_the_known_ones_and_their_worlds_have_them(
     small_rows: SmallRows,
 ) -> None:
@@ -222,6 +227,7 @@ def test_failing_runs_have_no_part_in_the_costs() -> None:
     assert found.by_edges[0].runs == 1
 
 
+@pytest.mark.long
 def test_two_mappers_in_the_same_worlds_are_compared() -> None:
     found = searched("enhancement-ii,enhancement-i", edges=4, keep_going=True).entry(compare=True)
     sizes = [size.compare for size in found.by_edges if size.compare is not None]
@@ -237,7 +243,10 @@ def test_two_mappers_in_the_same_worlds_are_compared() -> None:
 # ---------------------------------------------------------------- shards
 
 
-@pytest.mark.parametrize("size", [1, 50, 10_000])
+@pytest.mark.parametrize(
+    "size",
+    [pytest.param(1, marks=pytest.mark.long), 50, pytest.param(10_000, marks=pytest.mark.long)],
+)
 @pytest.mark.parametrize("text", ["any", "planar"])
 def test_the_size_of_the_shards_makes_no_difference(
     size: int, text: str, monkeypatch: pytest.MonkeyPatch
@@ -301,6 +310,7 @@ def test_every_choice_is_refused_where_there_are_too_many() -> None:
 # ---------------------------------------------------------------- memory
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("folder")
 def test_a_mapper_that_lacks_memory_in_a_worker_once_is_undecided() -> None:
     found = search("mappers.py:lacks_memory_once", edges=3, keep_going=True, workers=1)
@@ -316,6 +326,7 @@ def test_a_wrong_map_counts_though_a_worker_lacked_memory_behind_it() -> None:
     assert [one.how for one in entry.lost] == [SHORT_OF_MEMORY]
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("folder")
 @pytest.mark.parametrize("workers", [0, 1])
 def test_a_mapper_that_lacks_memory_each_time_is_refuted(workers: int) -> None:

@@ -15,6 +15,7 @@ def silence(_part: str, _done: int, _total: int) -> None:
     pass
 
 
+@pytest.mark.nightly
 def test_all_that_is_quick_comes_out_as_it_must() -> None:
     job = Proofs()
     job.work(silence)
@@ -24,6 +25,7 @@ def test_all_that_is_quick_comes_out_as_it_must() -> None:
     assert not part.findings
 
 
+@pytest.mark.long
 def test_quick_is_the_inductive_theorems_alone() -> None:
     job = Proofs(quick=True)
     job.work(silence)

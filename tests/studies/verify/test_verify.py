@@ -52,6 +52,7 @@ def done(mapper: Mapper, **options: Any) -> Part:
     return job.part()
 
 
+@pytest.mark.nightly
 def test_the_whole_campaign_exhausts_what_it_says(monkeypatch: pytest.MonkeyPatch) -> None:
     # All theorems are proved in test_proofs.py; here, how many there are, and those that are quick.
     assert len(choose(kinds=QUICK)) == 65
@@ -85,6 +86,7 @@ def test_the_seed_decides_which_worlds_are_sampled() -> None:
     assert 6 <= sizes[0] < sizes[-1] <= 30
 
 
+@pytest.mark.long
 def test_progress_is_told_part_by_part() -> None:
     told: list[tuple[str, int, int]] = []
 

@@ -55,6 +55,7 @@ def claims_that_fail(graph: StateGraph) -> frozenset[str]:
     return frozenset(finding.claim for row in findings for finding in row)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     ("name", "edges", "states", "choices"),
     [
@@ -87,6 +88,7 @@ def test_the_states_of_two_loops_are_counted_by_hand() -> None:
     assert graph.choices == 4 + 4 * (3 + 2 + 2) + 4 * 2
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", CATALOGUE)
 def test_the_states_have_the_costs_and_verdicts_of_all_runs_one_by_one(name: str) -> None:
     for world in worlds([1, 2]):
@@ -97,7 +99,8 @@ def test_the_states_have_the_costs_and_verdicts_of_all_runs_one_by_one(name: str
             assert costs_of_all(graph) == {cost for cost, _ in runs}
 
 
-@pytest.mark.parametrize("step", [20, pytest.param(6, marks=pytest.mark.nightly)])
+@pytest.mark.nightly
+@pytest.mark.parametrize("step", [20, 6])
 @pytest.mark.parametrize("name", ["basic", "enhancement-iii-one+i", "folding"])
 def test_the_states_have_the_costs_of_all_runs_in_worlds_of_three_edges(
     name: str, step: int
@@ -159,6 +162,7 @@ def result(policies: str, edges: int) -> tuple[str, str, str]:
     return (found.verdict, "", "") if first is None else (found.verdict, first.world, first.replay)
 
 
+@pytest.mark.long
 def test_a_fault_that_only_some_policies_show_is_found_with_the_fewest_choices() -> None:
     assert result("reference", 3) == ("EXHAUSTED", "", "")
     verdict, world, replay = result("every", 3)

@@ -60,6 +60,7 @@ if len(chart.alpha) >= 7 and len(chart.first) >= 3 and chart.vertex[e] == 1 != b
 LOOP = "chart.unexplored and pilot.cost != 10"
 
 
+@pytest.mark.long
 def test_a_mistake_that_rests_on_the_numbers_of_darts_is_found_in_four_edges(plant: Plant) -> None:
     walked, posed = "at = pilot.walk(", "robot.declare(Pose("
     begun = f"before = chart.vertex[at]; {walked}"
@@ -79,7 +80,10 @@ def test_a_mistake_that_rests_on_the_numbers_of_darts_is_found_in_four_edges(pla
         ("m3/4", "enhancement-ii", HistoryRule.refute, "return self.beyond", "at = self.beyond"),
         ("m2/1", "folding", FoldingRule.conclude, "self.fold.is_known(self.vu)", "True"),
         # In four edges; a model of the algorithm would not have the mistake.
-        ("m4/48", "basic", exploration.explore, "while chart.unexplored:", f"while {LOOP}:"),
+        pytest.param(
+            "m4/48", "basic", exploration.explore, "while chart.unexplored:", f"while {LOOP}:",
+            marks=pytest.mark.long,
+        ),
     ],
 )  # fmt: skip
 def test_a_mistake_in_the_code_that_is_shipped_is_found(
