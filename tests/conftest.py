@@ -21,7 +21,6 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from tests.browser import browser, show
-from tests.long import LONG, NIGHTLY, is_named
 from tests.small_rows import small_rows
 
 if TYPE_CHECKING:
@@ -60,14 +59,10 @@ def _is_traced(file: Path) -> bool:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark tests: `traced` measures coverage, `coq` compiles; `long` and `nightly` take long."""
+    """Mark tests whose place or fixture decides: `traced` measures coverage, `coq` compiles."""
     for item in items:
         if _is_traced(item.path) and item.get_closest_marker("no_cover") is None:
             item.add_marker("traced")
-        if is_named(LONG, item.path, item.name):
-            item.add_marker("long")
-        if is_named(NIGHTLY, item.path, item.name):
-            item.add_marker("nightly")
         if "library" in getattr(item, "fixturenames", ()):  # tests/proofs/mechanised/conftest.py
             item.add_marker("coq")
 

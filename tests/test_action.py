@@ -90,6 +90,7 @@ def test_what_it_uses_is_pinned_to_a_version() -> None:
     assert used == ["actions/setup-python@v6"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("target", "options", "code", "verdict"),
     [
@@ -136,6 +137,7 @@ def test_a_mapper_that_costs_more_than_its_baseline_fails(
     assert says in done.summary
 
 
+@pytest.mark.long
 def test_an_input_cannot_become_a_command(tmp_path: Path) -> None:
     run_step("Search", tmp_path, PROGRAMS, target="$(touch a)", edges="1; touch b", options="`c`")
     assert {path.name for path in tmp_path.iterdir()} == {"topo-verify.md", "summary.md", "outputs"}
@@ -156,6 +158,7 @@ def test_what_calls_a_library_is_installed_with_it(
     assert asked == ["-m", "pip", "install", "--quiet", *packages]
 
 
+@pytest.mark.nightly
 def test_a_wheel_is_installed_and_the_mapper_checked_with_it(tmp_path: Path) -> None:
     path = os.pathsep.join([str(PROGRAMS), os.environ["PATH"]])  # the backend's own program
     build = [sys.executable, "-m", "build", "--wheel", "--no-isolation", "-o", str(tmp_path)]

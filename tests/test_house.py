@@ -78,6 +78,7 @@ def namesakes(modules: Mapping[str, str]) -> dict[str, list[str]]:
     return {name: where for name, where in sorted(homes.items()) if len(where) > 1}
 
 
+@pytest.mark.nightly
 def test_the_rooms_and_their_arrows_can_be_drawn_from_memory() -> None:
     rooms = {room_of(module) for module in sources()} - OUTSIDE
     arrows = room_arrows(sources())
@@ -93,6 +94,7 @@ def test_no_floor_is_a_fraction() -> None:
     assert all(isinstance(floor, int) for floor in FLOORS.values())
 
 
+@pytest.mark.long
 def test_no_modules_import_each_other_in_a_circle() -> None:
     assert circles(every_source()) == []
 
@@ -118,6 +120,7 @@ def test_a_circle_through_a_package_is_seen() -> None:
     assert circles(modules) == [["p", "p.a"]]
 
 
+@pytest.mark.long
 def test_one_name_means_one_type() -> None:
     assert namesakes(every_source()) == {}
 

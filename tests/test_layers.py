@@ -289,6 +289,7 @@ def test_every_module_has_a_room_in_the_table() -> None:
     assert rooms <= FLOORS.keys(), "a new room needs a floor in this test's table"
 
 
+@pytest.mark.nightly
 def test_every_room_imports_only_what_it_may() -> None:
     found = [line for module, text in every_source().items() for line in objections(module, text)]
     assert not found, "\n".join(found)
@@ -383,6 +384,7 @@ def test_the_layer_check_lets_pass_what_is_allowed(module: str, source: str) -> 
     assert not list(objections(module, source))
 
 
+@pytest.mark.long
 def test_no_algorithm_reaches_for_the_world_behind_its_robot() -> None:
     used = {name: peepholes(text) for name, text in sources().items()}
     assert not [name for name, ways in used.items() if ways and room_of(name) == "algorithms"]
@@ -405,6 +407,7 @@ def test_no_file_is_too_long_to_read() -> None:
     assert not long, "over 600 lines (400 in CAREFUL): would two ideas part company?"
 
 
+@pytest.mark.long
 def test_no_function_is_too_long_to_read() -> None:
     functions = {
         name: long_functions(text, longest(name)[1]) for name, text in every_source().items()

@@ -63,6 +63,7 @@ def said(result: pytest.RunResult) -> str:
 # ---------------------------------------------------------------- the mark
 
 
+@pytest.mark.long
 def test_a_mark_may_name_a_program(session: Session) -> None:
     command = f"--cmd {sys.executable} -m topo_verify.programs.serve basic"
     result = session(test=MARKED.format(target=command))
@@ -79,6 +80,7 @@ def test_a_mark_turns_a_mapper_into_one_test_a_claim(session: Session) -> None:
     )
 
 
+@pytest.mark.long
 def test_the_mapper_runs_once_in_each_world_and_the_body_after_each_claim(
     session: Session, pytester: pytest.Pytester
 ) -> None:
@@ -115,6 +117,7 @@ def test_a_wrong_mapper_fails_by_claim_with_the_world_and_the_line(session: Sess
     assert "Traceback" not in result.stdout.str()
 
 
+@pytest.mark.long
 def test_what_is_not_declared_is_skipped_and_does_not_pass(session: Session) -> None:
     result = session("-v", test=MARKED.format(target="mappers:silent"))
     result.assert_outcomes(passed=5, skipped=5)
@@ -124,6 +127,7 @@ def test_what_is_not_declared_is_skipped_and_does_not_pass(session: Session) -> 
         )
 
 
+@pytest.mark.long
 def test_a_mapper_that_raises_shows_where(session: Session) -> None:
     result = session("-k", "isomorphic", test=MARKED.format(target="mappers:raises"))
     result.assert_outcomes(failed=1, deselected=len(CLAIMS) - 1)
@@ -133,6 +137,7 @@ def test_a_mapper_that_raises_shows_where(session: Session) -> None:
     result.stdout.fnmatch_lines([f"  raised at: *mappers.py:{line}"])
 
 
+@pytest.mark.long
 def test_a_mapper_that_hangs_fails_and_leaves_the_rest_undecided(session: Session) -> None:
     test = MARKED.format(target="mappers:loops")
     result = session("--topo-move-timeout", "0.06", test=test)
@@ -145,6 +150,7 @@ def test_a_mapper_that_hangs_fails_and_leaves_the_rest_undecided(session: Sessio
     assert sentence in said(result)
 
 
+@pytest.mark.long
 def test_a_mapper_that_is_too_slow_never_passes(session: Session) -> None:
     test = MARKED.format(target="mappers:strolls")
     result = session("--topo-world-timeout", "0.02", test=test)
@@ -152,6 +158,7 @@ def test_a_mapper_that_is_too_slow_never_passes(session: Session) -> None:
     assert "0 of 12 worlds of 1 to 2 edges, 0 counterexamples; not decided: 0 of 12" in said(result)
 
 
+@pytest.mark.long
 def test_a_mark_takes_a_callable_stands_on_classes_and_meets_parameters(session: Session) -> None:
     result = session(
         "-v",
@@ -194,6 +201,7 @@ MISTAKES = {
 """Arguments of a mark, and what is said to them."""
 
 
+@pytest.mark.long
 def test_a_mark_that_cannot_be_meant_is_an_error_of_one_sentence(
     session: Session, pytester: pytest.Pytester
 ) -> None:
@@ -238,18 +246,21 @@ def test_the_option_alone_collects_tests_without_a_file(session: Session) -> Non
     )
 
 
+@pytest.mark.long
 def test_marks_without_a_target_mean_that_of_the_option(session: Session) -> None:
     test = "import pytest\npytestmark = pytest.mark.topo\ndef test_mine() -> None: ...\n"
     result = session("--topo-target", "basic,folding", "--topo-edges", "1", test=test)
     result.assert_outcomes(passed=4 * len(CLAIMS))
 
 
+@pytest.mark.long
 def test_the_mark_selects_the_tests_of_the_option(session: Session) -> None:
     option = ("--topo-target", "basic", "--topo-edges", "1")
     test = "def test_other() -> None: ...\n"
     session(*option, "-m", "topo", test=test).assert_outcomes(passed=len(CLAIMS), deselected=1)
 
 
+@pytest.mark.long
 def test_a_target_that_is_none_is_an_error_of_collection(session: Session) -> None:
     result = session("--topo-target", "nix")
     assert result.ret == pytest.ExitCode.INTERRUPTED
@@ -300,6 +311,7 @@ def test_numbers_that_cannot_be_meant_are_refused() -> None:
                 parser.parse([f"{option}={text}"])
 
 
+@pytest.mark.long
 def test_the_help_has_a_group_and_the_mark_is_known(session: Session) -> None:
     text = session("--help").stdout.str()
     group = text.partition("topo-verify (mappers with one robot and one marker):")[2]
@@ -312,6 +324,7 @@ def test_the_help_has_a_group_and_the_mark_is_known(session: Session) -> None:
 # ---------------------------------------------------------------- fixtures
 
 
+@pytest.mark.long
 def test_the_fixtures_give_a_robot_and_a_report(session: Session) -> None:
     result = session(
         test="""
@@ -488,6 +501,7 @@ def test_a_property_of_a_mapper_has_no_deadline_unless_the_user_has_set_one(
     session().assert_outcomes(passed=6)
 
 
+@pytest.mark.nightly
 def test_tracebacks_show_the_users_code_and_none_of_ours(session: Session) -> None:
     result = session(
         "--tb=short",
@@ -533,6 +547,7 @@ def test_tracebacks_show_the_users_code_and_none_of_ours(session: Session) -> No
     assert not re.findall(r"topo_verify/\S+\.py:\d+: ", text)
 
 
+@pytest.mark.long
 def test_the_traceback_of_a_bug_of_ours_is_shown_whole(session: Session) -> None:
     result = session(
         "--tb=short",
@@ -571,6 +586,7 @@ def test_nothing_heavy_is_imported_until_a_mapper_is_tested(tmp_path: Path) -> N
     assert done.stdout.splitlines()[-1] == "loaded [] False True", done.stdout + done.stderr
 
 
+@pytest.mark.long
 def test_a_junit_file_has_the_worlds_and_the_line(
     session: Session, pytester: pytest.Pytester
 ) -> None:
@@ -591,6 +607,7 @@ def test_a_junit_file_has_the_worlds_and_the_line(
     assert case.find("failure") is not None
 
 
+@pytest.mark.nightly
 @pytest.mark.skipif(find_spec("xdist") is None, reason="pytest-xdist is not installed")
 @pytest.mark.parametrize("how", ["load", "loadscope"])
 def test_the_summary_is_the_same_with_several_processes(session: Session, how: str) -> None:
@@ -621,6 +638,7 @@ def test_the_lines_of_the_mapper_are_covered_beside_pytest_cov(
 # ---------------------------------------------------------------- text of unknown origin
 
 
+@pytest.mark.nightly
 def test_no_text_of_a_mapper_or_its_file_controls_a_terminal(
     session: Session, pytester: pytest.Pytester
 ) -> None:
