@@ -20,7 +20,7 @@ def with_marks(
         **dict.fromkeys(long, pytest.mark.long),
         **dict.fromkeys(nightly, pytest.mark.nightly),
     }
-    named = [(getattr(value, "name", value), value) for value in values]
+    named: list[tuple[Any, object]] = [(getattr(value, "name", value), value) for value in values]
     if missing := marks.keys() - {name for name, _ in named}:
         raise ValueError(f"no parameter is named {sorted(missing)}: use the name of a parameter")
     return [pytest.param(value, marks=marks.get(name, ())) for name, value in named]
