@@ -30,28 +30,28 @@ FOLDER = Path(__file__).parent / "reference"
 PAGE, NAMES, PYTHON = (FOLDER / name for name in ("_commands.md", "names.txt", "python.txt"))
 
 ENTRIES = {
-    "verify": "verify.Part",
-    "explore": "explore.ExploreEntry",
-    "world show": "world.ShowEntry",
-    "world list": "world.ListEntry",
-    "world count": "world.CountEntry",
-    "world convert": "world.ConvertEntry",
-    "world sample": "world.SampleEntry",
-    "world draw": "world.DrawEntry",
-    "search": "search.study.SearchEntry",
-    "prove": "prove.ProveEntry prove.ProveListEntry",
-    "conform": "conform.LevelResult",
-    "record": "record.study.RecordEntry",
-    "compare": "compare.Comparison",
-    "replay": "replay.ReplayEntry",
-    "play": "play.PlayEntry",
-    "certify": "certify.CertifyEntry certify.study.CertificateEntry",
-    "tour": "tour.TourEntry",
-    "arena": "arena.LeagueEntry",
-    "header": "header.HeaderEntry",
-    "reproduce": "reproduce.pts.FigurePoint",
+    "verify": "Part",
+    "explore": "ExploreEntry",
+    "world show": "ShowEntry",
+    "world list": "ListEntry",
+    "world count": "CountEntry",
+    "world convert": "ConvertEntry",
+    "world sample": "SampleEntry",
+    "world draw": "DrawEntry",
+    "search": "study.SearchEntry",
+    "prove": "ProveEntry ProveListEntry",
+    "conform": "LevelResult",
+    "record": "study.RecordEntry",
+    "compare": "Comparison",
+    "replay": "ReplayEntry",
+    "play": "PlayEntry",
+    "certify": "CertifyEntry study.CertificateEntry",
+    "tour": "TourEntry",
+    "arena": "LeagueEntry",
+    "header": "HeaderEntry",
+    "reproduce": "pts.FigurePoint",
 }
-"""The records that each command prints, by their modules in topo_verify/cli/."""
+"""The records that each command prints, as the module of the command names them."""
 
 OCCASIONS = {
     "ProveListEntry": "with `--list`",
@@ -142,13 +142,8 @@ COMMANDS = dict(leaves(main))
 
 def records(path: str) -> list[Any]:
     """The records that a command prints, as msgspec sees them."""
-    found: list[Any] = []
-    for name in ENTRIES[path].split():
-        module, _, record = name.partition(".")
-        found.append(
-            types.type_info(attrgetter(record)(import_module(f"topo_verify.cli.{module}")))
-        )
-    return found
+    module = import_module(COMMANDS[path].callback.__module__)
+    return [types.type_info(attrgetter(name)(module)) for name in ENTRIES[path].split()]
 
 
 def page() -> str:

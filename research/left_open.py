@@ -27,10 +27,10 @@ from topo_verify.algorithms.exploration import explore
 from topo_verify.algorithms.motion import Executed, retrace
 from topo_verify.algorithms.policies import nearest, order_policy, pick_policy, shortest
 from topo_verify.algorithms.rules import NoRule, RecordsRule, Seen
-from topo_verify.report.figures.words import LADDER
+from topo_verify.extra.figures.figures import GRAPHS, PAIRS, PolicyPair
+from topo_verify.extra.figures.words import LADDER
 from topo_verify.robot.events import MapDart, Robot
 from topo_verify.robot.simulator import SimulatedRobot
-from topo_verify.studies.reproduce.figures import GRAPHS, PAIRS, PolicyPair
 from topo_verify.world.resolve import resolve_world
 
 FAMILIES = ("lattice(10,10,holes=0.2,seed={})", "regular(40,8,holes=0.2,seed={})")

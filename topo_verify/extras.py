@@ -17,10 +17,16 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
-COMMANDS: dict[str, str] = {}
+COMMANDS = {
+    "arena": "arena.command:arena",
+    "reproduce": "figures.command:reproduce",
+}
 """The place of each command."""
 
-OPTIONS: dict[str, tuple[str, ...]] = {"search": ("dask.options:dask",)}
+OPTIONS = {
+    "explore": ("films.options:svg",),
+    "search": ("dask.options:dask",),
+}
 """The places of the options that extras add to a command of the main house.
 
 They stand in the extra's options.py, each a decorator made by click. The command gets their values
@@ -30,7 +36,10 @@ by name; what it asks of a value is a protocol in the file of the command.
 BACKENDS = {"cluster": "dask.backend:DaskBackend"}
 """The place of each backend that Python code asks for by name: made with an address."""
 
-PACKAGES: dict[str, tuple[str, ...]] = {"dask": ("distributed",)}
+PACKAGES = {
+    "dask": ("distributed",),
+    "figures": ("matplotlib",),
+}
 """The packages of other projects that an extra needs, by the names that Python imports."""
 
 

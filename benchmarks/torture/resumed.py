@@ -25,7 +25,7 @@ from readers import Count
 from trial import Outcome, difference, objection, run
 
 from topo_verify.campaign.campaign import Campaign, _Order
-from topo_verify.studies.arena.suites import SUITES, Suite, drawn, every
+from topo_verify.extra.arena.suites import SUITES, Suite, drawn, every
 
 SUITES["resumed"] = Suite("resumed", "small", (every(1), drawn("lattice(3,3,holes=0.1)", 2)))
 

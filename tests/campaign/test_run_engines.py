@@ -16,10 +16,10 @@ from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import ENGINES, CompiledAlgorithm, Engine, on_engine
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import one_target
+from topo_verify.extra.figures import points
+from topo_verify.extra.figures.figures import FIGURES, LATTICE, FigureExtent
+from topo_verify.extra.figures.points import line_campaigns
 from topo_verify.robot.events import MapData
-from topo_verify.studies.reproduce import points
-from topo_verify.studies.reproduce.figures import FIGURES, LATTICE, FigureExtent
-from topo_verify.studies.reproduce.points import line_campaigns
 
 pytest.importorskip("numba")
 

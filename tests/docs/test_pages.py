@@ -37,7 +37,7 @@ LEFT_OUT = {
     r"\d+'? .*": "pseudo-code",
     r".* benchmarks/\S+\.py.*": "measures for minutes",
     r".* -m research\..*": "minutes to hours; tests/docs/test_price.py prints stored runs",
-    r".*arena all|.*arena basic,folding --cmd .*": "a minute; tests/cli/test_arena.py",
+    r".*arena all|.*arena basic,folding --cmd .*": "a minute; tests/extra/arena/",
     r".*--engine compiled.*": "compiles for a minute; tests/cli/test_search.py, tests/compiled/",
     r".*--marker all": "146 runs; tests/cli/test_explore.py",
     r".*--policies every --edges 4.*": "minutes; tests/studies/search/",
@@ -45,12 +45,12 @@ LEFT_OUT = {
     r"\{ echo .*|for f in .*|coqchk .*": "needs Coq; tests/proofs/mechanised/",
     r"(cp -r|cd|sed -i.bak) .*": "needs Coq; tests/proofs/mechanised/test_mutants.py",
     r".*prove --kind .*": "a minute and more; tests/proofs/",
-    r".*topo-verify reproduce .*": "minutes; tests/cli/test_reproduce.py",
+    r".*topo-verify reproduce .*": "minutes; tests/extra/figures/",
     r".*(-m |bin/)pytest.*": "tests by themselves",
     r"dask .*": "a cluster; tests/extra/dask/test_cluster.py",
     r".*conform --cmd './mapper --fast'.*": "the reader's program",
     r".* LOG( .*)?": "the reader's log",
-    r"topo-verify explore .* --svg docs/.*": "tests/cli/test_explore.py compares the picture",
+    r"topo-verify explore .* --svg docs/.*": "tests/extra/films/ compares the picture",
 }
 PROGRAM, PYTHON = ".venv/bin/topo-verify ", ".venv/bin/python "
 
@@ -188,7 +188,7 @@ def test_links_are_found_in_running_text_alone() -> None:
 
 
 def test_the_help_names_pages_that_are_there() -> None:
-    sources = "".join(path.read_text() for path in (ROOT / "topo_verify" / "cli").glob("*.py"))
+    sources = "".join(path.read_text() for path in (ROOT / "topo_verify").rglob("*.py"))
     named = set(re.findall(r"docs/([\w/-]+\.md)", sources))
     assert "semantics.md" in named
     assert not {name for name in named if not (DOCS / name).exists()}

@@ -14,7 +14,7 @@ from tests.pictures.played import confirms_at_once
 from tests.pictures.played import playback_of as played
 from topo_verify import CATALOGUE, Percept, World, families
 from topo_verify.campaign.run import explore
-from topo_verify.pictures.animation.film import BESIDE, COLUMNS
+from topo_verify.extra.films.film import BESIDE, COLUMNS
 from topo_verify.pictures.narrator import Narrator, Saying
 from topo_verify.pictures.scenes import Moment, Playback
 from topo_verify.pictures.walk import Extent, lines

@@ -10,11 +10,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, count
 from statistics import mean
-from typing import Literal
+from typing import Literal, Protocol
 
 import click
 import msgspec
 
+from topo_verify import extras
 from topo_verify.campaign.judge import Report, is_for_compiled_judge
 from topo_verify.campaign.run import Engine, Exploration, on_engine
 from topo_verify.checkers import Finding, Judgement, Status
@@ -24,6 +25,7 @@ from topo_verify.cli import former, options, runs
 from topo_verify.cli.output import Output, Result, Rows, entry_of
 from topo_verify.errors import InputError, plural
 from topo_verify.pictures.recording import PlayedRun
+from topo_verify.pictures.scenes import Playback
 from topo_verify.programs.loader import Target
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Text, TextTable
@@ -110,12 +112,25 @@ marker_option = click.option(
 )
 
 
+class RunFile(Protocol):
+    """What an option of an extra asks for: a file made of one run."""
+
+    @property
+    def name(self) -> str:
+        """The name of the file."""
+        ...
+
+    def write(self, playback: Playback, mapper: str) -> None:
+        """Write the file."""
+        ...
+
+
 @dataclass(frozen=True)
 class _ExploreOptions:
     limits: Limits
     trace: str | None
     player: str | None
-    svg: str | None
+    files: tuple[RunFile, ...]
     strict: bool
     gap: bool
     everywhere: bool
@@ -147,9 +162,7 @@ class _ExploreOptions:
 @marker_option
 @click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
 @options.player
-@click.option(
-    "--svg", metavar="FILE", help="Write an animated SVG of the run (one short run only)."
-)
+@extras.options("explore")
 @options.strict
 @click.option(
     "--gap", is_flag=True, help="Count the hypotheses that were walked although already refuted."
@@ -165,10 +178,10 @@ def explore(
     marker: int | Literal["all"] | None,
     trace: str | None,
     player: str | None,
-    svg: str | None,
     strict: bool,
     gap: bool,
     limits: Limits,
+    **added: RunFile | None,
 ) -> int:
     """Run algorithms in given worlds and show what each run costs and which claims hold.
 
@@ -177,18 +190,18 @@ def explore(
     the marker's direction at the end of the new edge differs at once.
     """
     everywhere = marker == "all"
+    made = {option: file for option, file in added.items() if file is not None}
+    names = {option: file.name for option, file in made.items()}
 
     def explored() -> Iterator[Result[ExploreEntry]]:
         targets = on_engine(engine, mappers.load(), limits)
-        output.require_places(trace=trace, svg=svg)
+        output.require_places(trace=trace, **names)
         if everywhere:
-            _require_one_marker({"--trace": trace, "--player": player, "--gap": gap})
-            if svg is not None:
-                raise InputError(former("explore --marker all --svg"))
+            _require_one_marker({"trace": trace, "player": player, "gap": gap, **names})
         starts = runs.named_worlds(worlds, marker if isinstance(marker, int) else None)
-        for option, value in (("--trace", trace), ("--svg", svg), ("--choices", choices)):
-            if value is not None and not (everywhere and option == "--choices"):
-                _require_one_run(option, value, targets, starts)
+        for option, value in {"trace": trace, **names, "choices": choices}.items():
+            if value is not None and not (everywhere and option == "choices"):
+                _require_one_run(f"--{option}", value, targets, starts)
         runs.require_one_world(player, len(starts))
         listed = None
         if choices is not None and not everywhere:
@@ -199,7 +212,9 @@ def explore(
                 )
             listed = ListedChoices(targets[0], choices)
             targets = (listed.target,)
-        asked = _ExploreOptions(limits, trace, player, svg, strict, gap, everywhere, listed)
+        asked = _ExploreOptions(
+            limits, trace, player, tuple(made.values()), strict, gap, everywhere, listed
+        )
         return _results(output, starts, targets, asked)
 
     return output.run(
@@ -224,10 +239,11 @@ def _require_one_run(
 
 
 def _require_one_marker(others: Mapping[str, object]) -> None:
-    for name, value in others.items():
+    for option, value in others.items():
         if value:
             raise InputError(
-                f"{name} is for one marker: leave it out, or name one with --marker DART"
+                former(f"explore --marker all --{option}")
+                or f"--{option} is for one marker: leave it out, or name one with --marker DART"
             )
 
 
@@ -290,12 +306,10 @@ def _explored(
 def _write_run(asked: _ExploreOptions, run: Exploration, played: PlayedRun) -> None:
     if asked.trace is not None:
         files.write(asked.trace, write_trace(run.kept_trace).decode())
-    if asked.svg is not None:
-        from topo_verify.pictures.animation import animated_svg
-        from topo_verify.pictures.scenes import Playback
-
+    if asked.files:
         playback = Playback(run.world, run.trace, played.judgements, run.stopped)
-        files.write(asked.svg, animated_svg(playback, name=run.algorithm))
+        for file in asked.files:
+            file.write(playback, run.algorithm)
 
 
 def _placed(at: runs.NamedWorld) -> Iterator[runs.NamedWorld]:

@@ -12,5 +12,4 @@ walk.py        the run as text, S beside the truth
 cards.py       reports and findings as HTML, for notebooks
 recording.py   a run as compact data for the page
 page.py        the page, from the parts in page/
-animation/     a run as an animated SVG
 """

@@ -4,6 +4,5 @@ blocks.py     what a command says, without a form; tones of verdicts, the palett
 terminal.py, markdown.py, html.py   blocks in one form each
 account.py    what was judged, how much of it, and the counterexamples to show
 page.py, junit.py, badge.py         an account in one form each
-league.py     the plot of the arena
-figures/      the paper's figures as pictures, with a paragraph under each
+csv_table.py  rows as CSV
 """

@@ -4,8 +4,6 @@ verify/          the main job
 search/          every world of a class
 conform/         an implementation against the reference
 baseline/        record and compare
-arena/           mappers ranked by cost
-reproduce/       the paper's figures
 gap.py           how far a rule is from the best
 corpus.py        what WORLDS means
 beside.py        calls in worker processes

@@ -1,0 +1,222 @@
+"""`topo-verify reproduce`: the paper's figures, beside the numbers that its text states."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from collections.abc import Iterator, Sequence
+from importlib.util import find_spec
+from pathlib import Path
+
+import click
+
+from topo_verify.campaign.row import Row
+from topo_verify.campaign.run import Engine, explore, require_compiled
+from topo_verify.campaign.work import processors
+from topo_verify.cli import options
+from topo_verify.cli.output import Output, Result
+from topo_verify.cli.runs import finding_blocks
+from topo_verify.errors import InputError
+from topo_verify.extra.figures import figures as fig
+from topo_verify.extra.figures import points as pts
+from topo_verify.extra.figures.words import PAGE, SHORT, judged_sentence, page, paragraph, stem
+from topo_verify.report.blocks import Block, Text, TextTable
+from topo_verify.robot.limits import Limits
+from topo_verify.world.formats import files
+from topo_verify.world.rooted_map import World
+
+MATPLOTLIB = (
+    f"no pictures: they need matplotlib: {sys.executable} -m pip install matplotlib; the CSV files"
+    " are written all the same"
+)
+
+_Found = list[tuple[fig.Figure, list[pts.FigurePoint]]]
+
+
+@options.command(
+    "reproduce --quick",
+    "reproduce --figure 3,6d --out figures",
+    "reproduce --figure 6d --policies --graphs 10 --format json",
+)
+@click.option(
+    "--figure",
+    default="all",
+    show_default=True,
+    metavar="F",
+    help=f"all, 6, or some of {', '.join(fig.FIGURES)} with commas.",
+)
+@click.option(
+    "--quick", is_flag=True, help=f"Small sizes, {fig.QUICK_GRAPHS} graphs a point: under a minute."
+)
+@click.option(
+    "--policies",
+    is_flag=True,
+    help=f"Run {len(fig.PAIRS)} pairs of pick and order policies; show the spread of the means.",
+)
+@options.number(
+    "--graphs",
+    least=1,
+    most=fig.SEEDS,
+    meaning=f"Graphs a point.  [default: {fig.GRAPHS}, as in the paper]",
+)
+@click.option(
+    "--out",
+    default="figures",
+    show_default=True,
+    metavar="DIR",
+    help="Write CSV, pictures and a page to DIR; resume from its runs.",
+)
+@options.seed("Of the graphs.")
+@options.engine
+@options.number("--workers", least=1, meaning="Processes.  [default: all processors]")
+def reproduce(
+    output: Output,
+    *,
+    figure: str,
+    quick: bool,
+    policies: bool,
+    graphs: int | None,
+    out: str,
+    seed: int,
+    engine: Engine,
+    workers: int | None,
+) -> int:
+    """Draw the paper's Figures 3 and 6 a-f again: mean costs with standard errors.
+
+    Each picture also shows the numbers in the paper's text, the least cost of a proof, and the
+    complete rule, folding. Every run is judged by every claim. The same options give the same
+    CSV bytes. With --engine compiled lattices grow to 100x100.
+    """
+    usual = fig.QUICK_GRAPHS if quick else fig.GRAPHS
+    pairs, large = fig.PAIRS if policies else (fig.REFERENCE,), engine == "compiled" and not quick
+    extent = fig.FigureExtent(graphs or usual, quick, pairs, seed, large)
+    words = ["topo-verify", "reproduce", *(["--figure", figure] if figure != "all" else [])]
+    words += ["--quick"] * quick + ["--policies"] * policies
+    words += ["--graphs", str(graphs)] if graphs else []
+    words += ["--seed", str(seed)] if seed else []
+    words += ["--engine", engine] if engine != "reference" else []
+
+    def points() -> Iterator[Result[pts.FigurePoint]]:
+        figures = fig.chosen_figures(figure)
+        if engine == "compiled":
+            require_compiled((), Limits())
+            if policies:
+                raise InputError(
+                    "--policies with --engine compiled: that engine knows the reference policies"
+                    " only; leave one of the two out"
+                )
+        pictures = find_spec("matplotlib") is not None
+        if not pictures:
+            output.note(MATPLOTLIB)
+        folder = options.make_folder(out, "--out")
+        runs = _runs(output, figures, extent, engine, folder, workers or processors())
+        drawn = [(chosen, pts.figure_points(chosen, extent, runs)) for chosen in figures]
+        _write(folder, drawn, shlex.join([*words, "--out", out]), pictures=pictures)
+        for _, line in drawn:
+            for point in line:
+                incomplete = point.undecided > 0
+                yield Result(point, failed=bool(point.findings), incomplete=incomplete)
+
+    return output.run(
+        "reproduce",
+        points,
+        lambda entries: _show(entries, out, seed),
+        seed=seed,
+        quick=quick,
+        graphs=extent.graphs,
+    )
+
+
+def _runs(
+    output: Output,
+    figures: Sequence[fig.Figure],
+    extent: fig.FigureExtent,
+    engine: Engine,
+    folder: Path,
+    workers: int,
+) -> dict[pts.PlannedRun, Row]:
+    if engine == "compiled":
+        # Before the workers start, so that they find compiled kernels in the cache.
+        explore(World.from_id("m1/0"), engine=engine)
+    with options.open_store(folder) as store:
+        assert store is not None, "there is a folder"
+        campaigns = pts.line_campaigns(figures, extent, engine, store)
+        here = 0 if workers == 1 else workers
+        rows = options.stored_rows(output, campaigns, here, store)
+        return {run: row for row in rows for run in pts.runs_of(row)}
+
+
+def _write(folder: Path, figures: _Found, command: str, *, pictures: bool) -> None:
+    for figure, points in figures:
+        files.write(folder / f"{stem(figure)}.csv", pts.points_csv(points))
+        if pictures:
+            _draw(folder, figure, points)
+    every = [point for _, points in figures for point in points]
+    settings = {figure.name: figure.setting.name for figure, _ in figures}
+    files.write(folder / "growth.csv", pts.growth_csv(every, settings))
+    judged = judged_sentence(every)
+    files.write(folder / PAGE, page(figures, command=command, judged=judged, pictures=pictures))
+
+
+def _draw(folder: Path, figure: fig.Figure, points: Sequence[pts.FigurePoint]) -> None:
+    from topo_verify.extra.figures.pictures import picture
+
+    for kind in ("svg", "png"):
+        files.write(folder / f"{stem(figure)}.{kind}", picture(figure, points, kind))
+
+
+# ---------------------------------------------------------------- for people
+
+
+def _show(entries: Sequence[pts.FigurePoint], out: str, seed: int) -> Iterator[Block]:
+    for name in dict.fromkeys(point.figure for point in entries):
+        figure = fig.FIGURES[name]
+        points = [point for point in entries if point.figure == name]
+        yield _table(figure, [point for point in points if point.is_reference])
+        yield Text("")
+        yield Text(paragraph(figure, points, entries))
+        yield Text("")
+    if not entries:
+        return
+    yield _growth_table(entries)
+    yield Text("")
+    yield Text(judged_sentence(entries))
+    for point in entries:
+        yield from finding_blocks(point.findings, f"{point.algorithm} in figure {point.figure}")
+    drawn = "CSV, pictures" if find_spec("matplotlib") else "CSV"
+    yield Text(f"{drawn} and {PAGE} are in {out}; seed {seed}.")
+
+
+def _table(figure: fig.Figure, points: Sequence[pts.FigurePoint]) -> TextTable:
+    names = (*figure.lines, *fig.YARDSTICKS)
+    cells = {(point.size, point.algorithm): point for point in points}
+    rows = [
+        (str(size), *(_cell(cells.get((size, name))) for name in names))
+        for size in sorted({point.size for point in points})
+    ]
+    title = f"Figure {figure.name}: {figure.title} (edge traversals ± standard error)"
+    return TextTable((">size", *(f">{SHORT[name]}" for name in names)), rows, title)
+
+
+def _cell(point: pts.FigurePoint | None) -> str:
+    if point is None:
+        return "-"
+    if point.stderr is None or point.algorithm in fig.YARDSTICKS:
+        return f"{point.mean:.0f}"
+    return f"{point.mean:.0f}±{point.stderr:.0f}"
+
+
+def _growth_table(entries: Sequence[pts.FigurePoint]) -> TextTable:
+    rows = dict.fromkeys(
+        (
+            fig.FIGURES[point.figure].setting.name,
+            point.algorithm,
+            f"{point.growth.exponent:.2f}",
+            "-" if point.growth.stderr is None else f"{point.growth.stderr:.2f}",
+            str(point.growth.points),
+        )
+        for point in entries
+        if point.growth is not None and point.is_reference
+    )
+    columns = ("graphs", "line", ">exponent of m", ">± standard error", ">sizes")
+    return TextTable(columns, list(rows), "Growth: cost ~ m^exponent, fitted to the means")

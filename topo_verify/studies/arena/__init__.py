@@ -1,1 +1,0 @@
-"""The arena: mappers in named suites of worlds, ranked by cost if every claim holds."""
