@@ -62,7 +62,7 @@ nightly: $(VENV)/.dev
 
 # Coq itself comes from the distribution: apt install coq
 coq: $(VENV)/.dev
-	$(PYTEST) $(PARALLEL) -m 'not rare' tests/proofs/mechanised tests/cli/test_certify_kernel.py tests/cli/test_certify_check.py tests/cli/test_replay.py $(call report,coq)
+	$(PYTEST) $(PARALLEL) -m 'not rare' tests/proofs/mechanised tests/extra/certificates $(call report,coq)
 
 # Into build/docs; a warning is an error. The examples in docstrings run; no network is used.
 SPHINX := $(BIN)/python -m sphinx --quiet --nitpicky --fail-on-warning --keep-going -d build/doctrees docs

@@ -16,7 +16,8 @@ from tests.proofs.mechanised.conftest import nowhere
 from topo_verify import World, families
 from topo_verify.checkers import CLAIMS, Judgement, check
 from topo_verify.cli.runs import unjudged
-from topo_verify.proofs.mechanised import judge, toolchain
+from topo_verify.extra.certificates import judge
+from topo_verify.proofs.mechanised import toolchain
 from topo_verify.report.account import claim_cases
 from topo_verify.robot.limits import BudgetExceeded
 

@@ -18,11 +18,10 @@ from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.cli.runs import finding_line
 from topo_verify.errors import InputError, plural
-from topo_verify.proofs.mechanised import certificates
+from topo_verify.extra.certificates import certificates, study
 from topo_verify.report.blocks import Block, Bullets, Text, TextTable
 from topo_verify.robot.events import Move
 from topo_verify.robot.limits import MOST_SECONDS
-from topo_verify.studies import certificates as study
 from topo_verify.studies.advice import Advice
 from topo_verify.studies.log_file import line_of, read_log
 from topo_verify.studies.log_report import Certificate, OpenDoor, said_of_readings

@@ -15,10 +15,10 @@ from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.errors import InputError, InternalError, plural
+from topo_verify.extra.certificates import judge
 from topo_verify.pictures.recording import PlayedRun
 from topo_verify.pictures.walk import Extent
 from topo_verify.programs.loader import Target
-from topo_verify.proofs.mechanised import judge
 from topo_verify.report.blocks import Block, Text
 from topo_verify.robot.events import Finish, Move, Start, read_trace
 from topo_verify.robot.limits import Limits

@@ -9,7 +9,6 @@ corpus.py        what WORLDS means
 beside.py        calls in worker processes
 log_file.py      reads a robot's log
 log_report.py    what a log proves without its world
-certificates.py  the same in Coq
 advice.py        where a robot goes next
 map_check.py     judges a map by a log
 """

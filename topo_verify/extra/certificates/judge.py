@@ -21,13 +21,13 @@ from typing import get_args
 from topo_verify.checkers import CLAIMS, Judgement, Status
 from topo_verify.checkers.folding import OWN_END, TURNED, TWO_OF_S, UNLIKE
 from topo_verify.errors import InputError
-from topo_verify.proofs.mechanised import toolchain
-from topo_verify.proofs.mechanised.certificate_format import (
+from topo_verify.extra.certificates.certificate_format import (
     LARGEST,
     event_line,
     optional,
     percept_line,
 )
+from topo_verify.proofs.mechanised import toolchain
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 from topo_verify.world.rooted_map import World

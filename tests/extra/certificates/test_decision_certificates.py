@@ -10,15 +10,16 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace as replace_struct
 
+from tests.extra.certificates.test_certificates import by_coqc, by_program, needs_ocaml, numbers_of
+from tests.extra.certificates.test_evidence import BACKWARDS
 from tests.helpers import edited, fits, of_type, trace_of, worlds
 from tests.helpers import place as place_of
 from tests.proofs.mechanised.conftest import LIMIT
-from tests.proofs.mechanised.test_certificates import by_coqc, by_program, needs_ocaml, numbers_of
-from tests.proofs.mechanised.test_evidence import BACKWARDS
 from topo_verify import World, families
 from topo_verify.algorithms import CATALOGUE
-from topo_verify.proofs.mechanised import certificates, evidence, toolchain
-from topo_verify.proofs.mechanised.certificate_format import CoqCertificate, data_file
+from topo_verify.extra.certificates import certificates, evidence
+from topo_verify.extra.certificates.certificate_format import CoqCertificate, data_file
+from topo_verify.proofs.mechanised import toolchain
 from topo_verify.robot.events import Augment, Confirm, Event, Move, Reject
 from topo_verify.world.enumeration.rank_order import count
 

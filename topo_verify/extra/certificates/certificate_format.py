@@ -15,7 +15,7 @@ from typing import Literal
 import msgspec
 
 from topo_verify.errors import InputError, plural
-from topo_verify.proofs.mechanised import evidence
+from topo_verify.extra.certificates import evidence
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept
 

@@ -16,14 +16,15 @@ from tests.helpers import edited, of_type, trace_of, with_darts, worlds
 from tests.proofs.mechanised.conftest import LIMIT, nowhere
 from topo_verify import World, families
 from topo_verify.errors import InputError
-from topo_verify.proofs.mechanised import certificate_format, certificates, toolchain
-from topo_verify.proofs.mechanised.certificate_format import (
+from topo_verify.extra.certificates import certificate_format, certificates
+from topo_verify.extra.certificates.certificate_format import (
     CertifiedStatement,
     CoqCertificate,
     parse,
     text_of,
 )
-from topo_verify.proofs.mechanised.evidence import Alone, Arrive, Illegal, MapRow, Marked
+from topo_verify.extra.certificates.evidence import Alone, Arrive, Illegal, MapRow, Marked
+from topo_verify.proofs.mechanised import toolchain
 from topo_verify.robot.events import Event, Finish, MapData, Move, Start
 from topo_verify.robot.percept import Percept
 from topo_verify.studies.log_report import certify

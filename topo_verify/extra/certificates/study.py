@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 import msgspec
 
 from topo_verify.errors import InternalError
-from topo_verify.proofs.mechanised import certificate_format, certificates, evidence
+from topo_verify.extra.certificates import certificate_format, certificates, evidence
 from topo_verify.robot.events import Trace
 from topo_verify.studies.log_report import Certificate
 from topo_verify.world.formats import files

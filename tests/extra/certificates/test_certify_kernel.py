@@ -14,7 +14,8 @@ from tests.cli.conftest import Call, Results
 from tests.cli.test_certify import RING
 from tests.helpers import of_type, place, trace_of
 from tests.proofs.mechanised.conftest import nowhere
-from topo_verify.proofs.mechanised import certificates, toolchain
+from topo_verify.extra.certificates import certificates
+from topo_verify.proofs.mechanised import toolchain
 from topo_verify.robot.events import Augment, Confirm, Reject, write_trace
 
 needs_coq = pytest.mark.skipif(bool(toolchain.missing()), reason=toolchain.missing())
@@ -29,7 +30,7 @@ def logs(folder: Path) -> None:
 
 
 def judging(monkeypatch: pytest.MonkeyPatch, checked: certificates.CertificateCheck) -> None:
-    target = "topo_verify.proofs.mechanised.certificates._Checker.check"
+    target = "topo_verify.extra.certificates.certificates._Checker.check"
     monkeypatch.setattr(target, Mock(return_value=checked))
 
 
@@ -160,7 +161,7 @@ def test_decisions_whose_evidence_is_too_long_make_the_run_incomplete(
 ) -> None:
     write_log("run.jsonl")
     judging(monkeypatch, certified(0))
-    monkeypatch.setattr("topo_verify.proofs.mechanised.evidence.MOST", 5)
+    monkeypatch.setattr("topo_verify.extra.certificates.evidence.MOST", 5)
     (entry,) = results("certify run.jsonl --kernel", code=3)["results"]
     assert entry["kernel"]["accepted"]
     assert entry["kernel"]["decisions"]["certified"] == 0

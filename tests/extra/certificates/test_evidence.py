@@ -12,8 +12,8 @@ from topo_verify import families
 from topo_verify.checkers import Fold
 from topo_verify.checkers.replayed_trace import ReplayedTrace
 from topo_verify.errors import InternalError
-from topo_verify.proofs.mechanised import evidence
-from topo_verify.proofs.mechanised import evidence as module
+from topo_verify.extra.certificates import evidence
+from topo_verify.extra.certificates import evidence as module
 from topo_verify.robot.events import Augment, Confirm, Move, Reject, Start, Trace
 from topo_verify.robot.percept import Percept
 from topo_verify.robot.simulator import exit_dart

@@ -19,8 +19,9 @@ from tests.cli.conftest import Call, Refused, Results
 from tests.helpers import edited, place, trace_of, with_darts
 from tests.proofs.mechanised.conftest import nowhere
 from topo_verify import families
-from topo_verify.proofs.mechanised import certificates, toolchain
-from topo_verify.proofs.mechanised.certificate_format import HEADER, text_of
+from topo_verify.extra.certificates import certificates
+from topo_verify.extra.certificates.certificate_format import HEADER, text_of
+from topo_verify.proofs.mechanised import toolchain
 from topo_verify.robot.events import Augment, Confirm, Event, Finish, Move, Reject, write_trace
 from topo_verify.robot.percept import Percept
 

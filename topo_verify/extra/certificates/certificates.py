@@ -26,19 +26,20 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from topo_verify.errors import InputError
-from topo_verify.proofs.mechanised import certificate_format, toolchain
-from topo_verify.proofs.mechanised.certificate_format import (
+from topo_verify.extra.certificates import certificate_format
+from topo_verify.extra.certificates.certificate_format import (
     STATEMENTS,
     WIDEST,
     CertifiedStatement,
     CoqCertificate,
 )
-from topo_verify.proofs.mechanised.evidence import (
+from topo_verify.extra.certificates.evidence import (
     FoldedLog,
     MapRow,
     evidence_for_decisions,
     fold_log,
 )
+from topo_verify.proofs.mechanised import toolchain
 from topo_verify.robot.events import Event, Finish, MapData, Move, Start, require_order
 from topo_verify.robot.percept import Percept
 

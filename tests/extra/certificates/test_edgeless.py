@@ -9,10 +9,10 @@ from typing import Any
 import msgspec
 import pytest
 
+from tests.extra.certificates.test_certificates import LATTICE, by_coqc, by_program, needs_ocaml
 from tests.helpers import EMPTY, edited, trace_of
-from tests.proofs.mechanised.test_certificates import LATTICE, by_coqc, by_program, needs_ocaml
-from topo_verify.proofs.mechanised import certificates, evidence
-from topo_verify.proofs.mechanised.certificate_format import CoqCertificate
+from topo_verify.extra.certificates import certificates, evidence
+from topo_verify.extra.certificates.certificate_format import CoqCertificate
 from topo_verify.robot.events import Finish, Reject
 
 POINT = trace_of(EMPTY)
