@@ -9,7 +9,7 @@ from unittest.mock import Mock
 
 import pytest
 
-from tests.cli.conftest import Call, Results
+from tests.cli.conftest import Call, Refused, Results
 from tests.proofs.first_order.test_theorems import spoiled
 from topo_verify.proofs import catalogue as proofs_catalogue
 from topo_verify.proofs.first_order.obligations import A
@@ -98,6 +98,11 @@ def test_the_questions_are_written_as_smt_lib(results: Results, folder: Path) ->
     assert texts[0].startswith("(set-logic UF)")
     assert texts[1].startswith("(set-logic QF_UF)")
     assert all(text.rstrip().endswith("(check-sat)") for text in texts)
+
+
+def test_a_question_that_cannot_be_written_is_refused(refused: Refused, folder: Path) -> None:
+    (folder / "there" / "percept.smt2").mkdir(parents=True)
+    refused("prove percept --smt2 there", "name another --smt2 DIR")
 
 
 # ---------------------------------------------------------------- no pass is no pass

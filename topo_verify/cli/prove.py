@@ -172,6 +172,7 @@ def prove(
     checks them and what they use of Coq's standard library: some minutes.
     A vacuous theorem is UNKNOWN, which does not pass (exit 3).
     """
+    from topo_verify.proofs.bounded import drup
     from topo_verify.proofs.catalogue import choose
 
     theorems = choose(names, kinds=kinds, edges=edges, deep=deep)
@@ -182,7 +183,7 @@ def prove(
     budget = Budget(
         timeout=timeout,
         seed=seed,
-        certify=certify,
+        certify=drup.certify if certify else None,
         progress=output.progress,
         together=tuple(theorem.name for theorem in theorems),
     )
@@ -277,12 +278,17 @@ def _require(*, second: bool, certify: bool) -> None:
 
 
 def _export(theorem: Theorem, folder: Path) -> None:
-    from topo_verify.proofs.solvers.cvc5_solver import export
-
     if folder.exists() and not folder.is_dir():
         raise InputError(f"--smt2 {folder}: expected a folder, got a file")
     for query in theorem.queries():
-        export(query, folder)
+        path = folder / f"{query.name}.smt2"
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            path.write_text(query.smt2, encoding="utf-8")
+        except OSError as error:
+            raise InputError(
+                f"{path} cannot be written: {error}; name another --smt2 DIR"
+            ) from error
 
 
 def _listed(theorem: Theorem) -> Result[ProveListEntry]:

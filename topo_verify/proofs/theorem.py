@@ -38,6 +38,10 @@ def no_progress(_theorem: str, _done: int, _total: int) -> None:
     pass
 
 
+ClauseCertifier = Callable[..., "RefutationCertificate | str"]
+"""(clauses, seconds=...): a certificate that they contradict, or the reason why none was made."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Budget:
     """The limits of a proof.
@@ -45,14 +49,14 @@ class Budget:
     Attributes:
         timeout: seconds for each query.
         rlimit: Z3's deterministic resource units for each query; 0: no limit.
-        certify: also make certificates, and check them.
+        certify: makes and checks certificates of bounded theorems; None: there are none.
         together: the names of all theorems to prove; Coq compiles their files at once.
     """
 
     timeout: float = 60.0
     rlimit: int = 0
     seed: int = 0
-    certify: bool = False
+    certify: ClauseCertifier | None = None
     progress: TheoremProgress = no_progress
     together: tuple[str, ...] = ()
 

@@ -10,14 +10,14 @@ import pytest
 from topo_verify.errors import InputError
 from topo_verify.proofs.bounded import drup, statements
 from topo_verify.proofs.bounded.cnf import Formula
-from topo_verify.proofs.bounded.drup import DrupRefutation, certify, objection, refute, together
+from topo_verify.proofs.bounded.drup import DrupRefutation, certify, objection, refute
 from topo_verify.proofs.bounded.statements import (
     ONE_DOOR_STATEMENTS,
     WHOLE_WORD_STATEMENTS,
     BoundedStatement,
 )
-from topo_verify.proofs.bounded.theorems import theorem
-from topo_verify.proofs.theorem import Budget, RefutationCertificate
+from topo_verify.proofs.bounded.theorems import theorem, worlds_theorem
+from topo_verify.proofs.theorem import Budget
 
 pytest.importorskip("pysat", reason="python-sat is not installed: topo-verify[proofs]")
 pytest.importorskip("drup", reason="drup is not installed: topo-verify[proofs]")
@@ -39,7 +39,7 @@ def refuted(formula: Formula) -> DrupRefutation:
 @pytest.mark.parametrize("name", [one.name for one in ONE_DOOR_STATEMENTS])
 def test_one_door_theorems_up_to_two_edges_carry_a_checked_certificate(name: str) -> None:
     one = theorem(named(name), range(1, 3))
-    outcome = one.prove(Budget(certify=True))
+    outcome = one.prove(Budget(certify=certify))
     assert outcome.certificate is not None
     assert outcome.certificate.checked
     assert outcome.certificate.checker.startswith("drup ")
@@ -90,7 +90,7 @@ def test_a_refused_certificate_is_no_pass(monkeypatch: pytest.MonkeyPatch) -> No
 
     monkeypatch.setattr(drup, "_proof", none_at_all)
     one = theorem(named("bounded-confirm-back"), range(2, 3))
-    outcome = one.prove(Budget(certify=True))
+    outcome = one.prove(Budget(certify=certify))
     assert outcome.verdict == "EXHAUSTED"
     assert outcome.certificate is not None
     assert not outcome.certificate.checked
@@ -104,20 +104,21 @@ def test_what_is_too_long_for_the_checker_has_no_certificate_and_says_so() -> No
     assert isinstance(told, str)
     assert "--timeout" in told
     one = theorem(named("words-confirm"), range(1, 4))
-    outcome = one.prove(Budget(certify=True, timeout=10))
+    outcome = one.prove(Budget(certify=certify, timeout=10))
     assert outcome.certificate is None
     assert outcome.note.startswith("certificates checked for 2 of 3 sizes; m = 3: ")
 
 
-def test_several_are_checked_only_if_all_are() -> None:
-    good = RefutationCertificate(format="drup", checker="drup", checked=True, clauses=2, steps=3)
-    bad = replace(good, checked=False, why="refused")
-    assert together([good, good]) == replace(good, checker=drup.checker(), clauses=4, steps=6)
-    assert (together([good, bad]).checked, together([good, bad]).why) == (False, "refused")
+def test_that_there_is_no_other_world_is_certified() -> None:
+    one = worlds_theorem("bounded-worlds", range(1, 4))
+    outcome = one.prove(Budget(certify=certify))
+    assert outcome.certificate is not None
+    assert outcome.certificate.checked
+    assert one.ok(outcome)
 
 
 @pytest.mark.parametrize("module", ["drup", "pysat.solvers"])
 def test_a_missing_tool_is_said(module: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, module, None)
     with pytest.raises(InputError, match=r"does not load here .* -m pip install \S+ \("):
-        theorem(named("bounded-closed"), range(1, 2)).prove(Budget(certify=True))
+        theorem(named("bounded-closed"), range(1, 2)).prove(Budget(certify=certify))

@@ -6,6 +6,7 @@ The worlds of their encoding are the rooted maps, each exactly once.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from unittest.mock import Mock
 
@@ -25,11 +26,12 @@ from topo_verify.proofs.bounded.theorems import (
     bounded,
     codes,
     every_world,
+    joint_certificate,
     missing_and_spurious,
     theorem,
     worlds_theorem,
 )
-from topo_verify.proofs.theorem import Budget, Theorem
+from topo_verify.proofs.theorem import Budget, RefutationCertificate, Theorem
 from topo_verify.world.enumeration import rank_order
 
 BUDGET = Budget()
@@ -184,16 +186,6 @@ def test_the_models_are_exactly_the_canonical_codes(edges: int, worlds: int) -> 
     assert set(found) == set(rank_order.tables(edges))
 
 
-def test_that_there_is_no_other_world_is_certified() -> None:
-    pytest.importorskip("drup", reason="drup is not installed: topo-verify[proofs]")
-    pytest.importorskip("pysat", reason="python-sat is not installed: topo-verify[proofs]")
-    theorem = worlds_theorem("bounded-worlds", range(1, 4))
-    outcome = theorem.prove(Budget(certify=True))
-    assert outcome.certificate is not None
-    assert outcome.certificate.checked
-    assert theorem.ok(outcome)
-
-
 @pytest.mark.nightly
 def test_with_five_edges_too() -> None:
     assert missing_and_spurious(5) == (8162, [], [])
@@ -243,3 +235,11 @@ def test_an_encoding_that_loses_a_world_is_refuted(monkeypatch: pytest.MonkeyPat
 def test_a_solver_that_gives_up_has_not_listed_all() -> None:
     with pytest.raises(SolverGaveUp):
         list(codes(4, budget=Budget(rlimit=1)))
+
+
+def test_several_certificates_are_checked_only_if_all_are() -> None:
+    good = RefutationCertificate(format="drup", checker="drup", checked=True, clauses=2, steps=3)
+    bad = replace(good, checked=False, why="refused")
+    assert joint_certificate([good, good]) == replace(good, clauses=4, steps=6)
+    joint = joint_certificate([good, bad])
+    assert (joint.checked, joint.why) == (False, "refused")

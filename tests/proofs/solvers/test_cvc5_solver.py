@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -13,7 +12,7 @@ from tests.proofs.bounded.mutants import MUTANTS, NEGATIVES
 from topo_verify.errors import InputError
 from topo_verify.proofs.bounded.theorems import bounded
 from topo_verify.proofs.first_order.theorems import INDUCTIVE
-from topo_verify.proofs.solvers.cvc5_solver import ask, export
+from topo_verify.proofs.solvers.cvc5_solver import ask
 from topo_verify.proofs.theorem import Query, Theorem
 
 pytest.importorskip("cvc5", reason="cvc5 is not installed: topo-verify[proofs]")
@@ -77,14 +76,6 @@ def test_a_script_that_it_cannot_read_is_refused() -> None:
         ask(Query("broken", "(set-logic QF_UF)\n(assert (nonsense))\n(check-sat)\n", "unsat"))
     with pytest.raises(InputError, match="answers the question silent"):
         ask(Query("silent", "(set-logic QF_UF)\n", "unsat"))
-
-
-def test_a_script_is_written_for_other_solvers(tmp_path: Path) -> None:
-    path = export(CONTRADICTION, tmp_path / "new")
-    assert path.name == "contradiction.smt2"
-    assert path.read_text() == CONTRADICTION.smt2
-    with pytest.raises(InputError, match="name another --smt2 DIR"):
-        export(CONTRADICTION, path)
 
 
 def test_a_missing_cvc5_is_said(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -64,7 +64,10 @@ def certify(formula: Formula, *, seconds: float = 60.0) -> RefutationCertificate
 
     Args:
         seconds: the longest estimated time of the checker.
+    Raises:
+        InputError: a package is missing.
     """
+    require_tools()
     largest = round(seconds * PER_SECOND)
     refutation = refute(formula, most_steps=largest // _FEWEST_CLAUSES)
     if isinstance(refutation, str):
@@ -107,18 +110,6 @@ def objection(formula: Formula, refutation: DrupRefutation) -> str:
         return "its last step is not the empty clause"
     outcome = drup.check_proof(refutation.clauses, refutation.steps).outcome
     return "" if outcome == drup.Outcome.VALID else f"{checker()} refuses it"
-
-
-def together(certificates: list[RefutationCertificate]) -> RefutationCertificate:
-    """One certificate for several formulas, with sums."""
-    return RefutationCertificate(
-        format=FORMAT,
-        checker=checker(),
-        checked=all(part.checked for part in certificates),
-        clauses=sum(part.clauses for part in certificates),
-        steps=sum(part.steps for part in certificates),
-        why=next((part.why for part in certificates if part.why), ""),
-    )
 
 
 def _used(clauses: list[Clause], names: int, most_steps: int) -> list[Clause] | str:

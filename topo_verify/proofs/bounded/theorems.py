@@ -12,14 +12,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import cache, partial
 from itertools import accumulate
 
 from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError
 from topo_verify.proofs import theorem as th
-from topo_verify.proofs.bounded import confirmations, drup
+from topo_verify.proofs.bounded import confirmations
 from topo_verify.proofs.bounded.cnf import REFUTED, Formula, SatResult, SolverGaveUp, models, solve
 from topo_verify.proofs.bounded.encoding import Worlds
 from topo_verify.proofs.bounded.replay import decode_table, decode_world
@@ -173,8 +174,6 @@ def _below(negative: confirmations.Negative) -> th.Theorem:
 def _prove(
     name: str, statement: BoundedStatement, sizes: range, budget: th.Budget
 ) -> th.TheoremResult:
-    if budget.certify:
-        drup.require_tools()
     cores: set[str] = set()
     premises: list[bool | None] = []
     attempts: list[th.RefutationCertificate | str] = []
@@ -212,7 +211,7 @@ def _prove(
             return outcome("UNKNOWN", f"the worlds with {m} edges could not be counted")
         checked += worlds
         if budget.certify and not any(isinstance(attempt, str) for attempt in attempts):
-            attempts.append(drup.certify(formula, seconds=budget.timeout))
+            attempts.append(budget.certify(formula, seconds=budget.timeout))
     return outcome("EXHAUSTED")
 
 
@@ -232,14 +231,25 @@ def _one_certificate(
     ]
     # A refused certificate is a bug, so it is always shown.
     if not attempts or any(not attempt.checked for attempt in certificates):
-        return (drup.together(certificates) if certificates else None), ""
+        return (joint_certificate(certificates) if certificates else None), ""
     if len(certificates) == len(sizes):
-        return drup.together(certificates), ""
+        return joint_certificate(certificates), ""
     for m, attempt in zip(sizes, attempts, strict=False):
         if isinstance(attempt, str):
             checked = f"certificates checked for {len(certificates)} of {len(sizes)} sizes"
             return None, f"{checked}; m = {m}: {attempt}"
     return None, ""
+
+
+def joint_certificate(certificates: Sequence[th.RefutationCertificate]) -> th.RefutationCertificate:
+    """One certificate for several formulas, with sums."""
+    return replace(
+        certificates[0],
+        checked=all(part.checked for part in certificates),
+        clauses=sum(part.clauses for part in certificates),
+        steps=sum(part.steps for part in certificates),
+        why=next((part.why for part in certificates if part.why), ""),
+    )
 
 
 def _questions(
@@ -253,8 +263,6 @@ def worlds_theorem(name: str, sizes: range, *, deep: bool = False) -> th.Theorem
     """The models of the encoding are exactly the canonical codes, each once."""
 
     def prove(budget: th.Budget) -> th.TheoremResult:
-        if budget.certify:
-            drup.require_tools()
         found, wrong = 0, ""
         attempts: list[th.RefutationCertificate | str] = []
         verdict: Verdict = "EXHAUSTED"
@@ -266,7 +274,7 @@ def worlds_theorem(name: str, sizes: range, *, deep: bool = False) -> th.Theorem
                 if missing or spurious:
                     verdict, wrong = "REFUTED", str((missing or spurious)[0])
                 elif budget.certify:
-                    attempts.append(drup.certify(another_world(m), seconds=budget.timeout))
+                    attempts.append(budget.certify(another_world(m), seconds=budget.timeout))
         except SolverGaveUp as gave_up:
             verdict, wrong = "UNKNOWN", str(gave_up)
         certificate, without = _one_certificate(attempts, sizes)

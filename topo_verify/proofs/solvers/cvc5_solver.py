@@ -9,7 +9,6 @@ from __future__ import annotations
 import sys
 from dataclasses import dataclass
 from importlib import import_module
-from pathlib import Path
 from time import perf_counter
 from typing import Any, Literal
 
@@ -71,21 +70,6 @@ def ask(query: Query, *, timeout: float = 60.0) -> SecondAnswer:
         why = why or "full-saturate-quant"
     solver = f"cvc5 {import_module('cvc5').__version__}"
     return SecondAnswer(query.name, solver, answer, query.expected, perf_counter() - began, why)
-
-
-def export(query: Query, folder: Path) -> Path:
-    """Write the script to `<folder>/<name>.smt2`; return the path.
-
-    Raises:
-        InputError: the file cannot be written.
-    """
-    path = folder / f"{query.name}.smt2"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        path.write_text(query.smt2, encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{path} cannot be written: {error}; name another --smt2 DIR") from error
-    return path
 
 
 def _check(query: Query, timeout: float, options: dict[str, str]) -> tuple[SolverAnswer, str]:
