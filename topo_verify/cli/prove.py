@@ -172,7 +172,7 @@ def prove(
     checks them and what they use of Coq's standard library: some minutes.
     A vacuous theorem is UNKNOWN, which does not pass (exit 3).
     """
-    from topo_verify.proofs.bounded import drup
+    from topo_verify.extra.sat import drup
     from topo_verify.proofs.catalogue import choose
 
     theorems = choose(names, kinds=kinds, edges=edges, deep=deep)
@@ -268,8 +268,7 @@ def _exhibit(entry: ProveEntry) -> acc.Exhibit | None:
 
 
 def _require(*, second: bool, certify: bool) -> None:
-    from topo_verify.proofs.bounded import drup
-    from topo_verify.proofs.solvers import cvc5_solver
+    from topo_verify.extra.sat import cvc5_solver, drup
 
     if second:
         cvc5_solver.require_tools()
@@ -312,7 +311,7 @@ def _result(theorem: Theorem, budget: Budget, *, second: bool) -> Result[ProveEn
 
 def _opinion(theorem: Theorem, budget: Budget) -> SecondOpinion | None:
     """How often cvc5 agrees with Z3; None without questions; InternalError if it disagrees."""
-    from topo_verify.proofs.solvers.cvc5_solver import ask
+    from topo_verify.extra.sat.cvc5_solver import ask
 
     opinions = [ask(query, timeout=budget.timeout) for query in theorem.queries()]
     for opinion in opinions:

@@ -6,5 +6,4 @@ statements.py     the statements
 theorems.py       proves them; lists the encoded worlds
 confirmations.py  false claims, to be refuted
 replay.py         repeats a counterexample in the simulator
-drup.py           checked refutations
 """

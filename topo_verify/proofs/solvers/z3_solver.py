@@ -5,7 +5,7 @@
     ground       equality without quantifiers, which Z3 decides
     clauses      the solver for finite domains, the fastest tried
 
-What this does not show: that Z3 is right (see `cvc5_solver`, `bounded/drup.py`).
+What this does not show: that Z3 is right (see `extra/sat`).
 """
 
 from __future__ import annotations

@@ -8,9 +8,10 @@ from dataclasses import replace
 import pytest
 
 from topo_verify.errors import InputError
-from topo_verify.proofs.bounded import drup, statements
+from topo_verify.extra.sat import drup
+from topo_verify.extra.sat.drup import DrupRefutation, certify, objection, refute
+from topo_verify.proofs.bounded import statements
 from topo_verify.proofs.bounded.cnf import Formula
-from topo_verify.proofs.bounded.drup import DrupRefutation, certify, objection, refute
 from topo_verify.proofs.bounded.statements import (
     ONE_DOOR_STATEMENTS,
     WHOLE_WORD_STATEMENTS,

@@ -10,9 +10,9 @@ import pytest
 from tests.marks import with_marks
 from tests.proofs.bounded.mutants import MUTANTS, NEGATIVES
 from topo_verify.errors import InputError
+from topo_verify.extra.sat.cvc5_solver import ask
 from topo_verify.proofs.bounded.theorems import bounded
 from topo_verify.proofs.first_order.theorems import INDUCTIVE
-from topo_verify.proofs.solvers.cvc5_solver import ask
 from topo_verify.proofs.theorem import Query, Theorem
 
 pytest.importorskip("cvc5", reason="cvc5 is not installed: topo-verify[proofs]")

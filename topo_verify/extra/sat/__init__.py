@@ -1,0 +1,5 @@
+"""Second opinions on the proofs: checked certificates of bounded theorems, and another solver.
+
+drup.py         a SAT solver refutes clauses, and a verified checker follows the refutation
+cvc5_solver.py  a second solver for the scripts that Z3 is asked
+"""
