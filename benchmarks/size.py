@@ -1,10 +1,11 @@
-"""Lines of code and words by room, and words of documentation by page.
+"""Lines of code and words of the main house by room, of each extra, and of documentation by page.
 
     .venv/bin/python benchmarks/size.py
 
-A line of code holds a token and no docstring, comment or blank. Imports are counted at load time,
-circles excluded. `docs` counts the words in docstrings of modules, classes and functions; `words`
-also those in comments and in strings below constants. A word of a page holds a letter or a digit.
+A line of code holds a token and no docstring, comment or blank. The longest chain of imports is
+that of the main house at load time, circles excluded. `docs` counts the words in docstrings of
+modules, classes and functions; `words` also those in comments and in strings below constants. A
+word of a page holds a letter or a digit.
 """
 
 from __future__ import annotations
@@ -14,11 +15,14 @@ import io
 import re
 import tokenize
 from collections import defaultdict
+from collections.abc import Iterator
 from pathlib import Path
 
 import networkx as nx
 
 ROOT = Path(__file__).resolve().parent.parent
+EXTRA = ROOT / "topo_verify" / "extra"
+MAIN = "the main house"
 SILENT = {
     tokenize.COMMENT,
     tokenize.NL,
@@ -70,10 +74,11 @@ def documented(source: str) -> int:
 
 
 def longest_chain() -> list[str]:
-    """The longest chain of modules that import each other at load time."""
+    """The longest chain of modules of the main house that import each other at load time."""
     files = {
         ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): path
         for path in (ROOT / "topo_verify").rglob("*.py")
+        if EXTRA not in path.parents
     }
     arrows: dict[str, set[str]] = {}
     for module, path in files.items():
@@ -118,18 +123,29 @@ def print_pages() -> None:
     print()
 
 
+def sums_of(path: Path) -> Iterator[str]:
+    """The names of the sums in which a file counts: its tree, its room or extra, the main house."""
+    top, *rooms, _ = path.relative_to(ROOT).parts
+    yield top
+    if EXTRA in path.parents:
+        yield "/".join([top, *rooms[:2]])
+        return
+    if top == "topo_verify":
+        yield MAIN
+    yield f"{top}/{rooms[0]}" if rooms else f"{top}/*.py"
+
+
 def main() -> None:
     print(f"{'room':<30}{'files':>7}{'code':>9}{'imports':>9}{'docs':>9}{'words':>9}")
     for top in ("topo_verify", "research", "tests", "benchmarks"):
         rooms: dict[str, list[int]] = defaultdict(lambda: [0] * 5)
         for path in sorted((ROOT / top).rglob("*.py")):
-            parts = path.relative_to(ROOT).parts
             source = path.read_text()
             counts = (code_lines, import_lines, documented, words)
             numbers = (1, *(count(source) for count in counts))
-            for room in (top, "/".join(parts[:2]) if len(parts) > 2 else f"{top}/*.py"):
+            for room in sums_of(path):
                 rooms[room] = [a + b for a, b in zip(rooms[room], numbers, strict=True)]
-        for room in sorted(rooms, key=lambda room: (room != top, room)):
+        for room in sorted(rooms, key=lambda room: (room != top, room != MAIN, room)):
             print(
                 f"{room:<30}"
                 + "".join(f"{number:>9,}"[2 * (not k) :] for k, number in enumerate(rooms[room]))
