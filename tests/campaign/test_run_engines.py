@@ -1,4 +1,4 @@
-"""The compiled engine behind `explore`, `record`, `reproduce`: the same runs."""
+"""The compiled engine behind `explore` and `record`: the same runs."""
 
 from __future__ import annotations
 
@@ -11,14 +11,9 @@ import pytest
 import topo_verify as tv
 from tests.studies.baseline.recording import recording
 from topo_verify import CATALOGUE, InputError, InternalError, Limits, World, explore
-from topo_verify.campaign.judge import TRACELESS, judge
-from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import ENGINES, CompiledAlgorithm, Engine, on_engine
-from topo_verify.campaign.store import Store
+from topo_verify.campaign.judge import judge
+from topo_verify.campaign.run import ENGINES, CompiledAlgorithm, on_engine
 from topo_verify.campaign.targets import one_target
-from topo_verify.extra.figures import points
-from topo_verify.extra.figures.figures import FIGURES, LATTICE, FigureExtent
-from topo_verify.extra.figures.points import line_campaigns
 from topo_verify.robot.events import MapData
 
 pytest.importorskip("numba")
@@ -96,43 +91,7 @@ def test_both_engines_record_the_same_baseline() -> None:
     assert made[0] == made[1]
 
 
-# ---------------------------------------------------------------- reproduce
-
-
-def rows(folder: Path, engine: Engine, workers: int = 0) -> list[Row]:
-    """The rows of a small figure."""
-    lattices = replace(LATTICE, sizes=(6,), large=())
-    figure = replace(FIGURES["3"], setting=lattices)
-    with Store(folder / f"{engine}.db") as store:
-        campaigns = line_campaigns([figure], FigureExtent(graphs=2), engine, store)
-        return [row for one in campaigns for row in one.rows(workers)]
-
-
-def test_a_point_of_a_figure_is_the_same_by_either_engine(tmp_path: Path) -> None:
-    ours, theirs = rows(tmp_path, "reference"), rows(tmp_path, "compiled")
-    assert [row.mapper for row in ours] == ["basic", "basic", "folding", "folding"]
-    assert [(row.cost, row.claims, row.moves) for row in theirs] == [
-        (row.cost, row.claims, row.moves) for row in ours
-    ]
-
-
-def test_a_large_world_is_judged_by_its_map_and_cost(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    whole = rows(tmp_path, "compiled")
-    monkeypatch.setattr(points, "LARGE", 10)
-    (tmp_path / "compiled.db").unlink()
-    brief = rows(tmp_path, "compiled")
-    assert [(row.cost, row.least, row.edges, row.map) for row in brief] == [
-        (row.cost, row.least, row.edges, row.map) for row in whole
-    ]
-    for row in brief:
-        statuses = {one.claim: one.status for one in row.judgements}
-        assert {claim for claim, status in statuses.items() if status == "ok"} == {*TRACELESS}
-        assert {status for claim, status in statuses.items() if claim not in TRACELESS} == {
-            "not-asked"
-        }
-        assert row.right
+# ---------------------------------------------------------------- without a trace
 
 
 @pytest.mark.parametrize(
@@ -157,17 +116,3 @@ def test_a_cost_without_a_trace_is_held_to_the_bound() -> None:
     assert [finding.claim for finding in report.findings] == ["cost-within-bound"]
     with pytest.raises(InternalError, match="the least cost of a proof is"):
         judge(replace(run, cost=1))
-
-
-@pytest.mark.nightly
-def test_workers_use_the_engine_that_is_asked_for(tmp_path: Path) -> None:
-    here = rows(tmp_path, "compiled")
-    (tmp_path / "compiled.db").unlink()
-    there = rows(tmp_path, "compiled", workers=2)
-    assert [row.digest for row in there] == [row.digest for row in here]
-
-
-def test_lattices_grow_to_100_by_100_with_the_compiled_engine() -> None:
-    assert FigureExtent(large=True).sizes(LATTICE)[-1] == 100
-    assert FigureExtent().sizes(LATTICE)[-1] == 20
-    assert FIGURES["3"].setting is LATTICE

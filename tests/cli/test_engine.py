@@ -58,12 +58,11 @@ def test_a_mapper_of_the_users_is_not_for_the_compiled_engine(refused: Refused) 
     )
 
 
-@pytest.mark.parametrize("line", ["search basic --edges 2", "reproduce --figure 3 --quick"])
 def test_without_numba_the_extra_is_named(
-    refused: Refused, monkeypatch: pytest.MonkeyPatch, line: str
+    refused: Refused, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("topo_verify.compiled.available", lambda: False)
     refused(
-        f"{line} --engine compiled",
+        "search basic --edges 2 --engine compiled",
         f"--engine compiled needs numba: {sys.executable} -m pip install numba, or",
     )

@@ -9,7 +9,7 @@ from unittest.mock import Mock
 
 import pytest
 
-from tests.cli.conftest import Call, Refused, Results
+from tests.cli.conftest import Call, Results
 from tests.helpers import SURE
 from topo_verify import World, families
 from topo_verify import explore as run_mapper
@@ -226,32 +226,6 @@ def test_replay_lines_are_split_by_a_shell_as_they_were_meant(
     (entry,) = results(line, code=1)["results"]
     words = shlex.split(entry["findings"][0]["replay"])
     assert words == ["topo-verify", "replay", "my town's.json", "--target", "mappers.py:guesses"]
-
-
-# ---------------------------------------------------------------- the animated SVG
-
-RUN_SVG = "'family:lattice(2,4,holes=0.1,seed=2)' --target enhancement-ii --svg"
-DOCS = Path(__file__).parents[2] / "docs"
-
-
-def test_the_animation_in_the_docs_is_remade_byte_for_byte(call: Call) -> None:
-    assert call(f"explore {RUN_SVG} run.svg").exit_code == 0
-    made = Path("run.svg").read_bytes()
-    assert made == (DOCS / "run.svg").read_bytes()
-    assert len(made) < 60_000
-    assert f"topo-verify explore {RUN_SVG} docs/run.svg" in (DOCS / "commands.md").read_text()
-
-
-def test_an_animation_is_of_one_short_run(refused: Refused) -> None:
-    refused(
-        "explore m3/14 --target basic,folding --svg run.svg",
-        "--svg run.svg: expected one run, got 2",
-    )
-    refused(
-        "explore nyc --target basic --svg run.svg",
-        "1468 moves; an animated SVG shows at most 500 events",
-    )
-    assert not Path("run.svg").exists()
 
 
 def test_the_walk_of_the_first_failing_run_is_shown(call: Call) -> None:

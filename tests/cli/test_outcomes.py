@@ -253,7 +253,6 @@ def test_a_refutation_outranks_the_interrupt(
         "explore m2/5 --target basic,folding",
         "record basic --worlds 'edges<=2' --out c.gz",
         "play m2/5 --target basic,folding",
-        "reproduce --figure 6 --quick --graphs 1 --workers 1",
     ],
 )
 def test_an_interrupted_run_that_has_no_report_is_not_ok(

@@ -117,7 +117,7 @@ def test_a_field_without_a_sentence_is_refused() -> None:
 
 def yielded() -> Iterator[str]:
     """The records that the commands yield, by the types of their generators: Result[RECORD]."""
-    for path in CLI.glob("*.py"):
+    for path in [*CLI.glob("*.py"), *(CLI.parent / "extra").rglob("*.py")]:
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             match node:
                 case ast.Subscript(value=ast.Name(id="Result"), slice=ast.Name(id=name)) | (

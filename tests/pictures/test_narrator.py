@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from textwrap import wrap
 from typing import Any
 
 import msgspec
@@ -12,9 +11,8 @@ import pytest
 from tests.faults.every import EVERY
 from tests.pictures.played import confirms_at_once
 from tests.pictures.played import playback_of as played
-from topo_verify import CATALOGUE, Percept, World, families
+from topo_verify import CATALOGUE, Percept, World
 from topo_verify.campaign.run import explore
-from topo_verify.extra.films.film import BESIDE, COLUMNS
 from topo_verify.pictures.narrator import Narrator, Saying
 from topo_verify.pictures.scenes import Moment, Playback
 from topo_verify.pictures.walk import Extent, lines
@@ -223,12 +221,3 @@ def test_evidence_that_is_not_there_is_not_told_as_seen() -> None:
 def replace_reject(event: ev.Reject, evidence: dict[str, Any]) -> ev.Reject:
     cited = msgspec.structs.replace(event.evidence, **evidence)
     return msgspec.structs.replace(event, evidence=cited)
-
-
-@pytest.mark.parametrize("name", list(CATALOGUE))
-def test_every_saying_fits_below_an_animation(name: str) -> None:
-    for world in (families.lattice(3, 4), World((), (), None), *map(World.from_id, WORLDS)):
-        for _, saying in told(played(world, name)):
-            assert len(saying.title) <= 64
-            compared = saying.kind == "bad" and None not in (saying.seen, saying.expected)
-            assert len(wrap(saying.text, BESIDE if compared else COLUMNS)) <= 2, saying

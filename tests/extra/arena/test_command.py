@@ -501,3 +501,19 @@ def test_after_three_time_outs_a_mapper_plays_no_further(results: Results, call:
         "789 of 792 worlds not played after three time-outs, 3 worlds of 792 not decided"
         in " ".join(call(line).stdout.split())
     )
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("arena", "name the TARGETs that take part"),
+        ("arena basic --game 3", "arena: --game went with version 0.4: in a checkout"),
+        ("arena basic --suite lattice", "did you mean 'lattices'?"),
+        ("arena basic,folding basic", "'basic' takes part twice: name each mapper once"),
+        ("arena folding+planar --suite tiny", "assumes planar worlds, and --suite tiny has"),
+        ("arena basick", "no algorithm 'basick'; did you mean 'basic'?"),
+        ("arena basic --out mappers.py", "--out mappers.py: cannot create this folder"),
+    ],
+)
+def test_bad_usage_is_one_sentence(refused: Refused, line: str, words: str) -> None:
+    refused(line, words)

@@ -19,10 +19,9 @@ from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import Counts
 from topo_verify.checkers import Finding
 from topo_verify.extra.figures.figures import PAIRS, REFERENCE
-from topo_verify.extra.figures.pictures import picture
 from topo_verify.extra.figures.points import PlannedRun
 
-DRAWING = "topo_verify.extra.figures.pictures.picture"
+DRAWING = "topo_verify.extra.figures.command.picture"
 
 LINE = "reproduce --figure 3 --quick --graphs 2 --workers 1"
 
@@ -42,7 +41,7 @@ def make(run: PlannedRun) -> Row:
 
 @pytest.fixture(autouse=True)
 def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
-    """tests/extra/figures/test_pictures.py draws; one test here does, too."""
+    """tests/extra/figures/test_pictures.py draws."""
     monkeypatch.setattr(DRAWING, Mock(return_value=b"a picture"))
 
 
@@ -100,18 +99,25 @@ def test_policies_make_a_line_each(results: Results) -> None:
     assert len(pairs) == 10
 
 
-@pytest.mark.usefixtures("fast")
-def test_without_matplotlib_the_csv_is_written_all_the_same(
-    call: Call, monkeypatch: pytest.MonkeyPatch
+def test_without_the_packages_of_the_extra_a_sentence_says_what_brings_them(
+    call: Call, refused: Refused, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(DRAWING, picture)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    done = call(f"{LINE} --out bare")
-    assert done.exit_code == 0
-    assert done.stderr.count("-m pip install matplotlib;") == 1
-    assert csv("bare")
-    assert not Path("bare/figure-3.svg").exists()
-    assert ".svg" not in Path("bare/figures.md").read_text()
+    refused(f"{LINE} --out bare", "matplotlib", f"{sys.executable} -m pip install", "[figures]")
+    assert not Path("bare").exists()
+    assert call("reproduce --help").exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("--figure 4", "--figure '4': expected all, 6 or one of 3, 6a"),
+        ("--out mappers.py", "--out mappers.py: cannot create this folder"),
+        ("--graphs 0", "0 is not in the range"),
+    ],
+)
+def test_bad_usage_is_one_sentence(refused: Refused, line: str, words: str) -> None:
+    refused(f"reproduce {line}", words)
 
 
 def test_a_claim_that_fails_in_a_run_is_a_finding(call: Call, fast: Changes) -> None:

@@ -101,9 +101,7 @@ def test_runs_of_which_fewer_claims_were_asked_are_counted_apart() -> None:
 
 def test_the_page_has_every_paragraph_and_the_command() -> None:
     found = [(FIGURES[name], points(name, {"basic": 200})) for name in ("3", "6a")]
-    text = page(found, command="topo-verify reproduce", judged="judged.", pictures=True)
+    text = page(found, command="topo-verify reproduce", judged="judged.")
     assert "    topo-verify reproduce\n" in text
     assert text.count("\n## Figure ") == 2
     assert "(figure-6a.svg)" in text
-    bare = page(found, command="topo-verify reproduce", judged="judged.", pictures=False)
-    assert "svg" not in bare

@@ -7,16 +7,20 @@ import re
 from dataclasses import replace
 from functools import cache
 from math import dist
+from textwrap import wrap
 from xml.etree import ElementTree as ET
 
 import pytest
 
 from tests.faults.every import EVERY
-from topo_verify import explore, families
+from tests.pictures.played import playback_of
+from tests.pictures.test_narrator import WORLDS
+from topo_verify import CATALOGUE, World, explore, families
 from topo_verify.checkers import check
 from topo_verify.errors import InputError
-from topo_verify.extra.films.film import MOST_EVENTS, animated_svg, times
+from topo_verify.extra.films.film import BESIDE, COLUMNS, MOST_EVENTS, animated_svg, times
 from topo_verify.pictures.drawing import Layout, lay_out
+from topo_verify.pictures.narrator import Narrator
 from topo_verify.pictures.scenes import Moment, Playback
 from topo_verify.programs.loader import Mapper
 from topo_verify.robot import events as ev
@@ -249,3 +253,12 @@ def test_a_run_that_nobody_would_watch_to_its_end_is_refused() -> None:
     playback = Playback(world, explore(world, "basic").trace)
     with pytest.raises(InputError, match=f"at most {MOST_EVENTS} events: write the player"):
         animated_svg(playback)
+
+
+@pytest.mark.parametrize("name", list(CATALOGUE))
+def test_every_saying_fits_below_the_world(name: str) -> None:
+    for world in (families.lattice(3, 4), World((), (), None), *map(World.from_id, WORLDS)):
+        for saying in Narrator(playback_of(world, name)).sayings:
+            assert len(saying.title) <= 64
+            compared = saying.kind == "bad" and None not in (saying.seen, saying.expected)
+            assert len(wrap(saying.text, BESIDE if compared else COLUMNS)) <= 2, saying

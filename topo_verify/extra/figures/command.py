@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import shlex
-import sys
 from collections.abc import Iterator, Sequence
-from importlib.util import find_spec
 from pathlib import Path
 
 import click
 
+from topo_verify import extras
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Engine, explore, require_compiled
 from topo_verify.campaign.work import processors
@@ -19,16 +18,12 @@ from topo_verify.cli.runs import finding_blocks
 from topo_verify.errors import InputError
 from topo_verify.extra.figures import figures as fig
 from topo_verify.extra.figures import points as pts
+from topo_verify.extra.figures.pictures import picture
 from topo_verify.extra.figures.words import PAGE, SHORT, judged_sentence, page, paragraph, stem
 from topo_verify.report.blocks import Block, Text, TextTable
 from topo_verify.robot.limits import Limits
 from topo_verify.world.formats import files
 from topo_verify.world.rooted_map import World
-
-MATPLOTLIB = (
-    f"no pictures: they need matplotlib: {sys.executable} -m pip install matplotlib; the CSV files"
-    " are written all the same"
-)
 
 _Found = list[tuple[fig.Figure, list[pts.FigurePoint]]]
 
@@ -97,6 +92,7 @@ def reproduce(
     words += ["--engine", engine] if engine != "reference" else []
 
     def points() -> Iterator[Result[pts.FigurePoint]]:
+        extras.require("figures")
         figures = fig.chosen_figures(figure)
         if engine == "compiled":
             require_compiled((), Limits())
@@ -105,13 +101,10 @@ def reproduce(
                     "--policies with --engine compiled: that engine knows the reference policies"
                     " only; leave one of the two out"
                 )
-        pictures = find_spec("matplotlib") is not None
-        if not pictures:
-            output.note(MATPLOTLIB)
         folder = options.make_folder(out, "--out")
         runs = _runs(output, figures, extent, engine, folder, workers or processors())
         drawn = [(chosen, pts.figure_points(chosen, extent, runs)) for chosen in figures]
-        _write(folder, drawn, shlex.join([*words, "--out", out]), pictures=pictures)
+        _write(folder, drawn, shlex.join([*words, "--out", out]))
         for _, line in drawn:
             for point in line:
                 incomplete = point.undecided > 0
@@ -146,23 +139,16 @@ def _runs(
         return {run: row for row in rows for run in pts.runs_of(row)}
 
 
-def _write(folder: Path, figures: _Found, command: str, *, pictures: bool) -> None:
+def _write(folder: Path, figures: _Found, command: str) -> None:
     for figure, points in figures:
         files.write(folder / f"{stem(figure)}.csv", pts.points_csv(points))
-        if pictures:
-            _draw(folder, figure, points)
+        for kind in ("svg", "png"):
+            files.write(folder / f"{stem(figure)}.{kind}", picture(figure, points, kind))
     every = [point for _, points in figures for point in points]
     settings = {figure.name: figure.setting.name for figure, _ in figures}
     files.write(folder / "growth.csv", pts.growth_csv(every, settings))
     judged = judged_sentence(every)
-    files.write(folder / PAGE, page(figures, command=command, judged=judged, pictures=pictures))
-
-
-def _draw(folder: Path, figure: fig.Figure, points: Sequence[pts.FigurePoint]) -> None:
-    from topo_verify.extra.figures.pictures import picture
-
-    for kind in ("svg", "png"):
-        files.write(folder / f"{stem(figure)}.{kind}", picture(figure, points, kind))
+    files.write(folder / PAGE, page(figures, command=command, judged=judged))
 
 
 # ---------------------------------------------------------------- for people
@@ -183,8 +169,7 @@ def _show(entries: Sequence[pts.FigurePoint], out: str, seed: int) -> Iterator[B
     yield Text(judged_sentence(entries))
     for point in entries:
         yield from finding_blocks(point.findings, f"{point.algorithm} in figure {point.figure}")
-    drawn = "CSV, pictures" if find_spec("matplotlib") else "CSV"
-    yield Text(f"{drawn} and {PAGE} are in {out}; seed {seed}.")
+    yield Text(f"CSV, pictures and {PAGE} are in {out}; seed {seed}.")
 
 
 def _table(figure: fig.Figure, points: Sequence[pts.FigurePoint]) -> TextTable:

@@ -62,11 +62,7 @@ SETTINGS = {
 
 
 def picture(figure: Figure, points: Sequence[FigurePoint], kind: Literal["svg", "png"]) -> bytes:
-    """The picture of a figure as the content of a file.
-
-    Raises:
-        ImportError: matplotlib is not installed.
-    """
+    """The picture of a figure as the content of a file."""
     import matplotlib as mpl
     from matplotlib.figure import Figure as Canvas
 

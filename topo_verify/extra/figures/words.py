@@ -215,7 +215,6 @@ def page(
     *,
     command: str,
     judged: str,
-    pictures: bool,
 ) -> str:
     """All figures with their paragraphs as one Markdown file.
 
@@ -227,8 +226,7 @@ def page(
     every = [point for _, points in figures for point in points]
     for figure, points in figures:
         lines += [f"## Figure {figure.name}: {figure.title}", ""]
-        if pictures:
-            lines += [f"![Figure {figure.name}: {figure.title}]({stem(figure)}.svg)", ""]
+        lines += [f"![Figure {figure.name}: {figure.title}]({stem(figure)}.svg)", ""]
         lines += [paragraph(figure, points, every), ""]
     return "\n".join(lines)
 
