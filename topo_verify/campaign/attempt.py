@@ -1,9 +1,10 @@
 """An attempt: runs a mapper in a world, judges every claim, and makes the row.
 
-A process may be killed through the mapper's fault or by the out-of-memory killer (SIGKILL), and a
-mapper may stand still, or its machine, so the world is tried again. If the mapper fails again, the
-first run counts. Else a crash is still a finding; SIGKILL, and a move that took too long, leave the
-world undecided, as they do if the second run is undecided.
+A process may be ended through the mapper's fault or from outside (SIGKILL by the out-of-memory
+killer, SIGTERM by an administrator), and a mapper may stand still, or its machine, so the world is
+tried again. If the mapper fails again, the first run counts. Else a crash is still a finding; a
+signal `FROM_OUTSIDE`, and a move that took too long, leave the world undecided, as they do if the
+second run is undecided.
 """
 
 from __future__ import annotations
@@ -101,18 +102,18 @@ def attempt(  # noqa: PLR0913  an argument an option
 
     program = target.mapper if isinstance(target.mapper, Program) else None
     first = once()
-    signal = first.run.misbehaved and first.run.misbehaved.signal
+    ended = first.run.misbehaved
     stood_still = first.run.limit == MoveTimeout.limit
-    if signal is None and not stood_still:
+    if not (stood_still or (ended and ended.signal)):
         return first
     second = once()
-    machine = stood_still or signal == "SIGKILL"
-    if not (second.report.ok or (machine and undecided(second.run, second.report))):
+    maybe_external = stood_still or (ended is not None and ended.maybe_external)
+    if not (second.report.ok or (maybe_external and undecided(second.run, second.report))):
         return first
     if stood_still:
         return replace(second, lost=first.run.stopped)
-    if signal == "SIGKILL":
-        return replace(second, lost=f"its process was ended by {signal}")
+    if ended is not None and ended.maybe_external:
+        return replace(second, lost=f"its process was ended by {ended.signal}")
     run = replace(first.run, stopped=f"{first.run.stopped}{SECOND_TRY}")
     return replace(first, run=run, report=judge(run, where=where, options=limits.options))
 

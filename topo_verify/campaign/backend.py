@@ -6,8 +6,8 @@ A lost worker means the same in every study:
   worker is silent for longer than any limit allows.
 - A run that loses its worker once and passes later is a finding, too: a right mapper does not
   crash.
-- If something else may have ended the worker (SIGKILL, or silence before a run that passed), the
-  world is undecided.
+- If something else may have ended the worker (a signal from outside, or silence before a run that
+  passed), the world is undecided.
 """
 
 from __future__ import annotations

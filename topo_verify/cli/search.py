@@ -350,7 +350,7 @@ def _run_again(again: RunAgain) -> Iterator[Block]:
     if again.undecided_worlds:
         yield Text(
             f"Run again, it is undecided in {_some(again.undecided_worlds, again.undecided)}:"
-            " SIGKILL or a time limit ended it there, or it declined. Perhaps the machine is busy"
+            " a signal or a time limit ended it there, or it declined. Perhaps the machine is busy"
             " or short of memory, or the mapper keeps memory from world to world."
         )
 

@@ -22,7 +22,6 @@ from topo_verify.errors import HelperLost, InputError
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import Child, Ended, ReaperProcess, Silent, TooLong
 from topo_verify.programs.delivery import users_line
-from topo_verify.programs.interruption import FROM_OUTSIDE
 from topo_verify.programs.isolation import python_command
 from topo_verify.programs.library import LIBRARY, library_file
 from topo_verify.programs.loaded import Loaded
@@ -53,8 +52,6 @@ LONGEST = 2**26
 _from_child: msgspec.json.Decoder[ms.FromChild] = msgspec.json.Decoder(ms.FromChild)
 _from_loading: msgspec.json.Decoder[ms.FromLoading] = msgspec.json.Decoder(ms.FromLoading)
 _from_stock: msgspec.json.Decoder[ms.FromStock] = msgspec.json.Decoder(ms.FromStock)
-
-_FROM_OUTSIDE = {number.name for number in FROM_OUTSIDE}
 
 _OVER = msgspec.json.encode(ms.OverMessage()) + b"\n"
 
@@ -161,7 +158,7 @@ class Foreign(Program):
         try:
             answer = self._answer(child, _from_loading, "was loaded")
         except Misbehaved as wrong:
-            unloaded = HelperLost if wrong.signal in _FROM_OUTSIDE else InputError
+            unloaded = HelperLost if wrong.maybe_external else InputError
             why = wrong if self._was_loaded else unloaded(f"target {self.text!r}: {wrong}")
         except BaseException:
             child.end()

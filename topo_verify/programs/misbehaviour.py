@@ -14,6 +14,7 @@ import msgspec
 from topo_verify.errors import shown
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import Child
+from topo_verify.programs.interruption import FROM_OUTSIDE
 from topo_verify.robot.events import decode_error
 from topo_verify.robot.limits import MapperStopped
 
@@ -51,6 +52,8 @@ SHOWN = 120
 CRASHES = ("SIGSEGV", "SIGBUS", "SIGABRT", "SIGFPE")
 """Signals by which a fault in machine code ends its process."""
 
+_OUTSIDE = {number.name for number in FROM_OUTSIDE}
+
 LAST_LINES = 10
 """Last lines of standard error that a message shows."""
 
@@ -71,6 +74,11 @@ class Misbehaved(MapperStopped):
         self.kind: Misbehaviour = kind
         self.detail = detail
         self.signal = signal
+
+    @property
+    def maybe_external(self) -> bool:
+        """Whether something else may have ended the program, e.g. the out-of-memory killer."""
+        return self.signal in _OUTSIDE
 
     def copy(self) -> Misbehaved:
         """The same without a traceback, which would keep the frames of the run alive."""

@@ -7,7 +7,7 @@ order. No run replaces an earlier one: each world that is run again is one of
 
     same        every run ended as in the search, with the same doors and cost
     other       another verdict, other doors, another cost; or it was declined in one run only
-    undecided   the machine may have ended a run: SIGKILL, or a time limit
+    undecided   the machine may have ended a run: a signal from outside, or a time limit
 
 and only `same` leaves a search EXHAUSTED. Of the others
 
