@@ -71,6 +71,10 @@ def parent(name):
 
 terminates, hangs_up, kills, exits = map(parent, ("SIGTERM", "SIGHUP", "SIGKILL", "SIGQUIT"))
 
+def closes(robot):
+    os.closerange(3, 99)
+    return explore(robot)
+
 class Loses:
     def __del__(self):
         signal.raise_signal(signal.SIGINT)
@@ -133,6 +137,12 @@ def test_a_mapper_that_ends_its_process_decides_nothing(folder: Path, mapper: st
     assert error.count("\n") == 1
 
 
+def test_a_mapper_that_closes_files_does_not_change_the_exit_code(folder: Path) -> None:
+    words = ("explore", "m2/5", "--target", "ends.py:closes", "--in-process", "--format", "json")
+    code, out, _ = ran(folder, *words, *FILES)
+    assert {code, json.loads(out)["exit"]} == {0}
+
+
 @pytest.mark.parametrize(
     "line",
     [
@@ -171,6 +181,24 @@ def test_a_signal_that_the_caller_ignores_is_ignored(folder: Path) -> None:
     raising = f"{ignoring}\n{AT_RESULTS}".replace("SIGINT", "SIGHUP")
     code, _, _ = ran(folder, "search", "basic", "--edges", "2", "--workers", "0", first=raising)
     assert code == 0
+
+
+def test_sigterm_ends_a_command_in_the_background_of_a_script(folder: Path) -> None:
+    """A shell lets such a command ignore SIGINT."""
+    first = """
+import os, signal, time
+from topo_verify.studies.search.search import Search
+signal.signal(signal.SIGINT, signal.SIG_IGN)
+real = Search.work
+def work(search, progress):
+    os.kill(os.getppid(), signal.SIGTERM)
+    time.sleep(5)
+    real(search, progress)
+Search.work = work
+"""
+    words = ("search", "basic", "--edges", "2", "--workers", "0", "--format", "json")
+    code, out, _ = ran(folder, *words, *FILES, first=first)
+    assert {code, json.loads(out)["exit"], *codes(folder)} == {3}
 
 
 # ---------------------------------------------------------------- a signal that gets lost

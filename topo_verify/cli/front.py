@@ -1,9 +1,11 @@
 """The process that the user starts: it forks, waits, and exits with what its child reported.
 
 The command, and with --in-process the user's mapper, runs in the child. A child that ends without
-a report, say by `os._exit(0)` in a mapper, is exit code 3.
+a report, say by `os._exit(0)` in a mapper, is exit code 3. The report is in shared memory, which
+no mapper closes with its files.
 
-    SIGINT, SIGTERM, SIGHUP    the child gets SIGINT, which Z3 heeds as well
+    SIGINT, SIGTERM, SIGHUP    the child gets SIGINT, which Z3 heeds as well; if that is ignored, as
+                               in a background job of a shell script, it gets the signal itself
     SIGQUIT                    the child ends at once, without a result: exit code 3
     SIGTSTP                    both processes stop, and go on together
 
@@ -13,12 +15,12 @@ the command runs in this process.
 
 from __future__ import annotations
 
+import mmap
 import os
 import signal
 import sys
 import threading
 from collections.abc import Callable, Collection
-from contextlib import suppress
 
 from topo_verify.programs import interruption, isolation
 
@@ -36,18 +38,15 @@ def run(work: Callable[[], int], say: Callable[[str], None]) -> int:
     heard = {number for number in asked if signal.getsignal(number) != signal.SIG_IGN}
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, heard)
     here = os.getpid()
-    receiver, sender = os.pipe()
+    report = mmap.mmap(-1, mmap.PAGESIZE)
     try:
         child = os.fork()
     except OSError as error:
         say(f"topo-verify: cannot start a process: {error.strerror}; end others, or wait")
         return INCOMPLETE
     if child:
-        os.close(sender)
         status = _awaited(child, heard)
-        os.set_blocking(receiver, False)  # what a mapper has started may hold the other end
-        os._exit(_reported(receiver, status, say))  # the child leaves what this process entered
-    os.close(receiver)
+        os._exit(_reported(report, status, say))  # the child leaves what this process entered
     isolation.end_with(here)
     here = os.getpid()
     interruption.listen()
@@ -56,9 +55,8 @@ def run(work: Callable[[], int], say: Callable[[str], None]) -> int:
         code = work()
     except KeyboardInterrupt:  # between two statements
         code = INCOMPLETE
-    if os.getpid() == here:  # a mapper may have forked, or closed all files
-        with suppress(OSError):
-            os.write(sender, b"%d" % code)
+    if os.getpid() == here:  # a mapper may have forked
+        report.write(b"%d" % code)
     return code
 
 
@@ -71,7 +69,8 @@ def _awaited(child: int, heard: Collection[int]) -> int:
             if process:
                 return status
             continue
-        os.kill(child, signal.SIGINT if number in interruption.SIGNALS else number)
+        is_interrupt = signal.SIGINT in heard and number in interruption.SIGNALS
+        os.kill(child, signal.SIGINT if is_interrupt else number)
         if number == signal.SIGTSTP:
             _stop()
             os.kill(child, signal.SIGCONT)
@@ -84,10 +83,10 @@ def _stop() -> None:
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTSTP})
 
 
-def _reported(receiver: int, status: int, say: Callable[[str], None]) -> int:
+def _reported(report: mmap.mmap, status: int, say: Callable[[str], None]) -> int:
     try:
-        return int(os.read(receiver, 9))
-    except (BlockingIOError, ValueError):
+        return int(report.read().rstrip(b"\0"))
+    except ValueError:
         code = os.waitstatus_to_exitcode(status)
         how = signal.Signals(-code).name if code < 0 else f"exit code {code}"
         say(
