@@ -10,6 +10,7 @@ import pytest
 
 from tests.helpers import worlds
 from tests.programs.programs import served
+from topo_verify.campaign.backend import here
 from topo_verify.campaign.campaign import ENGINE_SHARD, Ranks
 from topo_verify.campaign.drawn_row import drawn_row
 from topo_verify.campaign.targets import targets
@@ -18,6 +19,7 @@ from topo_verify.programs.foreign import Foreign
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.search import again
 from topo_verify.studies.search.search import (
+    Search,
     SearchEntry,
     SearchInterrupted,
     search,
@@ -107,6 +109,30 @@ def test_the_row_has_every_world_once_and_an_order_drawn_by_the_seed() -> None:
     assert of_three[0] != of_three[1]
     whole = msgspec.structs.replace(campaign, worlds=Ranks(5, shard=ENGINE_SHARD))
     assert drawn_row(whole) == drawn_row(msgspec.structs.replace(whole, worlds=Ranks(5)))
+
+
+@pytest.mark.parametrize("deed", ["kill", "hang"])
+def test_a_row_in_which_each_process_is_ended_is_not_run_to_its_end(
+    monkeypatch: pytest.MonkeyPatch, folder: Path, deed: str
+) -> None:
+    monkeypatch.setattr(again, "MOST", 0)
+    monkeypatch.setattr(again, "MOST_ENDED", 3)
+    (folder / "late.py").write_text(
+        "from pathlib import Path\n"
+        "import misdeeds\n"
+        "def explore(robot):\n"
+        f"    return getattr(misdeeds, 'at_2_{deed}' if Path('late').exists() else 'at_0_map')(robot)"
+    )
+    mappers = targets("late.py:explore", in_process=False)
+    limits = Limits(move_timeout=0.3)
+    campaign = search_campaign(mappers, edges=2, limits=limits, in_process=False)
+    late = Search(campaign, mappers, here(mappers))
+    late.work()
+    (folder / "late").touch()
+    late.run_again()
+    assert late.again is not None
+    assert late.entry().verdict == "UNKNOWN"
+    assert (late.again.undecided, late.again.row) == (3, 4)
 
 
 @pytest.mark.long

@@ -3,7 +3,7 @@
 The counterexample (`REPEATS` times; once if it was out of time, and not if the search tried it
 in a fresh process then), up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed,
 are run again, each in a fresh process. If none fails, one process runs `ROW` worlds in a shuffled
-order. No run replaces an earlier one: each world that is run again is one of
+order, until `MOST_ENDED` of them are undecided. No run replaces an earlier one: each world that is run again is one of
 
     same        every run ended as in the search, with the same doors and cost
     other       another verdict, other doors, another cost; or it was declined in one run only
@@ -48,6 +48,9 @@ from topo_verify.world.enumeration import rank_order
 from topo_verify.world.rooted_map import World
 
 MOST = SAMPLE
+
+MOST_ENDED = 20
+"""Undecided worlds after which the row ends: the verdict is open, and each may take seconds."""
 
 REPEATS = 5
 """Runs in which a world does the same before a cause is named."""
@@ -197,7 +200,8 @@ class Repetition:
         campaign, known = self._campaign, self._known
         lost = {row.world for row in self._rows if row.lost}
         names = [name for name in [*drawn_row(campaign)][:ROW] if name not in lost]
-        for now in _runs(campaign, names, _one_process, report, stop=c.Stop(failing=1)):
+        stop = c.Stop(failing=1, timeouts=MOST_ENDED, lost=MOST_ENDED)
+        for now in _runs(campaign, names, _one_process, report, stop):
             self._in_row += 1
             if now.failed:
                 self._note(now.world, "other")
