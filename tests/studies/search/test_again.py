@@ -121,7 +121,8 @@ def test_a_row_in_which_each_process_is_ended_is_not_run_to_its_end(
         "from pathlib import Path\n"
         "import misdeeds\n"
         "def explore(robot):\n"
-        f"    return getattr(misdeeds, 'at_2_{deed}' if Path('late').exists() else 'at_0_map')(robot)"
+        f"    deed = 'at_2_{deed}' if Path('late').exists() else 'at_0_map'\n"
+        "    return getattr(misdeeds, deed)(robot)"
     )
     mappers = targets("late.py:explore", in_process=False)
     limits = Limits(move_timeout=0.3)
