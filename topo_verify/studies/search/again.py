@@ -1,9 +1,10 @@
 """Runs worlds again, alone and in another order: does the mapper remember earlier worlds?
 
-The counterexample (`REPEATS` times; once if it was out of time, and not if the search tried it
-in a fresh process then), up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed,
-are run again, each in a fresh process. If none fails, one process runs `ROW` worlds in a shuffled
-order, until `MOST_ENDED` of them are undecided. No run replaces an earlier one: each world that is run again is one of
+The counterexample (`REPEATS` times; once if it was out of time, and not if the search tried it in a
+fresh process then), up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed, are
+run again, each in a fresh process. If none fails, one process runs `ROW` worlds in a shuffled
+order, until `MOST_ENDED` of them are undecided. No run replaces an earlier one: each world that is
+run again is one of
 
     same        every run ended as in the search, with the same doors and cost
     other       another verdict, other doors, another cost; or it was declined in one run only
