@@ -23,8 +23,9 @@ COMMANDS = {
 }
 """The place of each command."""
 
-OPTIONS = {
+OPTIONS: dict[str, tuple[str, ...]] = {
     "explore": ("films.options:svg",),
+    "prove": ("sat.options:solver", "sat.options:certify"),
     "search": ("dask.options:dask",),
 }
 """The places of the options that extras add to a command of the main house.
@@ -63,9 +64,16 @@ Option = Callable[[Callable[..., int]], Callable[..., int]]
 """A decorator that adds an option to a command."""
 
 
-def options(command: str) -> Option:
-    """All options that extras add to a command, in the order of the table."""
-    added: list[Option] = [found(place) for place in OPTIONS.get(command, ())]
+def options(command: str, *names: str) -> Option:
+    """The options that extras add to a command, in the order of the table.
+
+    Args:
+        names: of these attributes alone; by default all.
+    """
+    places = OPTIONS.get(command, ())
+    if names:
+        places = tuple(place for place in places if place.partition(":")[2] in names)
+    added: list[Option] = [found(place) for place in places]
 
     def decorate(run: Callable[..., int]) -> Callable[..., int]:
         for add in reversed(added):

@@ -6,15 +6,22 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from time import perf_counter
-from typing import get_args
+from typing import Protocol, get_args
 
 import click
 import msgspec
 
+from topo_verify import extras
 from topo_verify.cli import options
 from topo_verify.cli.output import Live, Output, Result, entry_of
-from topo_verify.errors import InputError, InternalError, plural
-from topo_verify.proofs.theorem import Budget, RefutationCertificate, Theorem, TheoremKind
+from topo_verify.errors import InputError, plural
+from topo_verify.proofs.theorem import (
+    Budget,
+    ClauseCertifier,
+    RefutationCertificate,
+    Theorem,
+    TheoremKind,
+)
 from topo_verify.report import account as acc
 from topo_verify.report.blocks import Block, Bullets, Cell, Text, TextTable, Tone
 from topo_verify.robot.limits import MOST_SECONDS
@@ -47,6 +54,30 @@ class SecondOpinion(msgspec.Struct, frozen=True):
     agrees: int
     unknown: int
     total: int
+
+
+class SecondSolver(Protocol):
+    """What --solver brings: another solver for the questions of a theorem."""
+
+    NAME: str
+
+    def require(self) -> None:
+        """Check that it is installed; InputError if not."""
+        ...
+
+    def opinion(self, theorem: Theorem, *, timeout: float) -> SecondOpinion | None:
+        """How often it agrees; None without questions; InternalError if it disagrees."""
+        ...
+
+
+class Certifier(Protocol):
+    """What --certify brings: checked certificates of bounded theorems."""
+
+    certify: ClauseCertifier
+
+    def require(self) -> None:
+        """Check that it is installed; InputError if not."""
+        ...
 
 
 class ProveEntry(msgspec.Struct, frozen=True):
@@ -129,13 +160,7 @@ class ProveListEntry(msgspec.Struct, frozen=True):
     "--kind", "kinds", multiple=True, type=click.Choice(KINDS), help="Only theorems of this kind."
 )
 @options.number("--edges", least=1, meaning="Bounded theorems only up to worlds of N edges.")
-@click.option(
-    "--solver",
-    type=click.Choice(["z3", "cvc5"]),
-    default="z3",
-    show_default=True,
-    help="cvc5: ask cvc5 every question as well.",
-)
+@extras.options("prove", "solver")
 @options.number(
     "--timeout",
     least=1,
@@ -145,7 +170,7 @@ class ProveListEntry(msgspec.Struct, frozen=True):
     meaning="Time limit of each question to a solver.",
 )
 @click.option("--deep", is_flag=True, help="Include the theorems that take minutes.")
-@click.option("--certify", is_flag=True, help="Make and check certificates of bounded theorems.")
+@extras.options("prove", "certify")
 @click.option("--smt2", "folder", metavar="DIR", help="Write each question to DIR as SMT-LIB 2.")
 @options.seed("Seed of the solver.")
 def prove(
@@ -155,10 +180,10 @@ def prove(
     listing: bool,
     kinds: tuple[str, ...],
     edges: int | None,
-    solver: str,
+    second: SecondSolver | None,
     timeout: int,
     deep: bool,
-    certify: bool,
+    certifier: Certifier | None,
     folder: str | None,
     seed: int,
 ) -> int:
@@ -172,18 +197,18 @@ def prove(
     checks them and what they use of Coq's standard library: some minutes.
     A vacuous theorem is UNKNOWN, which does not pass (exit 3).
     """
-    from topo_verify.extra.sat import drup
     from topo_verify.proofs.catalogue import choose
 
     theorems = choose(names, kinds=kinds, edges=edges, deep=deep)
     if listing:
         return output.run("prove-list", lambda: map(_listed, theorems), _show_list)
-    # Now, not minutes later.
-    _require(second=solver == "cvc5", certify=certify)
+    for brought in (second, certifier):
+        if brought is not None:
+            brought.require()  # now, not minutes later
     budget = Budget(
         timeout=timeout,
         seed=seed,
-        certify=drup.certify if certify else None,
+        certify=None if certifier is None else certifier.certify,
         progress=output.progress,
         together=tuple(theorem.name for theorem in theorems),
     )
@@ -196,7 +221,7 @@ def prove(
             if folder is not None:
                 _export(theorem, Path(folder))
             begin = perf_counter()
-            result = _result(theorem, budget, second=solver == "cvc5")
+            result = _result(theorem, budget, second)
             # Not in the entry: results must be equal in every run.
             seconds[theorem.name] = perf_counter() - begin
             yield result
@@ -209,7 +234,7 @@ def prove(
         proved,
         _show,
         live=live,
-        account=lambda entries: _account(output, entries, _again(solver, timeout, seed)),
+        account=lambda entries: _account(output, entries, _again(second, timeout, seed)),
         seed=seed,
         deep=deep,
     )
@@ -246,7 +271,8 @@ def _case(entry: ProveEntry, options: str) -> acc.JudgedCase:
     )
 
 
-def _again(solver: str, timeout: int, seed: int) -> str:
+def _again(second: SecondSolver | None, timeout: int, seed: int) -> str:
+    solver = "z3" if second is None else second.NAME
     given = {"--solver": (solver, "z3"), "--timeout": (timeout, 60), "--seed": (seed, 0)}
     return "".join(f" {name} {value}" for name, (value, usual) in given.items() if value != usual)
 
@@ -267,15 +293,6 @@ def _exhibit(entry: ProveEntry) -> acc.Exhibit | None:
     )
 
 
-def _require(*, second: bool, certify: bool) -> None:
-    from topo_verify.extra.sat import cvc5_solver, drup
-
-    if second:
-        cvc5_solver.require_tools()
-    if certify:
-        drup.require_tools()
-
-
 def _export(theorem: Theorem, folder: Path) -> None:
     if folder.exists() and not folder.is_dir():
         raise InputError(f"--smt2 {folder}: expected a folder, got a file")
@@ -294,7 +311,7 @@ def _listed(theorem: Theorem) -> Result[ProveListEntry]:
     return Result(entry_of(ProveListEntry, theorem, claim=",".join(theorem.claims)))
 
 
-def _result(theorem: Theorem, budget: Budget, *, second: bool) -> Result[ProveEntry]:
+def _result(theorem: Theorem, budget: Budget, second: SecondSolver | None) -> Result[ProveEntry]:
     outcome = theorem.prove(budget)
     status = theorem.status(outcome)
     entry = entry_of(
@@ -304,23 +321,9 @@ def _result(theorem: Theorem, budget: Budget, *, second: bool) -> Result[ProveEn
         claim=",".join(theorem.claims),
         ok=status == "ok",
         replayed=None if outcome.replayed is None else ReplayCount(*outcome.replayed),
-        opinion=_opinion(theorem, budget) if second else None,
+        opinion=None if second is None else second.opinion(theorem, timeout=budget.timeout),
     )
     return Result(entry, failed=status == "failed", incomplete=status == "open")
-
-
-def _opinion(theorem: Theorem, budget: Budget) -> SecondOpinion | None:
-    """How often cvc5 agrees with Z3; None without questions; InternalError if it disagrees."""
-    from topo_verify.extra.sat.cvc5_solver import ask
-
-    opinions = [ask(query, timeout=budget.timeout) for query in theorem.queries()]
-    for opinion in opinions:
-        if opinion.agreement == "disagrees":
-            raise InternalError(f"the solvers disagree: {opinion}")
-    if not opinions:
-        return None
-    count = Counter(opinion.agreement for opinion in opinions)
-    return SecondOpinion(opinions[0].solver, count["agrees"], count["unknown"], len(opinions))
 
 
 # ---------------------------------------------------------------- for people

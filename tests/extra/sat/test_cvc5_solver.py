@@ -15,7 +15,7 @@ from topo_verify.proofs.bounded.theorems import bounded
 from topo_verify.proofs.first_order.theorems import INDUCTIVE
 from topo_verify.proofs.theorem import Query, Theorem
 
-pytest.importorskip("cvc5", reason="cvc5 is not installed: topo-verify[proofs]")
+pytest.importorskip("cvc5", reason="cvc5 is not installed: topo-verify[sat]")
 
 CONTRADICTION = Query(
     "contradiction",
@@ -80,5 +80,5 @@ def test_a_script_that_it_cannot_read_is_refused() -> None:
 
 def test_a_missing_cvc5_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "cvc5", None)
-    with pytest.raises(InputError, match=r"-m pip install cvc5, or"):
+    with pytest.raises(InputError, match=r"-m pip install 'topo-verify\[sat\]', or"):
         ask(CONTRADICTION)

@@ -20,8 +20,8 @@ from topo_verify.proofs.bounded.statements import (
 from topo_verify.proofs.bounded.theorems import theorem, worlds_theorem
 from topo_verify.proofs.theorem import Budget
 
-pytest.importorskip("pysat", reason="python-sat is not installed: topo-verify[proofs]")
-pytest.importorskip("drup", reason="drup is not installed: topo-verify[proofs]")
+pytest.importorskip("pysat", reason="python-sat is not installed: topo-verify[sat]")
+pytest.importorskip("drup", reason="drup is not installed: topo-verify[sat]")
 
 
 def named(name: str) -> BoundedStatement:

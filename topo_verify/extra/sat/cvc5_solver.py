@@ -7,15 +7,19 @@ quantifiers are then asked again with `full-saturate-quant`.
 from __future__ import annotations
 
 import sys
+from collections import Counter
 from dataclasses import dataclass
 from importlib import import_module
 from time import perf_counter
 from typing import Any, Literal
 
-from topo_verify.errors import InputError
-from topo_verify.proofs.theorem import Budget, Query, SolverAnswer
+from topo_verify.cli.prove import SecondOpinion
+from topo_verify.errors import InputError, InternalError
+from topo_verify.proofs.theorem import Budget, Query, SolverAnswer, Theorem
 
 Agreement = Literal["agrees", "disagrees", "unknown"]
+
+NAME = "cvc5"
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,14 +50,31 @@ class SecondAnswer:
                 return f"{self.query}: {self.solver} says {self.answer}, not {self.expected}"
 
 
-def require_tools() -> None:
+def require() -> None:
+    """Check that cvc5 loads; InputError if not."""
     try:
         import_module("cvc5")
     except (ImportError, OSError) as error:
         raise InputError(
             f"a second opinion needs the package cvc5, which does not load here ({error}):"
-            f" {sys.executable} -m pip install cvc5, or leave out --solver"
+            f" {sys.executable} -m pip install 'topo-verify[sat]', or leave out --solver"
         ) from error
+
+
+def opinion(theorem: Theorem, *, timeout: float) -> SecondOpinion | None:
+    """How often cvc5 agrees with Z3 on a theorem; None if the theorem has no questions.
+
+    Raises:
+        InternalError: the solvers disagree.
+    """
+    answers = [ask(query, timeout=timeout) for query in theorem.queries()]
+    for answer in answers:
+        if answer.agreement == "disagrees":
+            raise InternalError(f"the solvers disagree: {answer}")
+    if not answers:
+        return None
+    count = Counter(answer.agreement for answer in answers)
+    return SecondOpinion(answers[0].solver, count["agrees"], count["unknown"], len(answers))
 
 
 def ask(query: Query, *, timeout: float = 60.0) -> SecondAnswer:
@@ -62,7 +83,7 @@ def ask(query: Query, *, timeout: float = 60.0) -> SecondAnswer:
     Raises:
         InputError: cvc5 is missing, or cannot read the script.
     """
-    require_tools()
+    require()
     began = perf_counter()
     answer, why = _check(query, timeout, {})
     if answer == "unknown" and "forall" in query.smt2:

@@ -41,15 +41,16 @@ class DrupRefutation:
     steps: tuple[Clause, ...]
 
 
-def require_tools() -> None:
+def require() -> None:
+    """Check that both programs load; InputError if not."""
     for package, module in (("python-sat", "pysat.solvers"), ("drup", "drup")):
         try:
             import_module(module)
         except (ImportError, OSError) as error:
             raise InputError(
                 f"certificates need the package {package}, which does not load here ({error}):"
-                f" {sys.executable} -m pip install {package} (drup brings its checker for Linux on"
-                " x86_64 and for nothing else), or leave out --certify"
+                f" {sys.executable} -m pip install 'topo-verify[sat]' (drup brings its checker for"
+                " Linux on x86_64 and for nothing else), or leave out --certify"
             ) from error
 
 
@@ -67,7 +68,7 @@ def certify(formula: Formula, *, seconds: float = 60.0) -> RefutationCertificate
     Raises:
         InputError: a package is missing.
     """
-    require_tools()
+    require()
     largest = round(seconds * PER_SECOND)
     refutation = refute(formula, most_steps=largest // _FEWEST_CLAUSES)
     if isinstance(refutation, str):
