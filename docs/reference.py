@@ -45,13 +45,16 @@ ENTRIES = {
     "compare": "Comparison",
     "replay": "ReplayEntry",
     "play": "PlayEntry",
-    "certify": "CertifyEntry study.CertificateEntry",
+    "certify": "CertifyEntry topo_verify.extra.certificates.study:CertificateEntry",
     "tour": "TourEntry",
     "arena": "LeagueEntry",
     "header": "HeaderEntry",
     "reproduce": "pts.FigurePoint",
 }
-"""The records that each command prints, as the module of the command names them."""
+"""The records that each command prints, as the module of the command names them.
+
+MODULE:NAME is a record of an extra that adds a task to the command.
+"""
 
 OCCASIONS = {
     "ProveListEntry": "with `--list`",
@@ -142,8 +145,12 @@ COMMANDS = dict(leaves(main))
 
 def records(path: str) -> list[Any]:
     """The records that a command prints, as msgspec sees them."""
-    module = import_module(COMMANDS[path].callback.__module__)
-    return [types.type_info(attrgetter(name)(module)) for name in ENTRIES[path].split()]
+    found: list[Any] = []
+    for place in ENTRIES[path].split():
+        module, _, name = place.rpartition(":")
+        home = import_module(module or COMMANDS[path].callback.__module__)
+        found.append(types.type_info(attrgetter(name)(home)))
+    return found
 
 
 def page() -> str:

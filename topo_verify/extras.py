@@ -24,8 +24,10 @@ COMMANDS = {
 """The place of each command."""
 
 OPTIONS: dict[str, tuple[str, ...]] = {
+    "certify": ("certificates.options:certify",),
     "explore": ("films.options:svg",),
     "prove": ("sat.options:solver", "sat.options:certify"),
+    "replay": ("certificates.options:kernel",),
     "search": ("dask.options:dask",),
 }
 """The places of the options that extras add to a command of the main house.

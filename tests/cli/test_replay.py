@@ -3,21 +3,14 @@
 from __future__ import annotations
 
 import json
-import shutil
 from pathlib import Path
-from unittest.mock import Mock
 
-import msgspec
 import pytest
 
 from tests.cli.conftest import Call, Refused, Results
-from tests.helpers import trace_of
-from tests.proofs.mechanised.conftest import nowhere
-from topo_verify import World, families
-from topo_verify.checkers import CLAIMS, Judgement, check
+from topo_verify import families
+from topo_verify.checkers import Judgement
 from topo_verify.cli.runs import unjudged
-from topo_verify.extra.certificates import judge
-from topo_verify.proofs.mechanised import toolchain
 from topo_verify.report.account import claim_cases
 from topo_verify.robot.limits import BudgetExceeded
 
@@ -270,53 +263,3 @@ def test_worlds_without_a_map_are_the_reason_why_map_entailed_is_judged_in_part(
     )
     (case,) = claim_cases([one])
     assert case.message == "the mapper delivers no map in some worlds"
-
-
-# ---------------------------------------------------------------- the judge that is proved in Coq
-
-
-def opinion(monkeypatch: pytest.MonkeyPatch, *, more: int = 0) -> None:
-    """Have the judge say what the checkers say, but that `more` of the last claim was judged."""
-    checked = check(World.from_id("m5/17"), trace_of("m5/17"))
-    told = [*checked]
-    told[-1] = msgspec.structs.replace(told[-1], judged=told[-1].judged + more)
-    answer = judge.ProvedOpinion("the judge", tuple(told))
-    monkeypatch.setattr(judge, "second_opinion", Mock(return_value=answer))
-
-
-def test_the_output_says_that_the_proved_judge_judged(
-    results: Results, call: Call, trace: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    opinion(monkeypatch)
-    (entry,) = results(f"replay {trace.name} --kernel")["results"]
-    assert (entry["kernel"]["by"], entry["kernel"]["why"]) == ("the judge", "")
-    assert [one["claim"] for one in entry["kernel"]["judgements"]] == [*CLAIMS]
-    said = "Judged again by the judge: the same of 10 of 10 claims."
-    assert said in call(f"replay {trace.name} --kernel").stdout
-
-
-def test_a_proved_judge_that_says_otherwise_is_a_bug_of_ours(
-    call: Call, trace: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    opinion(monkeypatch, more=1)
-    done = call(f"replay {trace.name} --kernel")
-    assert done.exit_code == 70
-    assert "the checkers say otherwise" in done.stderr
-
-
-def test_without_coq_the_proved_judge_judges_nothing(
-    results: Results, trace: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(shutil, "which", nowhere)
-    (entry,) = results(f"replay {trace.name} --kernel", code=3)["results"]
-    assert entry["kernel"]["by"] == ""
-    assert "apt-get install" in entry["kernel"]["why"]
-    assert results(f"replay {trace.name}")["results"][0]["kernel"] is None
-
-
-@pytest.mark.coq
-@pytest.mark.skipif(bool(judge.missing()), reason=judge.missing())
-@pytest.mark.nightly
-def test_the_proved_judge_is_built_and_judges(results: Results, trace: Path) -> None:
-    (entry,) = results(f"replay {trace.name} --kernel")["results"]
-    assert entry["kernel"]["by"] == f"the judge extracted by {toolchain.version()}"

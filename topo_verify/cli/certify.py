@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-import re
 import shlex
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
+from typing import Protocol
 
 import click
 import msgspec
 
+from topo_verify import extras
 from topo_verify.checkers import Finding
 from topo_verify.checkers.folding import TURNED
 from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result, entry_of
 from topo_verify.cli.runs import finding_line
 from topo_verify.errors import InputError, plural
-from topo_verify.extra.certificates import certificates, study
 from topo_verify.report.blocks import Block, Bullets, Text, TextTable
-from topo_verify.robot.events import Move
-from topo_verify.robot.limits import MOST_SECONDS
+from topo_verify.robot.events import Move, Trace
 from topo_verify.studies.advice import Advice
 from topo_verify.studies.log_file import line_of, read_log
 from topo_verify.studies.log_report import Certificate, OpenDoor, said_of_readings
@@ -41,6 +40,49 @@ class DecisionCount(msgspec.Struct, frozen=True):
 
     entailed: int
     total: int
+
+
+class CertifiedDecisions(msgspec.Struct, frozen=True):
+    """How many of the entailed decisions Coq accepted.
+
+    Attributes:
+        by: the checker; "" if nothing was checked.
+        why: why some are not certified; "" if all are.
+    """
+
+    certified: int
+    entailed: int
+    by: str
+    why: str
+
+
+class KernelCheck(msgspec.Struct, frozen=True):
+    """The Coq certificate of a log, and the answer of its checker.
+
+    Attributes:
+        statement: map, undetermined or impossible.
+        file: the certificate.
+        accepted: null if nothing checked the certificate.
+        by: the checker.
+        why: why nothing was checked.
+        command: checks it again, in the folder of the certificate.
+        delivered: Coq accepted that the delivered map is the world.
+        decisions: the certified ones among those that follow.
+    """
+
+    statement: str
+    file: str
+    accepted: bool | None
+    by: str
+    why: str
+    command: str
+    delivered: bool
+    decisions: CertifiedDecisions
+
+    @property
+    def incomplete(self) -> bool:
+        """Whether the certificate, or a decision that follows, was left unchecked."""
+        return self.accepted is None or bool(self.decisions.entailed and not self.decisions.by)
 
 
 class CertifyEntry(msgspec.Struct, frozen=True):
@@ -82,7 +124,33 @@ class CertifyEntry(msgspec.Struct, frozen=True):
     decisions: DecisionCount
     witnesses: tuple[str, ...]
     findings: tuple[Finding, ...]
-    kernel: study.KernelCheck | None
+    kernel: KernelCheck | None
+
+
+Prover = Callable[[int, Trace, Certificate], KernelCheck]
+"""Proves what the log of this number shows; `InternalError` if Coq says otherwise."""
+
+
+class LogCertifier(Protocol):
+    """What an extra brings with its options: certificates of logs, made and checked."""
+
+    def check(self, output: Output, *, alone: bool) -> int | None:
+        """Check a received certificate: the exit code, or None if none is named.
+
+        Args:
+            alone: whether no log and no option of another task is given.
+        """
+        ...
+
+    def prover(
+        self, output: Output, traces: Sequence[str]
+    ) -> AbstractContextManager[Prover | None]:
+        """What proves these logs; None if that is not asked for."""
+        ...
+
+    def show(self, proof: KernelCheck) -> Iterator[Block]:
+        """A certificate for people."""
+        ...
 
 
 @options.command(
@@ -99,17 +167,7 @@ class CertifyEntry(msgspec.Struct, frozen=True):
 @click.option(
     "--witness", "folder", metavar="DIR", help="Write two worlds that show the log to DIR."
 )
-@click.option("--kernel", "proving", is_flag=True, help="Write a certificate for Coq and check it.")
-@click.option("--check", "received", metavar="CERTIFICATE", help="Check a certificate with Coq.")
-@click.option("--log", "about", metavar="LOG", help="With --check: it must be about this log.")
-@options.number(
-    "--timeout",
-    least=1,
-    most=MOST_SECONDS,
-    default=600,
-    metavar="SECONDS",
-    meaning="Time limit of each program that checks a certificate.",
-)
+@extras.options("certify")
 def certify(
     output: Output,
     *,
@@ -117,10 +175,7 @@ def certify(
     map_file: str | None,
     picture: str | None,
     folder: str | None,
-    proving: bool,
-    received: str | None,
-    about: str | None,
-    timeout: int,
+    coq: LogCertifier,
 ) -> int:
     """Judge logs of percepts and doors, with no world at all.
 
@@ -134,20 +189,11 @@ def certify(
     --check has Coq check a received certificate: accepted (0), refused (1), not readable (2),
     not checked, or silent about a part of the log (3).
     """
-    _require_one_task(
-        traces, received, about, others=bool(map_file or picture or folder or proving)
-    )
-    doing = partial(output.progress, done=0, total=1)
-    if received is not None:
-
-        def checked() -> Iterator[Result[study.CertificateEntry]]:
-            with certificates.checking(timeout=timeout, progress=doing) as check:
-                log = None if about is None else read_log(about)
-                entry = study.check_received(received, log, check)
-                incomplete = entry.accepted is None or bool(entry.why)
-                yield Result(entry, failed=entry.accepted is False, incomplete=incomplete)
-
-        return output.run("certify", checked, _show_received)
+    checked = coq.check(output, alone=not (traces or map_file or picture or folder))
+    if checked is not None:
+        return checked
+    if not traces:
+        raise click.UsageError("Missing argument 'TRACE...'.")
 
     def certified() -> Iterator[Result[CertifyEntry]]:
         for option, file in (("-o", map_file), ("--draw", picture)):
@@ -157,7 +203,7 @@ def certify(
             from topo_verify.pictures.drawing import format_of
 
             format_of(picture)  # refused before the work
-        with certificates.checking(timeout=timeout, progress=doing) as check:
+        with coq.prover(output, traces) as prove:
             for number, trace in enumerate(traces):
                 output.progress(f"folding {trace}", number, len(traces))
                 log = read_log(trace)
@@ -172,14 +218,11 @@ def certify(
                 elif map_file is not None:
                     output.note(f"-o {map_file}: not written, for the log proves no map")
                 drawn = picture is None or _draw(output, certificate, picture)
-                proof = None
-                if proving:
-                    file = f"{_stem(traces, number)}.cert"
-                    proof = study.prove_log(trace, log, certificate, file, check)
+                proof = None if prove is None else prove(number, log, certificate)
                 result = _result(trace, certificate, folder, proof)
                 yield result if drawn else replace(result, incomplete=True)
 
-    return output.run("certify", certified, _show)
+    return output.run("certify", certified, lambda entries: _show(entries, coq))
 
 
 def _draw(output: Output, certificate: Certificate, picture: str) -> bool:
@@ -194,22 +237,8 @@ def _draw(output: Output, certificate: Certificate, picture: str) -> bool:
     return True
 
 
-def _require_one_task(
-    traces: tuple[str, ...], received: str | None, about: str | None, *, others: bool
-) -> None:
-    if received is None:
-        if not traces:
-            raise click.UsageError("Missing argument 'TRACE...'.")
-        if about is not None:
-            raise click.UsageError("--log LOG goes with --check CERTIFICATE: give both")
-    elif traces or others:
-        raise click.UsageError(
-            "--check CERTIFICATE takes --log LOG and --timeout, and no TRACE or other option"
-        )
-
-
 def _result(
-    trace: str, certificate: Certificate, folder: str | None, proof: study.KernelCheck | None
+    trace: str, certificate: Certificate, folder: str | None, proof: KernelCheck | None
 ) -> Result[CertifyEntry]:
     replay_command = shlex.join(["topo-verify", "certify", trace])
     findings = tuple(
@@ -252,7 +281,7 @@ def _witnesses(trace: str, certificate: Certificate, folder: str | None) -> tupl
     return tuple(written)
 
 
-def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
+def _show(entries: Sequence[CertifyEntry], coq: LogCertifier) -> Iterator[Block]:
     rows = [(e.trace, e.verdict, *_sizes(e), _decisions(e)) for e in entries]
     columns = ("log", "verdict", ">vertices", ">edges", ">open darts", "decisions that follow")
     yield TextTable(columns, rows)
@@ -293,7 +322,7 @@ def _show(entries: Sequence[CertifyEntry]) -> Iterator[Block]:
             yield Text(f"Two of the worlds that show this log; infinitely many do{files}:")
             yield Bullets(entry.witnesses)
         if entry.kernel is not None:
-            yield from _show_proof(entry.kernel)
+            yield from coq.show(entry.kernel)
 
 
 def _sizes(entry: CertifyEntry) -> tuple[str, str, str]:
@@ -347,56 +376,3 @@ def _decisions(entry: CertifyEntry) -> str:
     if not entry.decisions.total:
         return "none declared"
     return f"{entry.decisions.entailed} of {entry.decisions.total}"
-
-
-# ---------------------------------------------------------------- a certificate made here
-
-
-def _stem(traces: Sequence[str], number: int) -> str:
-    name = "standard_input" if traces[number] == "-" else Path(traces[number]).stem
-    stem = re.sub(r"\W", "_", name, flags=re.ASCII)
-    return f"certificate_{stem}" + (f"_{number + 1}" if len(traces) > 1 else "")
-
-
-_STATED = {
-    "map": "one world alone shows its log, and it is the map in the certificate",
-    "undetermined": "two worlds that differ show its log, so it proves no map",
-    "impossible": "no world shows its log",
-}
-
-
-def _show_proof(proof: study.KernelCheck) -> Iterator[Block]:
-    outcome = f"accepted by {proof.by}" if proof.accepted else f"NOT CHECKED: {proof.why}"
-    delivered = " The delivered map is that world." if proof.delivered else ""
-    proved, decisions = proof.decisions, ""
-    if proved.entailed:
-        by = f" by {proved.by}" if proved.by else ""
-        why = f": {proved.why}" if proved.why else ""
-        of = f"{proved.certified} of {proved.entailed}"
-        decisions = f" Of the decisions that follow, {of} are certified{by}{why}."
-    yield Text("")
-    yield Text(
-        f"{proof.file}: {_STATED[proof.statement]}; {outcome}.{delivered}{decisions}"
-        " To check it again, in the folder of that file:"
-    )
-    yield Bullets((proof.command,))
-
-
-# ---------------------------------------------------------------- a certificate received
-
-
-def _show_received(entries: Sequence[study.CertificateEntry]) -> Iterator[Block]:
-    for entry in entries:
-        if entry.statement is None:
-            word = "NOT CHECKED" if entry.accepted is None else f"REFUSED by {entry.by}"
-            yield Text(f"{entry.certificate}: {word}: {entry.why}")
-            continue
-        delivered = " The delivered map is that world." if entry.delivered else ""
-        of = f"{entry.decisions.certified} of {plural(entry.decisions.total, 'decision')}"
-        decisions = f" Proved to follow: {of}." if entry.decisions.total else ""
-        yield Text(
-            f"{entry.certificate}: accepted by {entry.by}: {_STATED[entry.statement]}."
-            f"{delivered}{decisions}"
-        )
-        if entry.why:
-            yield Text(f"{entry.certificate}: NOT PROVED: {entry.why}.")

@@ -70,7 +70,7 @@ class SecondSolver(Protocol):
         ...
 
 
-class Certifier(Protocol):
+class CertificateMaker(Protocol):
     """What --certify brings: checked certificates of bounded theorems."""
 
     certify: ClauseCertifier
@@ -183,7 +183,7 @@ def prove(
     second: SecondSolver | None,
     timeout: int,
     deep: bool,
-    certifier: Certifier | None,
+    certifier: CertificateMaker | None,
     folder: str | None,
     seed: int,
 ) -> int:

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import cast
+from typing import Protocol, cast
 
 import click
 import msgspec
 
+from topo_verify import extras
 from topo_verify.campaign.judge import Report, in_words, judge_trace, strict_option
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.cli import options, runs
 from topo_verify.cli.output import Output, Result, entry_of
-from topo_verify.errors import InputError, InternalError, plural
-from topo_verify.extra.certificates import judge
+from topo_verify.errors import InputError, plural
 from topo_verify.pictures.recording import PlayedRun
 from topo_verify.pictures.walk import Extent
 from topo_verify.programs.loader import Target
@@ -33,8 +34,32 @@ OF_A_MAPPER = ("--target", "--cmd", "--library", "--pick", "--order")
 MAP = "map-isomorphic"
 """The claim that a log need not meet."""
 
-KERNEL_TIMEOUT = 600
-"""Time limit of each program of Coq and OCaml, in seconds."""
+
+@dataclass(frozen=True, slots=True)
+class ProvedOpinion:
+    """The judgement of the judge that is proved in Coq.
+
+    Attributes:
+        by: what judged; "" if Coq or OCaml is not installed.
+        judgements: of the claims that Coq defines.
+        why: why the run was not judged, or "".
+    """
+
+    by: str
+    judgements: tuple[Judgement, ...] = ()
+    why: str = ""
+
+
+class SecondJudge(Protocol):
+    """What an extra brings with --kernel: another judge of the same run."""
+
+    def opinion(self, output: Output, report: Report) -> ProvedOpinion:
+        """Its judgement; InternalError if it differs from the checkers'."""
+        ...
+
+    def words(self, opinion: ProvedOpinion) -> str:
+        """A sentence for people."""
+        ...
 
 
 class ReplayEntry(msgspec.Struct, frozen=True):
@@ -54,7 +79,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     claims: dict[str, Status]
     judgements: tuple[Judgement, ...]
     stopped: str | None
-    kernel: judge.ProvedOpinion | None
+    kernel: ProvedOpinion | None
 
 
 @options.command(
@@ -77,7 +102,7 @@ class ReplayEntry(msgspec.Struct, frozen=True):
     meaning="Show the walk from event K on.  [default: the last moves before the first finding]",
 )
 @options.player
-@click.option("--kernel", "proved", is_flag=True, help="Have the judge proved in Coq judge, too.")
+@extras.options("replay")
 @options.strict
 @options.limits
 def replay(
@@ -90,7 +115,7 @@ def replay(
     everything: bool,
     first: int | None,
     player: str | None,
-    proved: bool,
+    second: SecondJudge | None,
     strict: bool,
     limits: Limits,
 ) -> int:
@@ -130,7 +155,7 @@ def replay(
         events = len(report.run.trace) if report.run else 1
         if first is not None and first >= events:
             raise InputError(f"--from {first}: expected an event of the run, 0 to {events - 1}")
-        kernel = _judged_in_coq(output, report) if proved else None
+        kernel = None if second is None else second.opinion(output, report)
         if trace is not None and _is_log(report):
             report = _of_a_log(report, "the log" if subject == "-" else Path(subject).name)
         reports.append(report)
@@ -147,7 +172,7 @@ def replay(
     return output.run(
         "replay",
         replayed,
-        lambda entries: _show(entries, reports, asked),
+        lambda entries: _show(entries, reports, asked, second),
         in_process=mappers.in_process,
     )
 
@@ -252,27 +277,11 @@ def _ran(
     return msgspec.structs.replace(report, world=at.name).of(report.run), run.stopped, incomplete
 
 
-def _judged_in_coq(output: Output, report: Report) -> judge.ProvedOpinion:
-    """The extracted judge's judgement; InternalError if it differs from the checkers'."""
-    if report.run is None:
-        return judge.ProvedOpinion("", why="the run has no trace")
-    opinion = judge.second_opinion(
-        (report.run.world, report.run.trace),
-        timeout=KERNEL_TIMEOUT,
-        progress=lambda doing: output.progress(doing, 0, 1),
-    )
-    checked = {judgement.claim: judgement for judgement in report.judgements}
-    for judgement in opinion.judgements:
-        if judgement != msgspec.structs.replace(checked[judgement.claim], findings=()):
-            raise InternalError(
-                f"{opinion.by} says of {judgement.claim}: {judgement.status}, judged"
-                f" {judgement.judged} of {judgement.of}; the checkers say otherwise"
-            )
-    return opinion
-
-
 def _show(
-    entries: Sequence[ReplayEntry], reports: Sequence[Report], asked: Extent
+    entries: Sequence[ReplayEntry],
+    reports: Sequence[Report],
+    asked: Extent,
+    second: SecondJudge | None,
 ) -> Iterator[Block]:
     for entry, report in zip(entries, reports, strict=True):
         words = f"{entry.target} in {entry.world}, {plural(entry.cost, 'edge traversal')}: "
@@ -282,10 +291,8 @@ def _show(
         is_log = entry.claims[MAP] == "not-declared"
         if not undecided and not is_log:
             yield from runs.unjudged(entry.target, entry.world, entry.judgements)
-        if entry.kernel is not None:
-            by, why, number = entry.kernel.by, entry.kernel.why, len(entry.kernel.judgements)
-            same = f"Judged again by {by}: the same of {number} of 10 claims."
-            yield Text(f"Not judged by the judge that is proved in Coq: {why}" if why else same)
+        if second is not None and entry.kernel is not None:
+            yield Text(second.words(entry.kernel))
         if is_log and report.run is not None and entry.ok:
             proved = certify(report.run.trace).verdict == "PROVED"
             unproved = "It does not prove its map yet: certify says where to go next."

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -20,6 +19,7 @@ from typing import get_args
 
 from topo_verify.checkers import CLAIMS, Judgement, Status
 from topo_verify.checkers.folding import OWN_END, TURNED, TWO_OF_S, UNLIKE
+from topo_verify.cli.replay import ProvedOpinion
 from topo_verify.errors import InputError
 from topo_verify.extra.certificates.certificate_format import (
     LARGEST,
@@ -43,21 +43,6 @@ CONTRADICTIONS = UNLIKE, TURNED, OWN_END, TWO_OF_S
 """In the order of coq/Claims.v, where other words come last."""
 
 TracedRun = tuple[World, Sequence[ev.Event]]
-
-
-@dataclass(frozen=True, slots=True)
-class ProvedOpinion:
-    """The judgement of the judge that is proved in Coq.
-
-    Attributes:
-        by: what judged; "" if Coq or OCaml is not installed.
-        judgements: of the claims that Coq defines.
-        why: why the run was not judged, or "".
-    """
-
-    by: str
-    judgements: tuple[Judgement, ...] = ()
-    why: str = ""
 
 
 def second_opinion(

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 
 import msgspec
 
+from topo_verify.cli.certify import CertifiedDecisions, KernelCheck
 from topo_verify.errors import InternalError
 from topo_verify.extra.certificates import certificate_format, certificates, evidence
 from topo_verify.robot.events import Trace
@@ -14,49 +15,6 @@ from topo_verify.studies.log_report import Certificate
 from topo_verify.world.formats import files
 
 NumbersChecker = Callable[[Sequence[int]], certificates.CertificateCheck]
-
-
-class CertifiedDecisions(msgspec.Struct, frozen=True):
-    """How many of the entailed decisions Coq accepted.
-
-    Attributes:
-        by: the checker; "" if nothing was checked.
-        why: why some are not certified; "" if all are.
-    """
-
-    certified: int
-    entailed: int
-    by: str
-    why: str
-
-
-class KernelCheck(msgspec.Struct, frozen=True):
-    """The Coq certificate of a log, and the answer of its checker.
-
-    Attributes:
-        statement: map, undetermined or impossible.
-        file: the certificate.
-        accepted: null if nothing checked the certificate.
-        by: the checker.
-        why: why nothing was checked.
-        command: checks it again, in the folder of the certificate.
-        delivered: Coq accepted that the delivered map is the world.
-        decisions: the certified ones among those that follow.
-    """
-
-    statement: str
-    file: str
-    accepted: bool | None
-    by: str
-    why: str
-    command: str
-    delivered: bool
-    decisions: CertifiedDecisions
-
-    @property
-    def incomplete(self) -> bool:
-        """Whether the certificate, or a decision that follows, was left unchecked."""
-        return self.accepted is None or bool(self.decisions.entailed and not self.decisions.by)
 
 
 class ReceivedDecisions(msgspec.Struct, frozen=True):
