@@ -55,6 +55,7 @@ def test_a_large_world_is_judged_by_its_map_and_cost(
         assert row.right
 
 
+@pytest.mark.nightly
 def test_workers_use_the_engine_that_is_asked_for(tmp_path: Path) -> None:
     here = rows(tmp_path, "compiled")
     (tmp_path / "compiled.db").unlink()
