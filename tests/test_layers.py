@@ -208,6 +208,18 @@ def objections_to_extra(module: str, source: str) -> Iterator[str]:
         elif module.endswith(".options") and found.at_load and not is_light(found):
             yield f"{where} when it is loaded: options.py needs click alone"
 
+    for line, text in texts(source):
+        other = re.search(r"\btopo_verify[./]extra[./](\w+)", text)
+        if other is not None and other[1] != extra_of(module):
+            yield f"{module}:{line} names a module of the extra {other[1]}: import no other extra"
+
+
+def texts(source: str) -> Iterator[tuple[int, str]]:
+    """The strings of a file, docstrings and parts of f-strings included, with their lines."""
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            yield node.lineno, node.value
+
 
 def is_light(found: Import) -> bool:
     """Whether the options of a command may load it: click, the standard library, our errors."""
@@ -217,10 +229,9 @@ def is_light(found: Import) -> bool:
 
 def objections_to_names(module: str, source: str) -> Iterator[str]:
     """Where a file of the main house names an extra's module, or a package that an extra needs."""
-    texts = (node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Constant))
-    for node in texts:
-        if isinstance(node.value, str) and re.search(r"\btopo_verify[./]extra\b", node.value):
-            yield f"{module}:{node.lineno} names a module of an extra: ask topo_verify/extras.py"
+    for line, text in texts(source):
+        if re.search(r"\btopo_verify[./]extra\b", text):
+            yield f"{module}:{line} names a module of an extra: ask topo_verify/extras.py"
     for package in sorted({name for names in extras.PACKAGES.values() for name in names}):
         if re.search(rf"\b{package}\b", source):
             yield f"{module} names {package}, which an extra needs: only topo_verify/extras.py does"
@@ -345,6 +356,7 @@ def test_every_room_imports_only_what_it_may() -> None:
         ("topo_verify.extra.arena.a", "from topo_verify.extra.figures import b", "no other extra"),
         ("topo_verify.extra.arena.a", "def f():\n    import topo_verify.extra.films", "no other"),
         ("topo_verify.extra.arena.a", "from topo_verify.extra import films", "no other extra"),
+        ("topo_verify.extra.arena.a", "import_module('topo_verify.extra.films')", "no other extra"),
         ("topo_verify.extra.arena.a", "from .league import League", "full name"),
         ("topo_verify.extra.films.options", "import msgspec", "click alone"),
         ("topo_verify.extra.films.options", "from topo_verify.world import io", "click alone"),
@@ -377,12 +389,27 @@ def test_the_layer_check_sees_a_planted_breach(module: str, source: str, objecti
         ("topo_verify.campaign.run", "from topo_verify import extras"),
         ("topo_verify.extra.arena.a", "from topo_verify.extra.arena.league import League"),
         ("topo_verify.extra.arena.a", "from topo_verify.cli.output import Output"),
+        ("topo_verify.extra.arena.a", "'topo_verify.extra.arena.league:League'"),
         ("topo_verify.extra.films.options", "import click\nfrom topo_verify.errors import plural"),
         ("topo_verify.extra.films.options", "def f():\n    import topo_verify.extra.films.film"),
     ],
 )
 def test_the_layer_check_lets_pass_what_is_allowed(module: str, source: str) -> None:
     assert not list(objections(module, source))
+
+
+def test_the_tests_of_the_main_house_import_no_extra() -> None:
+    """So that they can be run where no package of an extra is installed."""
+    tests = ROOT / "tests"
+    files = [path for path in tests.rglob("*.py") if tests / "extra" not in path.parents]
+    found = [
+        (path.name, target)
+        for path in files
+        for target in (each.target for each in imports(path.read_text("utf-8"), str(path)))
+        if extra_of(target) is not None or f"{target}.".startswith("tests.extra.")
+    ]
+    assert len(files) > 200
+    assert found == []
 
 
 @pytest.mark.long
