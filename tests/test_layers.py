@@ -207,11 +207,10 @@ def objections_to_extra(module: str, source: str) -> Iterator[str]:
             yield f"{where}: an extra imports the main house, and no other extra"
         elif module.endswith(".options") and found.at_load and not is_light(found):
             yield f"{where} when it is loaded: options.py needs click alone"
-
     for line, text in texts(source):
-        other = re.search(r"\btopo_verify[./]extra[./](\w+)", text)
-        if other is not None and other[1] != extra_of(module):
-            yield f"{module}:{line} names a module of the extra {other[1]}: import no other extra"
+        named = re.search(r"\btopo_verify[./]extra[./](\w+)", text)
+        if named is not None and named[1] != extra_of(module):
+            yield f"{module}:{line} names a module of the extra {named[1]}: import no other extra"
 
 
 def texts(source: str) -> Iterator[tuple[int, str]]:

@@ -190,16 +190,17 @@ def explore(
     the marker's direction at the end of the new edge differs at once.
     """
     everywhere = marker == "all"
-    made = {option: file for option, file in added.items() if file is not None}
-    names = {option: file.name for option, file in made.items()}
+    run_files = {option: file for option, file in added.items() if file is not None}
+    file_names = {option: file.name for option, file in run_files.items()}
 
     def explored() -> Iterator[Result[ExploreEntry]]:
         targets = on_engine(engine, mappers.load(), limits)
-        output.require_places(trace=trace, **names)
+        output.require_places(trace=trace, **file_names)
         if everywhere:
-            _require_one_marker({"trace": trace, "player": player, "gap": gap, **names})
+            others = {"trace": trace, "player": player, "gap": gap, **file_names}
+            _require_one_marker(others)
         starts = runs.named_worlds(worlds, marker if isinstance(marker, int) else None)
-        for option, value in {"trace": trace, **names, "choices": choices}.items():
+        for option, value in {"trace": trace, **file_names, "choices": choices}.items():
             if value is not None and not (everywhere and option == "choices"):
                 _require_one_run(f"--{option}", value, targets, starts)
         runs.require_one_world(player, len(starts))
@@ -213,7 +214,7 @@ def explore(
             listed = ListedChoices(targets[0], choices)
             targets = (listed.target,)
         asked = _ExploreOptions(
-            limits, trace, player, tuple(made.values()), strict, gap, everywhere, listed
+            limits, trace, player, tuple(run_files.values()), strict, gap, everywhere, listed
         )
         return _results(output, starts, targets, asked)
 
