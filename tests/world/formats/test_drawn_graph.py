@@ -100,6 +100,10 @@ DRAWN: list[tuple[str, Any]] = [
     ("road", "M 0 0 L 1 2"),
     ("road", "0102000000020000000000000000000000000000000000000000000000"),
     ("road", [(0, 0), (1, 2)]),
+    ("road", [(0.5, 0.4)]),
+    ("road", [{"x": 0.5, "y": 0.4}]),
+    ("bendPoints", [{"y": 0.4, "x": 0.5, "label": "a"}]),
+    ("road", np.array([[0.5, 0.4]])),
     ("road", np.array([[0, 0], [1, 2]])),
     ("road", {"type": "LineString", "coordinates": [[0, 0], [1, 2]]}),
     ("road", SimpleNamespace(coords=[(0, 0), (1, 2)])),
@@ -124,6 +128,7 @@ def test_points_in_another_attribute_are_refused_by_its_name(name: str, value: A
         ("width", "3.5"), ("color", "#010203"), ("speed", np.float64(50)), ("tags", {"a": 1}),
         ("ids", {1, 2}), ("nothing", None), ("hash", "01" + "f" * 62), ("viz", {"shape": "dotted"}),
         ("weights", "1 2 3 4"), ("label", "M1"), ("oneway", "False"), ("length", "57.1"),
+        ("stats", [{"lanes": 2, "speed": 50}]), ("tags", [{}]), ("parts", [[1]]), ("parts", []),
     ],
 )  # fmt: skip
 def test_other_attributes_draw_nothing(name: str, value: Any) -> None:

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import networkx as nx
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -320,6 +321,12 @@ def test_a_geometry_that_is_none_is_refused(geometry: object, sentence: str) -> 
 def test_what_is_no_graph_is_refused(read: Any, graph: Any) -> None:
     with pytest.raises(InputError, match="expected a graph of NetworkX, got"):
         read(graph)
+
+
+@pytest.mark.parametrize("positions", [[(0, 0), (1, 0)], np.zeros((2, 2)), 5, "0,0"])
+def test_positions_that_are_no_mapping_are_refused(positions: Any) -> None:
+    with pytest.raises(InputError, match="expected positions as a mapping"):
+        from_positions(NX.path_graph(2), positions)
 
 
 def test_a_drawing_that_is_no_world_is_refused() -> None:

@@ -238,11 +238,15 @@ def _holds_numbers(value: Any) -> bool:
 
 
 def _has_points(value: Any) -> bool:
+    """Whether the value is a row of points; a mapping alone is one only with x and y."""
     try:
-        rows = [_values(row) for row in islice(value, 2)]
+        first = [*islice(value, 2)]
+        rows = [_values(row) for row in first]
     except TypeError:
         return False
-    return len(rows) > 1 and all(len(row) > 1 and all(map(_is_number, row)) for row in rows)
+    if len(first) == 1 and isinstance(first[0], Mapping):
+        return {"x", "y"} <= {*first[0]}
+    return len(rows) > 0 and all(len(row) > 1 and all(map(_is_number, row)) for row in rows)
 
 
 def _values(row: Any) -> list[Any]:

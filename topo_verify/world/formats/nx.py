@@ -185,6 +185,11 @@ def from_positions(
     )
     nodes = given.nodes
     if positions is not None:
+        if not isinstance(cast("object", positions), Mapping):
+            raise InputError(
+                "the graph: expected positions as a mapping from nodes to (x, y), got"
+                f" {shown(repr(positions), limit=60)}; dict(zip(graph, rows)) makes one of rows"
+            )
         nodes = {node: {"pos": positions.get(node)} for node in given}
     return drawn_graph.as_world(
         World,
