@@ -85,6 +85,10 @@ def test_opposite_edges_with_courses_and_ids_of_their_own_are_two_streets() -> N
         ("0,0 5,4 100,0", "100,0 5,5 0,0", 1),
         ("0,0 50,20 100,0", "100,0 40,30 50,50 0,0", 0),
         ("0,0 50,20 100,0", "", 0),
+        ("0,0 50,20 100,0", "100,0 75,10 50,20 0,0", 1),  # a point between two others
+        ("0,0 50,20 100,0", "100,0 50,20 25,10 12.5,5 0,0", 1),
+        ("0,0 50,20 100,0.01", "100,0 75,10.01 50,20.01 0,0", 1),
+        ("0,0 50,20 100,0", "100,0 75,12 50,21 0,0", 0),
     ],
 )
 def test_both_directions_are_one_edge_if_their_courses_differ_by_rounding_or_are_straight(

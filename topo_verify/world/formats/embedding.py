@@ -17,7 +17,7 @@ from decimal import Decimal
 from fractions import Fraction
 from functools import cache, cmp_to_key
 from itertools import pairwise
-from math import dist, inf
+from math import dist, inf, sqrt
 from typing import NamedTuple, TypeVar
 
 from topo_verify.errors import InputError, plural, shown
@@ -178,13 +178,11 @@ def _merged(
         return bool(ways[n].street) and ways[n].street == ways[back].street
 
     def have_one_course(n: int, back: int) -> bool:
-        if len(courses[n]) != len(courses[back]):
-            return False
-        pairs = list(zip(courses[n], reversed(courses[back]), strict=True))
-        if all(a == b for a, b in pairs):
+        course, other = courses[n], courses[back][::-1]
+        if course == other:
             return True
-        most = min(precision(n)[0], precision(back)[0])
-        return all(_distance(a, b) <= most for a, b in pairs)
+        most = sqrt(2) * min(precision(n)[0], precision(back)[0])
+        return _lies_along(course, other, most) and _lies_along(other, course, most)
 
     def are_straight(n: int, back: int) -> bool:
         (rounding, bend), (other, other_bend) = precision(n), precision(back)
@@ -221,7 +219,7 @@ def _bend(course: Sequence[Point]) -> float:
 
 
 def _rounding(course: Sequence[Point]) -> float:
-    """How far apart two roundings of a point may be: a unit of the last digit, with its error.
+    """How far two roundings of a coordinate differ: a unit of the last digit, with its error.
 
     At most a hundredth of the street's length, since whole numbers need not be rounded.
     """
@@ -231,8 +229,17 @@ def _rounding(course: Sequence[Point]) -> float:
     return min(1.01 * unit + 1e-12 * max(map(abs, numbers)), length / 100)
 
 
-def _distance(a: Point, b: Point) -> float:
-    return max(abs(a[0] - b[0]), abs(a[1] - b[1]))
+def _lies_along(points: Sequence[Point], course: Sequence[Point], most: float) -> bool:
+    """Whether the points lie on the course in their order, at a distance of at most `most`."""
+    segments = pairwise(course)
+    segment = next(segments)
+    for point in points:
+        while junctions.distance(point, *segment) > most:
+            following = next(segments, None)
+            if following is None:
+                return False
+            segment = following
+    return True
 
 
 def _say_merged(

@@ -208,7 +208,7 @@ class _Junction:
         for place, rest in enumerate(rests):
             tips = {rest[0], rest[-1]}
             for a, b in pairwise(rest):
-                if a == b or self.at in (a, b) or _distance(self.at, a, b) > farthest:
+                if a == b or self.at in (a, b) or distance(self.at, a, b) > farthest:
                     continue
                 for _, _, other in _between(
                     rows, bearings, bearing(self.at, a), bearing(self.at, b)
@@ -244,7 +244,8 @@ def _side(a: Point, b: Point, c: Point) -> float:
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
-def _distance(p: Point, a: Point, b: Point) -> float:
+def distance(p: Point, a: Point, b: Point) -> float:
+    """The distance of p from the segment between a and b."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     length = dx * dx + dy * dy
     along = (p[0] - a[0]) * dx + (p[1] - a[1]) * dy
