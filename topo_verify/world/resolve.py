@@ -18,7 +18,7 @@ from typing import IO, TypeVar, cast
 from topo_verify.errors import InputError, close_name, shown
 from topo_verify.world import io
 from topo_verify.world.families import FAMILIES
-from topo_verify.world.formats import files, world_json
+from topo_verify.world.formats import files, other, world_json
 from topo_verify.world.rooted_map import World
 
 T = TypeVar("T")
@@ -144,6 +144,8 @@ def resolve_world(
     if text == "-":
         stream, name = stdin or files.standard_input(), "standard input"
         data = files.unpacked(files.read_stream(stream, name=name), name)
+        if not data.startswith(io.PLANAR_CODE):
+            other.refuse(text, data, "json")
         return io.decoded(World, data, "json", name=name)
     if text == "nyc":
         file = resources.files("topo_verify.world") / "data" / "nyc_osmnx.json"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ import yaml
 
 from topo_verify.errors import InputError
 from topo_verify.world import World, families
+from topo_verify.world.resolve import resolve_world
 
 NX: Any = nx
 """NetworkX where its stubs leave types open."""
@@ -129,15 +131,37 @@ def test_a_line_that_needs_other_packages_names_them(name: str, tmp_path: Path) 
     ("data", "ending"),
     [(b"<graphml><graph/></graphml>", ".graphml"), (b"<?xml version='1.0'?><net/>", ".net.xml")],
 )
-@pytest.mark.parametrize("name", ["t.xml", "t", "t.json"])
+@pytest.mark.parametrize("name", ["t.xml", "t", "t.json", "t.net", "t.gexf", "t.yaml"])
 def test_a_format_that_is_read_has_its_ending(
     data: bytes, ending: str, name: str, tmp_path: Path
 ) -> None:
     (tmp_path / name).write_bytes(data)
-    assert f"let its name end in {ending}" in sentence_of(tmp_path / name)
+    assert f"a file whose name ends in {ending}; " in sentence_of(tmp_path / name)
 
 
-@pytest.mark.parametrize("name", ["t.tgf", "t.bin", "t.md"])
+@pytest.mark.parametrize("name", KNOWN_BY_ITS_BEGINNING)
+def test_a_beginning_counts_more_than_an_ending(name: str, tmp_path: Path) -> None:
+    for other in CONVERTED:
+        (tmp_path / other).write_bytes(CONVERTED[name][0])
+    kinds = {
+        sentence_of(tmp_path / other).partition(" is ")[2].partition(",")[0] for other in CONVERTED
+    }
+    assert len(kinds) == 1
+
+
+@pytest.mark.parametrize("name", KNOWN_BY_ITS_BEGINNING)
+def test_standard_input_is_known_by_its_beginning(name: str) -> None:
+    with pytest.raises(InputError, match=r"^standard input is .* converts it: "):
+        resolve_world("-", stdin=BytesIO(CONVERTED[name][0]))
+
+
+@pytest.mark.parametrize("data", [b"<graphml><graph/></graphml>", b"<net/>"])
+def test_standard_input_in_a_format_with_an_ending_belongs_into_a_file(data: bytes) -> None:
+    with pytest.raises(InputError, match=r"^standard input begins with .* a file whose name ends"):
+        resolve_world("-", stdin=BytesIO(data))
+
+
+@pytest.mark.parametrize("name", ["t.tgf", "t.bin", "t.md", "t.osm.pbf"])
 @pytest.mark.parametrize("data", [b"1 2\n", b"\xff\0\1", b""])
 def test_a_format_that_nothing_tells_is_refused_with_those_that_are_read(
     name: str, data: bytes, tmp_path: Path

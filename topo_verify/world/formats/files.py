@@ -28,7 +28,7 @@ GZIP = b"\x1f\x8b"
 
 _PACKED = {
     GZIP: "by gzip, once more",
-    b"PK\x03\x04": "as zip",
+    b"PK\x03\x04": "as zip, as spreadsheets are (save a table as CSV)",
     b"BZh": "by bzip2",
     b"\xfd7zXZ\0": "by xz",
     b"(\xb5/\xfd": "by zstd",

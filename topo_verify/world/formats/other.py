@@ -99,7 +99,7 @@ _FORMATS = (
     ),
     _Format(
         "OpenStreetMap's XML",
-        (".osm", ".pbf"),
+        (".osm",),
         _XML + "osm",
         "import osmnx as ox; from topo_verify.world.formats.nx import from_positions;"
         " from_positions(ox.graph_from_xml(FILE)).save(TO)",
@@ -114,38 +114,44 @@ _FORMATS = (
     ),
 )
 
+_BY_ENDING = {ending: form for form in _FORMATS for ending in form.endings}
+
 
 def refuse(path: str | PathLike[str], data: bytes, kind: str) -> None:
     """Refuse a file of a format that is not read; `kind` is the one that its name says.
 
-    A name says world JSON if its ending is unknown, so only then its ending tells another format.
+    How a file begins counts more than its ending, and an ending only where it says no format that
+    is read. The path `-` is standard input.
     """
-    name = files.unpacked_name(path)
-    ending = PurePath(name).suffix.lower()
+    given = "FILE" if fspath(path) == "-" else fspath(path)
+    subject = "standard input" if fspath(path) == "-" else shown(path)
+    ending = PurePath(files.unpacked_name(given)).suffix.lower()
     begin = data[:_SNIFFED].decode("utf-8-sig", "replace")
-    for form in _FORMATS:
-        if (kind == "json" and ending in form.endings) or re.match(
-            form.begins, begin, re.DOTALL | re.IGNORECASE
-        ):
-            target = files.stem(path) + (".world.json" if ending == ".json" else ".json")
-            line = form.line.replace("FILE", repr(fspath(path))).replace("TO", repr(target))
-            raise InputError(
-                f"{shown(path)} is {form.name}, which is not read; {READ} are. In Python this"
-                f" converts it: {line}"
-            )
-    if kind != "json":
-        return
-    for element, right in (("graphml", ".graphml"), ("net", ".net.xml")):
-        if re.match(rf"{_XML}{element}\b", begin, re.DOTALL):
-            raise InputError(
-                f"{shown(path)} begins with <{element}>: let its name end in {right}; {READ} are"
-                " read"
-            )
-    if ending not in _TEXTS and not begin.lstrip().startswith(("{", "[")):
+    if kind == "json":
+        for element, right in (("graphml", ".graphml"), ("net", ".net.xml")):
+            if re.match(rf"{_XML}{element}\b", begin, re.DOTALL):
+                raise InputError(
+                    f"{subject} begins with <{element}>: give it as a file whose name ends in"
+                    f" {right}; {READ} are read"
+                )
+    form = _by_beginning(begin) or (_BY_ENDING.get(ending) if kind == "json" else None)
+    if form is not None:
+        target = files.stem(given) + (".world.json" if ending == ".json" else ".json")
+        line = form.line.replace("FILE", repr(given)).replace("TO", repr(target))
         raise InputError(
-            f"{shown(path)} is of no format that is read; {READ} are. In Python, with a graph of"
+            f"{subject} is {form.name}, which is not read; {READ} are. In Python this converts it:"
+            f" {line}"
+        )
+    if kind == "json" and ending not in _TEXTS and not begin.lstrip().startswith(("{", "[")):
+        raise InputError(
+            f"{subject} is of no format that is read; {READ} are. In Python, with a graph of"
             f" NetworkX whose nodes have x and y, this converts it: {_ANY}"
         )
+
+
+def _by_beginning(begin: str) -> _Format | None:
+    flags = re.DOTALL | re.IGNORECASE
+    return next((form for form in _FORMATS if re.match(form.begins, begin, flags)), None)
 
 
 _TEXTS = ("", ".json", ".jsonl", ".csv", ".tsv", ".txt", ".log")
