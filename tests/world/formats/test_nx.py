@@ -251,6 +251,20 @@ def test_a_street_in_both_directions_is_one_edge() -> None:
     assert from_positions(graph, marker=("b", "a", 0)).marker_vertex == 1
 
 
+def test_a_loop_in_both_directions_is_one_edge_and_twice_in_one_direction_is_refused() -> None:
+    loop = [(0, 0), (1, 0), (1, 1), (0, 0)]
+    for again, is_read in ((loop[::-1], True), (loop, False)):
+        graph: nx.MultiDiGraph[str] = nx.MultiDiGraph()
+        graph.add_node("a", pos=(0, 0))
+        graph.add_edge("a", "a", geometry=loop)
+        graph.add_edge("a", "a", geometry=again)
+        if is_read:
+            assert from_positions(graph).degrees == (2,)
+        else:
+            with pytest.raises(InputError, match="two edges leave at the same angle"):
+                from_positions(graph)
+
+
 def test_carriageways_with_courses_of_their_own_are_two_edges() -> None:
     graph: nx.MultiDiGraph[str] = nx.MultiDiGraph()
     graph.add_node("a", pos=(0, 0))

@@ -233,12 +233,16 @@ def _lies_along(points: Sequence[Point], course: Sequence[Point], most: float) -
     """Whether the points lie on the course in their order, at a distance of at most `most`."""
     segments = pairwise(course)
     segment = next(segments)
+    passed = 0.0
     for point in points:
-        while junctions.distance(point, *segment) > most:
+        along, away = junctions.projected(point, *segment)
+        while away > most or along < passed - most:
             following = next(segments, None)
             if following is None:
                 return False
-            segment = following
+            segment, passed = following, 0.0
+            along, away = junctions.projected(point, *segment)
+        passed = along
     return True
 
 

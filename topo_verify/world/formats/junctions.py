@@ -208,7 +208,7 @@ class _Junction:
         for place, rest in enumerate(rests):
             tips = {rest[0], rest[-1]}
             for a, b in pairwise(rest):
-                if a == b or self.at in (a, b) or distance(self.at, a, b) > farthest:
+                if a == b or self.at in (a, b) or projected(self.at, a, b)[1] > farthest:
                     continue
                 for _, _, other in _between(
                     rows, bearings, bearing(self.at, a), bearing(self.at, b)
@@ -244,13 +244,13 @@ def _side(a: Point, b: Point, c: Point) -> float:
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
-def distance(p: Point, a: Point, b: Point) -> float:
-    """The distance of p from the segment between a and b."""
+def projected(p: Point, a: Point, b: Point) -> tuple[float, float]:
+    """How far along the segment from a to b its point nearest to p lies, and how far from p."""
     dx, dy = b[0] - a[0], b[1] - a[1]
-    length = dx * dx + dy * dy
+    square = dx * dx + dy * dy
     along = (p[0] - a[0]) * dx + (p[1] - a[1]) * dy
-    share = min(max(along / length, 0.0), 1.0) if length else 0.0
-    return hypot(a[0] + share * dx - p[0], a[1] + share * dy - p[1])
+    share = min(max(along / square, 0.0), 1.0) if square else 0.0
+    return share * sqrt(square), hypot(a[0] + share * dx - p[0], a[1] + share * dy - p[1])
 
 
 def _last_crossing(at: Point, course: Sequence[Point], radius: float) -> _Exit | None:
