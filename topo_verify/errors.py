@@ -22,7 +22,9 @@ LINE = 4000
 
 def shown(text: str | PathLike[str], *, limit: int = 200) -> str:
     """The text on one line of a message: control characters escaped, cut after `limit`."""
-    line = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in os.fspath(text))
+    line = os.fspath(text)
+    if not line.isprintable():
+        line = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line)
     return line if len(line) <= limit else line[: limit - 1] + "…"
 
 

@@ -204,7 +204,6 @@ _LOOKS_DRAWN = re.compile(
 _NOT_POINTS = re.compile(r"[^\s\d.,;:()\[\]{}'\"+eExyzMLHVCSQTAmlhvcsqta-]")
 
 
-@lru_cache
 def _plain(name: str) -> str:
     return re.sub(r"[-_:\s]", "", name).lower()
 
@@ -213,12 +212,20 @@ def is_drawn(name: str, value: Any) -> bool:
     """Whether an attribute of an edge holds points."""
     if is_blank(value) or isinstance(value, bool | int | float):
         return False
-    plain = _plain(name)
-    if plain in _SURELY_DRAWN or name in {"geometry", "bends"} or name.startswith("<"):
+    if _is_sure(name) or _looks_drawn(value):
         return True
-    return _looks_drawn(value) or (
-        _MAYBE_DRAWN.fullmatch(plain) is not None and _holds_numbers(value)
-    )
+    return _is_polyline_name(name) and _holds_numbers(value)
+
+
+@lru_cache
+def _is_sure(name: str) -> bool:
+    read = {"geometry", "bends"}
+    return name in read or name.startswith("<") or _plain(name) in _SURELY_DRAWN
+
+
+@lru_cache
+def _is_polyline_name(name: str) -> bool:
+    return _MAYBE_DRAWN.fullmatch(_plain(name)) is not None
 
 
 def _looks_drawn(value: Any) -> bool:

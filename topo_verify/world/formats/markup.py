@@ -9,6 +9,7 @@ Source: "XML security" in the manual of Python's standard library.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from xml.parsers import expat
 
 from topo_verify.errors import InputError
@@ -27,20 +28,20 @@ OnEnd = Callable[[tuple[str, ...], str], None]
 
 def read(data: bytes, *, name: str, start: OnStart, end: OnEnd) -> None:
     """Go through the document; raises InputError."""
-    path: list[str] = []
+    paths: list[tuple[str, ...]] = [()]
     text: list[str] = []
 
     def begin(tag: str, attributes: dict[str, str]) -> None:
-        path.append(_local(tag))
+        path = (*paths[-1], _local(tag))
         if len(path) > DEEPEST:
             raise InputError(f"{name}: its elements are nested too deeply, over {DEEPEST} deep")
+        paths.append(path)
         text.clear()
-        start(tuple(path), {_local(key): value for key, value in attributes.items()})
+        start(path, {_local(key): value for key, value in attributes.items()})
 
     def finish(_tag: str) -> None:
-        end(tuple(path), "".join(text))
+        end(paths.pop(), "".join(text))
         text.clear()
-        path.pop()
 
     def refuse(*_declared: object) -> None:
         raise InputError(
@@ -65,5 +66,6 @@ def read(data: bytes, *, name: str, start: OnStart, end: OnEnd) -> None:
         raise InputError(f"{name} is not valid XML: {error}; save it as UTF-8") from error
 
 
+@lru_cache
 def _local(name: str) -> str:
     return name.rpartition(_SEPARATOR)[2]
