@@ -169,7 +169,7 @@ def _point(row: Sequence[object], subject: str, most: int) -> Point:
 def row_of(value: Any, subject: str) -> list[Any]:
     """The values in a row of any kind; a point may be a mapping with x and y."""
     if isinstance(value, list):
-        return value
+        return cast("list[Any]", cast("object", value))
     fields = _fields(value)
     if {"x", "y"} <= fields.keys():
         return [fields["x"], fields["y"]]
