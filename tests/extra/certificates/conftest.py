@@ -1,17 +1,7 @@
-"""Fixtures of other rooms, for the tests of this one."""
+"""The library in Coq, for the tests of this extra."""
 
 from __future__ import annotations
 
-from tests.cli.conftest import call, few_worlds_run_again, folder, refused, results
 from tests.proofs.mechanised.conftest import library, linked, place
 
-__all__ = [
-    "call",
-    "few_worlds_run_again",
-    "folder",
-    "library",
-    "linked",
-    "place",
-    "refused",
-    "results",
-]
+__all__ = ["library", "linked", "place"]
