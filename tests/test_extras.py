@@ -69,6 +69,19 @@ def test_the_options_of_extras_stand_where_the_command_asks_for_them() -> None:
     assert "svg" in names
 
 
+def test_a_command_may_ask_for_one_option_where_it_belongs() -> None:
+    @click.command
+    @extras.options("prove", "certify")
+    @click.option("--between")
+    @extras.options("prove", "solver")
+    def command(**_: object) -> int:
+        return 0
+
+    assert [option.opts for option in command.params] == [
+        ["--certify"], ["--between"], ["--solver"],
+    ]  # fmt: skip
+
+
 @pytest.mark.parametrize("place", PLACES)
 def test_what_the_command_line_loads_needs_no_package_of_an_extra(place: str) -> None:
     packages = [name for names in extras.PACKAGES.values() for name in names]
@@ -105,3 +118,4 @@ def test_pip_knows_each_extra_that_needs_packages_and_the_names_of_0_3() -> None
     pip = table["optional-dependencies"]
     assert pip.keys() >= extras.PACKAGES.keys()
     assert pip["plots"] == ["topo-verify[figures]"]
+    assert pip["proofs"] == ["topo-verify[sat]"]
