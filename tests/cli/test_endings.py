@@ -75,6 +75,14 @@ def closes(robot):
     os.closerange(3, 99)
     return explore(robot)
 
+def silences(robot):
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    return explore(robot)
+
+def reaps(robot):
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+    return explore(robot)
+
 class Loses:
     def __del__(self):
         signal.raise_signal(signal.SIGINT)
@@ -140,6 +148,17 @@ def test_a_mapper_that_ends_its_process_decides_nothing(folder: Path, mapper: st
 def test_a_mapper_that_closes_files_does_not_change_the_exit_code(folder: Path) -> None:
     words = ("explore", "m2/5", "--target", "ends.py:closes", "--in-process", "--format", "json")
     code, out, _ = ran(folder, *words, *FILES)
+    assert {code, json.loads(out)["exit"]} == {0}
+
+
+def test_output_that_a_mapper_sends_elsewhere_is_not_written(folder: Path) -> None:
+    words = ("explore", "m2/5", "--target", "ends.py:silences", "--in-process", "--format", "json")
+    assert ran(folder, *words)[:2] == (2, "")
+
+
+def test_a_mapper_that_ignores_the_end_of_children_is_run_again(folder: Path) -> None:
+    words = ("search", "ends.py:reaps", "--edges", "1", "--workers", "0", "--in-process")
+    code, out, _ = ran(folder, *words, "--format", "json")
     assert {code, json.loads(out)["exit"]} == {0}
 
 

@@ -22,7 +22,7 @@ from importlib import metadata
 from pathlib import Path
 from threading import Lock, Timer
 from time import perf_counter
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TextIO, TypeVar
 
 import click
 import msgspec
@@ -197,6 +197,7 @@ class Output:
         self.timing: dict[str, Any] = {}
         self.style, self.quiet = style, quiet
         self.stdout = sys.stdout
+        self._stdout_file = _file_behind(self.stdout)
         self._is_read_no_more = False
         self._prints_data = style != "pretty"
         self.progress = ProgressBar(quiet=quiet)
@@ -356,6 +357,11 @@ class Output:
     def _print(self, text: str) -> None:
         """Write to standard output: data as UTF-8, text for people in the locale's encoding."""
         out = self.stdout
+        if text and _file_behind(out) != self._stdout_file:
+            self._is_read_no_more = True
+            raise WriteError(
+                "cannot write to standard output: a mapper with --in-process closed it"
+            )
         if (reconfigure := getattr(out, "reconfigure", None)) is not None:
             # for an encoding without one of our letters
             encoding = "utf-8" if self._prints_data else None
@@ -369,6 +375,15 @@ class Output:
             if isinstance(error, BrokenPipeError):
                 raise _ReaderGone from None
             raise WriteError(f"cannot write to standard output: {error.strerror}") from error
+
+
+def _file_behind(stream: TextIO) -> tuple[int, int] | None:
+    """What tells a stream's file from others; None if it has none."""
+    try:
+        status = os.fstat(stream.fileno())
+    except (OSError, ValueError):
+        return None
+    return status.st_dev, status.st_ino
 
 
 _VERDICTS: dict[ExitCode, Verdict] = {

@@ -214,6 +214,7 @@ def fresh(text: str) -> None:
 
     What this does not show: that an earlier world left nothing on the disk or in the environment.
     """
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)  # a mapper in the parent may have it ignored
     reader, writer = isolation.private_pipes()
     if is_python(text):
         with suppress(InputError):
