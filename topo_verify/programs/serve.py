@@ -187,6 +187,7 @@ def main(text: str) -> None:
 
 def child(text: str) -> None:
     """Serve the mapper of a TARGET for `Foreign`."""
+    _reset_signals()
     loaded.watch()
     reader, writer = isolation.private_pipes()
     cast("TextIOWrapper", sys.stdout).reconfigure(line_buffering=True)
@@ -203,6 +204,12 @@ def child(text: str) -> None:
     serve(mapper, reader, writer, _as_child, values)
 
 
+def _reset_signals() -> None:
+    """Let SIGINT end this process: as an exception it would be the mapper's."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)  # a mapper in the parent may have it ignored
+
+
 # ---------------------------------------------------------------- a process for each world
 
 
@@ -214,7 +221,7 @@ def fresh(text: str) -> None:
 
     What this does not show: that an earlier world left nothing on the disk or in the environment.
     """
-    signal.signal(signal.SIGCHLD, signal.SIG_DFL)  # a mapper in the parent may have it ignored
+    _reset_signals()
     reader, writer = isolation.private_pipes()
     if is_python(text):
         with suppress(InputError):
