@@ -100,7 +100,9 @@ def test_a_mapper_that_moves_on_when_time_is_up_is_not_decided(
 
 
 @pytest.mark.parametrize("command", ["explore", "replay"])
-@pytest.mark.parametrize(("signal", "code"), [("SIGKILL", 3), ("SIGTERM", 3), ("SIGINT", 3), ("SIGABRT", 1)])
+@pytest.mark.parametrize(
+    ("signal", "code"), [("SIGKILL", 3), ("SIGTERM", 3), ("SIGINT", 3), ("SIGABRT", 1)]
+)
 def test_a_mapper_whose_process_was_killed_is_run_again_as_in_a_search(
     results: Results, command: str, signal: str, code: int
 ) -> None:
