@@ -67,7 +67,7 @@ def test_without_coq_the_proved_judge_judges_nothing(
 
 @pytest.mark.coq
 @pytest.mark.skipif(bool(judge.missing()), reason=judge.missing())
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_the_proved_judge_is_built_and_judges(results: Results, trace: Path) -> None:
     (entry,) = results(f"replay {trace.name} --kernel")["results"]
     assert entry["kernel"]["by"] == f"the judge extracted by {toolchain.version()}"
