@@ -23,7 +23,7 @@ from tests.cli.conftest import Call, Program, interrupted
 from topo_verify.cli import runs
 
 ENDS = """
-import os, signal, time
+import os, resource, signal, time
 from topo_verify.algorithms import CATALOGUE
 
 explore = CATALOGUE["basic"]
@@ -77,6 +77,10 @@ def closes(robot):
 
 def silences(robot):
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    return explore(robot)
+
+def starves(robot):
+    resource.setrlimit(resource.RLIMIT_NOFILE, (0, 0))
     return explore(robot)
 
 def reaps(robot):
@@ -160,6 +164,11 @@ def test_a_mapper_that_ignores_the_end_of_children_is_run_again(folder: Path) ->
     words = ("search", "ends.py:reaps", "--edges", "1", "--workers", "0", "--in-process")
     code, out, _ = ran(folder, *words, "--format", "json")
     assert {code, json.loads(out)["exit"]} == {0}
+
+
+def test_a_mapper_that_damages_our_process_is_no_bug_of_ours(folder: Path) -> None:
+    words = ("search", "ends.py:starves", "--edges", "1", "--workers", "0", "--in-process")
+    assert ran(folder, *words)[:2] == (3, "")
 
 
 @pytest.mark.parametrize(

@@ -106,7 +106,7 @@ def explain(error: Exception, arguments: Sequence[str]) -> ExitCode:
     if (refusal := _refusal_by_the_system(error)) is not None:
         say(f"topo-verify: {refusal}")
         return ExitCode.BAD_INPUT
-    return _our_bug(error, arguments)
+    return _unexpected(error, arguments)
 
 
 def _refusal_by_the_system(error: Exception) -> str | None:
@@ -158,9 +158,15 @@ def _usage(error: click.ClickException) -> str:
     return f"{path}: {objection[:1].lower()}{objection[1:]}; {path} --help shows the usage"
 
 
-def _our_bug(error: Exception, arguments: Sequence[str]) -> ExitCode:
+def _unexpected(error: Exception, arguments: Sequence[str]) -> ExitCode:
     if os.environ.get(TRACEBACK) == "1":
         click.echo("".join(traceback.format_exception(error)), err=True, nl=False)
+    if "--in-process" in arguments:
+        say(
+            f"topo-verify: {type(error).__name__}: {error}; the mapper may have damaged this"
+            " process (its limits, files or modules), so nothing is decided: leave --in-process out"
+        )
+        return ExitCode.INCOMPLETE
     last = traceback.extract_tb(error.__traceback__)[-1:]
     file = "".join(frame.filename.replace(os.sep, "/") for frame in last)
     # Paths are cut at the package: a report must not reveal the user's folders.
