@@ -118,19 +118,19 @@ def test_points_in_another_attribute_are_refused_by_its_name(name: str, value: A
         from_positions(k4(**{name: value}))
 
 
-@pytest.mark.parametrize(
-    ("name", "value"),
-    [
-        ("osmid", [25, 26]), ("osmid", "[25, 26]"), ("lanes", ["3", "2"]), ("lanes", "['3', '2']"),
-        ("d", 12.5), ("d", "12.5"), ("path", "via Roma 12"), ("line", "U1"), ("line", "12"),
-        ("shape", "solid"), ("track", "grade2"), ("curve", True), ("points", 5), ("route", ""),
-        ("ref", "A 1;A 2"), ("name", "12, 13"), ("opening_hours", "Mo-Fr 08:00-18:00"), ("key", 0),
-        ("width", "3.5"), ("color", "#010203"), ("speed", np.float64(50)), ("tags", {"a": 1}),
-        ("ids", {1, 2}), ("nothing", None), ("hash", "01" + "f" * 62), ("viz", {"shape": "dotted"}),
-        ("weights", "1 2 3 4"), ("label", "M1"), ("oneway", "False"), ("length", "57.1"),
-        ("stats", [{"lanes": 2, "speed": 50}]), ("tags", [{}]), ("parts", [[1]]), ("parts", []),
-    ],
-)  # fmt: skip
+NO_POINTS: list[tuple[str, Any]] = [
+    ("osmid", [25, 26]), ("osmid", "[25, 26]"), ("lanes", ["3", "2"]), ("lanes", "['3', '2']"),
+    ("d", 12.5), ("d", "12.5"), ("path", "via Roma 12"), ("line", "U1"), ("line", "12"),
+    ("shape", "solid"), ("track", "grade2"), ("curve", True), ("points", 5), ("route", ""),
+    ("ref", "A 1;A 2"), ("name", "12, 13"), ("opening_hours", "Mo-Fr 08:00-18:00"), ("key", 0),
+    ("width", "3.5"), ("color", "#010203"), ("speed", np.float64(50)), ("tags", {"a": 1}),
+    ("ids", {1, 2}), ("nothing", None), ("hash", "01" + "f" * 62), ("viz", {"shape": "dotted"}),
+    ("weights", "1 2 3 4"), ("label", "M1"), ("oneway", "False"), ("length", "57.1"),
+    ("stats", [{"lanes": 2, "speed": 50}]), ("tags", [{}]), ("parts", [[1]]), ("parts", []),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "value"), NO_POINTS)
 def test_other_attributes_draw_nothing(name: str, value: Any) -> None:
     assert not is_drawn(name, value)
 
