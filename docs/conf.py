@@ -70,11 +70,11 @@ nitpick_ignore = [
         "campaign.row.Row",
         "campaign.tally.Pairs",
         "campaign.tally.Tally",
-        "player.scenes.Playback",
+        "campaign.worker.Beat",
+        "pictures.scenes.Playback",
         "programs.loader.Target",
         "programs.misbehaviour.Misbehaved",
         "strategies.notes.ObservedRun",
-        "world.rooted_map._Formats",
     )
 ]
 
