@@ -1,4 +1,4 @@
-(** Steered mappers: the loop of topo_verify/algorithms/beyond/steering.py, with any choice of the next edge,
+(** Steered mappers: the loop of algorithms/beyond/steering.py, with any choice of the next edge,
     of the next door, and of the ways home (docs/homing.md).
 
     SCEPTICS READ ALL OF THIS FILE. It contains definitions only. [homing] and [planner] are such
