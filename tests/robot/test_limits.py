@@ -25,6 +25,7 @@ from topo_verify.robot.limits import (
     TimeLimitExceeded,
     WorldTimeout,
     given_limits,
+    telling_moves,
     within,
 )
 
@@ -114,6 +115,23 @@ def test_the_clock_is_looked_at_twenty_times_within_each_limit() -> None:
         limits = Limits(move_timeout=move_timeout, world_timeout=40)
         guarded(lambda: ticks.append(signal.getitimer(signal.ITIMER_REAL)[1]), limits)
     assert ticks == pytest.approx([2, 0.1, 0.05])
+
+
+def test_the_moves_of_a_mapper_that_runs_are_told_and_no_listener_can_disturb_it() -> None:
+    told: list[int] = []
+
+    def tell(moves: int) -> None:
+        told.append(moves)
+        raise OSError
+
+    moves = count(1)
+    bounds = Limits(move_timeout=600, world_timeout=0.2)
+    with in_time(), pytest.raises(WorldTimeout), telling_moves(tell):
+        within(bounds, lambda: next(moves), loop)
+    assert told == [*range(1, len(told) + 1)] != []
+    with in_time(), pytest.raises(WorldTimeout):
+        within(bounds, lambda: next(moves), loop)
+    assert len(told) < next(moves) - 1
 
 
 @pytest.mark.parametrize("where", [here, elsewhere])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from io import BytesIO
 from typing import Any
 
@@ -75,6 +76,17 @@ def test_what_networkx_writes_is_read_as_networkx_reads_it(kind: Any) -> None:
     world = graphml.decode(World, file.getvalue())
     assert world == from_positions(graph)
     assert lattice.code in {world.with_marker(d).code for d in range(2 * len(world.edges))}
+
+
+def test_a_port_of_an_edge_is_no_part_of_the_drawing() -> None:
+    data = OSMNX.replace(b'target="13"', b'target="13" sourceport="North"', 1)
+    assert graphml.decode(World, data) == graphml.decode(World, OSMNX)
+
+
+def test_an_edge_of_a_rotation_leads_to_a_node() -> None:
+    text = graphml.encode(World.from_id("m1/0"))
+    data = re.sub(r'target="[^"]*"', 'target="nowhere"', text, count=1).encode()
+    assert "expected the ids of two nodes as source and target" in refusal_of(data)
 
 
 def test_an_edge_says_itself_whether_it_is_directed() -> None:

@@ -66,6 +66,12 @@ def test_what_is_wrong_is_named_with_its_place(old: str, new: str, sentence: str
     assert str(refusal.value).isprintable()
 
 
+def test_an_edge_of_a_drawing_has_two_ends() -> None:
+    text = '{"nodes": [{"id": 0, "x": 0, "y": 0}], "edges": [{"source": 0}]}'
+    with pytest.raises(InputError, match="edge 0 has no 'target': give it the id of a node"):
+        node_link.decode(World, text.encode())
+
+
 @pytest.mark.parametrize("ids", [(0.5, 1.5), ([0, 0], [0, 1]), (None, True), ([[1, 2], "a"], [])])
 def test_a_node_has_any_id_but_an_object(ids: tuple[Any, Any]) -> None:
     data = json.loads(TEXT)

@@ -101,17 +101,14 @@ def as_world(
     dart = {end: n for n, end in enumerate(end for row in rotations for end in row)}
     if marker and marker.way in same:
         marker = DrawnEnd(same[marker.way], 1 - marker.side)
-    try:
-        world = cls.from_rotations(
-            [[dart[end] for end in row] for row in rotations],
-            [(dart[DrawnEnd(way, 0)], dart[DrawnEnd(way, 1)]) for way in kept],
-            dart[marker] if marker else 0 if dart else None,
-            name=name,
-            vertex_names=tuple(place.name for place in places),
-            positions=tuple(place.at for place in places),
-        )
-    except InputError as error:
-        raise InputError(f"{flaws.source}: {error}") from error
+    world = cls.from_rotations(
+        [[dart[end] for end in row] for row in rotations],
+        [(dart[DrawnEnd(way, 0)], dart[DrawnEnd(way, 1)]) for way in kept],
+        dart[marker] if marker else 0 if dart else None,
+        name=name,
+        vertex_names=tuple(place.name for place in places),
+        positions=tuple(place.at for place in places),
+    )
     # a file that is refused gets one sentence
     _say_merged(drawn, kept, same, flaws.source)
     _say_stated_orders(places, drawn, rotations, same, flaws.source)
