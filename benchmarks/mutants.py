@@ -114,6 +114,9 @@ SAME = {
     "folding.py Fold.move: at_v0 or known or (self._visit(percept), 0) -> at_v0 or"
     " (self._visit(percept), 0)": SAME_PLACE,
     "map_in_world.py MapInWorld.is_world: edge[0] < edge[1] -> edge[0] <= edge[1]": TWO_ENDS,
+    "map_in_world.py MapInWorld.is_world: 0 -> 1": CODE_TELLS,
+    "map_in_world.py MapInWorld.is_world:  for edge in sorted(self.alpha.items()) if edge[0] <"
+    " edge[1] ->  for edge in sorted(self.alpha.items())": CODE_TELLS,
     "map_in_world.py MapInWorld.is_world: return is_whole and delivered =="
     " MapData(tuple(self.vertices), edges, 0) -> return None": CODE_TELLS,
     "folding.py Fold.table: True -> False": AS_MANY,
