@@ -282,7 +282,6 @@ class Player {
       byId(id).addEventListener('change', (e) => document.body.classList.toggle(id, e.target.checked));
     }
     byId('ask').addEventListener('click', () => byId('help').showModal());
-    byId('help').addEventListener('keydown', ({ key }) => key === '?' && byId('help').close());
     const chart = byId('chart');
     const scrub = (e) => {
       if (e.target.tagName === 'BUTTON' || (e.type === 'pointermove' && !e.buttons)) return;
@@ -295,6 +294,7 @@ class Player {
   }
 
   keys() {
+    const help = byId('help');
     const keys = {
       ArrowRight: () => this.step(1),
       ArrowLeft: () => this.step(-1),
@@ -309,10 +309,11 @@ class Player {
       0: () => this.frames.forEach((one) => one.reset()),
       k: () => byId('known').click(),
       d: () => byId('darts').click(),
-      '?': () => byId('help').showModal(),
+      '?': () => (help.open ? help.close() : help.showModal()),
     };
     addEventListener('keydown', (e) => {
-      if (e.ctrlKey || e.metaKey || e.altKey || e.target.closest('select, input[type=text], dialog')) return;
+      if (e.ctrlKey || e.metaKey || e.altKey || e.target.closest('select, input[type=text]')) return;
+      if (help.open && e.key !== '?') return; // closed, it may keep the focus until the next frame
       if (e.key === ' ' && !e.target.closest('button, input[type=checkbox]')) this.play();
       else if (keys[e.key]) keys[e.key]();
       else return;
