@@ -4,6 +4,7 @@
 #   make test                       the suite and the branch coverage of the trusted rooms
 #   make long                       the tests marked `long`, which make test leaves out
 #   make nightly                    every test, those marked `nightly` too, with new examples each time
+#   make plain                      the main house's tests where no extra is installed
 #   make coq                        the proofs in Coq: compiled, checked again, mutants refused
 #   make mutants                    checkers and algorithms with one thing changed: each must be seen
 #   make torture                    hostile input, programs and signals: minutes, seeded
@@ -39,10 +40,10 @@ CREATE := "$(PYTHON)" -m venv $(VENV)
 INSTALL := PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python -m pip install --quiet --disable-pip-version-check
 endif
 
-.PHONY: help verify test long nightly coq docs lint types mypy pyright bench mutants torture constraints oldest clean
+.PHONY: help verify test long plain nightly coq docs lint types mypy pyright bench mutants torture constraints oldest clean
 
 help:
-	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 15
+	@sed -n 's/^# \{0,1\}//p' Makefile | head -n 16
 
 verify: $(VENV)/.core
 	$(BIN)/topo-verify verify
@@ -56,6 +57,11 @@ test: $(VENV)/.dev
 # Tests that need Coq run in make coq.
 long: $(VENV)/.dev
 	$(PYTEST) $(PARALLEL) -m 'long and not (nightly or coq)' tests $(call report,long)
+
+# An environment of its own, beside the other. The tests of an extra skip themselves there.
+plain:
+	$(MAKE) VENV=$(VENV)-plain $(VENV)-plain/.test
+	$(VENV)-plain/bin/python -m pytest $(PARALLEL) -m 'not (coq or nightly or long)' tests --ignore=tests/extra --ignore=tests/research $(call report,plain)
 
 nightly: $(VENV)/.dev
 	HYPOTHESIS_PROFILE=nightly $(PYTEST) $(PARALLEL) $(EVERY)
@@ -109,6 +115,10 @@ $(VENV)/.core: pyproject.toml constraints.txt $(VENV)/.created
 	$(INSTALL) -c constraints.txt --no-build-isolation -e .
 	@touch $@
 
+$(VENV)/.test: $(VENV)/.core
+	$(INSTALL) -c constraints.txt --no-build-isolation -e '.[test]'
+	@touch $@
+
 # setuptools: drup has no wheel, and later Pythons bring no setuptools of their own.
 $(VENV)/.dev: $(VENV)/.core
 	$(INSTALL) -c constraints.txt setuptools
@@ -138,5 +148,5 @@ oldest: $(VENV)/.created
 	.venv-oldest/bin/python -m pytest -W default $(PARALLEL)
 
 clean:
-	rm -rf $(VENV) .venv-oldest .pytest_cache .mypy_cache .ruff_cache .hypothesis .coverage torture-failures build dist
+	rm -rf $(VENV) $(VENV)-plain .venv-oldest .pytest_cache .mypy_cache .ruff_cache .hypothesis .coverage torture-failures build dist
 	find topo_verify tests benchmarks research -name __pycache__ -prune -exec rm -rf {} +

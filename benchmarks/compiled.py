@@ -26,11 +26,11 @@ from time import perf_counter, process_time
 import numpy as np
 
 from topo_verify import CATALOGUE, examine, families
-from topo_verify.campaign.compiled_shard import examine_range
-from topo_verify.compiled.enumeration import count_worlds, prepare
-from topo_verify.compiled.explore import run_world
-from topo_verify.compiled.kernel import compiled
-from topo_verify.compiled.workspace import SMALL
+from topo_verify.extra.fast.kernels.enumeration import count_worlds, prepare
+from topo_verify.extra.fast.kernels.explore import run_world
+from topo_verify.extra.fast.kernels.kernel import compiled
+from topo_verify.extra.fast.kernels.workspace import SMALL
+from topo_verify.extra.fast.snapshots import examine_range
 from topo_verify.world.enumeration import rank_order
 from topo_verify.world.enumeration.classes import WorldClass
 from topo_verify.world.rooted_map import World
@@ -191,7 +191,7 @@ def lattice(row: Row, _: bool) -> None:
 
 def start(row: Row, _: bool) -> None:
     """A new process up to its first result, with a warm cache."""
-    code = "from topo_verify.campaign.compiled_shard import examine_range as e; e(['basic'], 4)"
+    code = "from topo_verify.extra.fast.snapshots import examine_range as e; e(['basic'], 4)"
     took: list[float] = []
     for _again in range(3):
         begin = perf_counter()

@@ -1,5 +1,5 @@
 /* The enumeration of all worlds in C: what the kernel is compared with. Written like
- * topo_verify/compiled/enumeration.py, with the same order of steps.
+ * topo_verify/extra/fast/kernels/enumeration.py, with the same order of steps.
  *
  *     compiled_twin EDGES STOP
  *

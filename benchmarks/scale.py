@@ -1,4 +1,4 @@
-"""What a large search takes: the table of docs/scale.md.
+"""What a large search takes: the table of docs/extra/fast.md.
 
     .venv/bin/python benchmarks/scale.py [--worlds N]
 
@@ -13,9 +13,9 @@ from collections.abc import Callable
 from time import process_time
 
 from topo_verify.campaign.campaign import Shard
-from topo_verify.campaign.compiled import examine_compiled, warm
-from topo_verify.campaign.compiled_shard import examine_range
 from topo_verify.campaign.targets import targets
+from topo_verify.extra.fast.shard import examine_compiled, warm
+from topo_verify.extra.fast.snapshots import examine_range
 from topo_verify.studies.search.search import search_campaign
 from topo_verify.world.enumeration import rank_order
 

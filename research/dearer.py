@@ -59,7 +59,7 @@ def enhanced() -> Iterator[Pair]:
 
 def compared(task: tuple[Pair, int, int]) -> tuple[int, int, int]:
     """A pair in one range of ranks: worlds that cost more, the largest excess, the first rank."""
-    from topo_verify.campaign.compiled_shard import examine_range
+    from topo_verify.extra.fast.snapshots import examine_range
 
     pair, edges, start = task
     stop = min(start + SHARD, rank_order.count(edges))

@@ -11,6 +11,7 @@ took 2.6 times as long: coverage that is paused for a test still slows it down u
 """
 
 import os
+import signal
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
@@ -34,6 +35,10 @@ TRACED = ("world", "robot", "checkers", "algorithms")
 
 TRACING = tuple(ROOT / folder / room for folder in ("tests", "topo_verify") for room in TRACED)
 """Where their tests are, doctests included. `make test` collects the traced tests there alone."""
+
+# A shell begins a job in the background with SIGINT ignored, and the tests' processes inherit that.
+if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 settings.register_profile(
     "ci",

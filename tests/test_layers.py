@@ -27,14 +27,12 @@ PACKAGE = ROOT / "topo_verify"
 
 FLOORS = {
     "errors": -1,
-    "native": -1,  # for mappers that numba compiles; nothing inside imports it
     "world": 0,
     "robot": 1,
     "checkers": 2,
     "extras": 2,  # the door to topo_verify/extra/: for floor 3 and above, never for what is trusted
     "algorithms": 3,
     "programs": 3,
-    "compiled": 3,
     "strategies": 4,
     "proofs": 4,
     "faults": 4,
@@ -45,8 +43,8 @@ FLOORS = {
     "cli": 9,
     "pytest_plugin": 9,
     "search_entry": 10,  # the search for use from Python; nothing inside imports it
-    "": 10,  # topo_verify/__init__.py
-    "__main__": 10,
+    "": 11,  # topo_verify/__init__.py
+    "__main__": 11,
 }
 """Each room's floor. The package's own name ("") stands above all: it shows everybody's things."""
 
@@ -88,14 +86,12 @@ MADE_OF = {
     "strategies": {"hypothesis"},
     "proofs": {"z3"},
     "cli": {"click", "rich"},
-    "native": {"numba", "numpy"},
     "pytest_plugin": {"pytest"},
 }
 """Other people's packages that a room may load when it is imported; msgspec may be anywhere."""
 
 LOADED_LATE = {
     "topo_verify.pictures.drawing": {"numpy", "networkx", "scipy"},
-    "topo_verify.compiled.native_call": {"numba", "llvmlite"},
 }
 """Parts of a room that the rest of the house imports late: what they may load in their turn.
 
@@ -164,6 +160,8 @@ def imports(source: str, module: str) -> Iterator[Import]:
 
 def extra_of(module: str) -> str | None:
     """The extra of a module or a name, "" for their folder; None for anything else."""
+    if f"{module}.".startswith("topo_verify.native."):  # the name that its users import
+        return "fast"
     parts = [*module.split("."), ""]
     return parts[2] if parts[:2] == ["topo_verify", "extra"] else None
 
@@ -231,6 +229,8 @@ def objections_to_names(module: str, source: str) -> Iterator[str]:
     for line, text in texts(source):
         if re.search(r"\btopo_verify[./]extra\b", text):
             yield f"{module}:{line} names a module of an extra: ask topo_verify/extras.py"
+        if text in extras.ENGINES:
+            yield f"{module}:{line} asks for the engine {text!r}: an engine answers for itself"
     for package in sorted({name for names in extras.PACKAGES.values() for name in names}):
         if re.search(rf"\b{package}\b", source):
             yield f"{module} names {package}, which an extra needs: only topo_verify/extras.py does"
@@ -298,7 +298,6 @@ def test_every_module_has_a_room_in_the_table() -> None:
     assert rooms <= FLOORS.keys(), "a new room needs a floor in this test's table"
 
 
-@pytest.mark.nightly
 def test_every_room_imports_only_what_it_may() -> None:
     found = [line for module, text in every_source().items() for line in objections(module, text)]
     assert not found, "\n".join(found)

@@ -25,10 +25,12 @@ COMMANDS = {
 
 OPTIONS: dict[str, tuple[str, ...]] = {
     "certify": ("certificates.options:certify",),
-    "explore": ("films.options:svg",),
+    "explore": ("fast.options:engine", "films.options:svg"),
     "prove": ("sat.options:solver", "sat.options:certify"),
+    "record": ("fast.options:engine",),
     "replay": ("certificates.options:kernel",),
-    "search": ("dask.options:dask",),
+    "reproduce": ("fast.options:engine",),
+    "search": ("dask.options:dask", "fast.options:search_engine"),
 }
 """The places of the options that extras add to a command of the main house.
 
@@ -36,11 +38,18 @@ They stand in the extra's options.py, each a decorator made by click. The comman
 by name; what it asks of a value is a protocol in the file of the command.
 """
 
+ENGINES = {"compiled": "fast.engine:COMPILED"}
+"""The place of each engine beside the reference."""
+
+FUNCTION_MAKERS = {".py": "fast.functions:JITTED"}
+"""The place of what makes functions of machine code out of files with this ending."""
+
 BACKENDS = {"cluster": "dask.backend:DaskBackend"}
 """The place of each backend that Python code asks for by name: made with an address."""
 
 PACKAGES = {
     "dask": ("distributed",),
+    "fast": ("numba",),
     "figures": ("matplotlib",),
 }
 """The packages of other projects that an extra needs, by the names that Python imports."""
@@ -50,6 +59,29 @@ def found(place: str) -> Any:
     """What is at a place; its module is imported now."""
     module, _, attribute = place.partition(":")
     return getattr(import_module(f"topo_verify.extra.{module}"), attribute)
+
+
+def engine(name: str) -> Any:
+    """The engine of this name."""
+    return found(ENGINES[name])
+
+
+def usable_engines() -> tuple[str, ...]:
+    """The names of the engines whose packages are installed."""
+    return tuple(
+        name for name, place in ENGINES.items() if not missing_packages(place.partition(".")[0])
+    )
+
+
+def function_maker(ending: str) -> Any:
+    """What makes functions of machine code out of files with this ending, or None."""
+    place = FUNCTION_MAKERS.get(ending)
+    return None if place is None else found(place)
+
+
+def function_makers() -> list[Any]:
+    """All that make functions of machine code."""
+    return [*map(found, FUNCTION_MAKERS.values())]
 
 
 def backend(name: str) -> Any:
@@ -85,17 +117,23 @@ def options(command: str, *names: str) -> Option:
     return decorate
 
 
-def require(extra: str) -> None:
+def missing_packages(extra: str) -> list[str]:
+    """The packages that an extra needs and that are not installed."""
+    return [name for name in PACKAGES.get(extra, ()) if find_spec(name) is None]
+
+
+def require(extra: str, instead: str = "") -> None:
     """Check that the packages of an extra are installed.
 
+    Args:
+        instead: what else helps, for the error message.
     Raises:
         InputError: one is not; the sentence says what installs it.
     """
     from topo_verify.errors import InputError
 
-    missing = [name for name in PACKAGES.get(extra, ()) if find_spec(name) is None]
-    if missing:
+    if missing := missing_packages(extra):
         raise InputError(
             f"the extra {extra} needs {' and '.join(missing)}: {sys.executable} -m pip install"
-            f" 'topo-verify[{extra}]'"
+            f" 'topo-verify[{extra}]'{instead and f', or {instead}'}"
         )

@@ -25,11 +25,12 @@ from mutations import flipped
 from readers import Count
 from trial import objection, run
 
-from topo_verify.compiled import available, kernel
-from topo_verify.compiled.events import digest
-from topo_verify.compiled.kernel import compiled, module_source
-from topo_verify.compiled.workspace import SMALL
+from topo_verify import extras
 from topo_verify.errors import InputError
+from topo_verify.extra.fast.kernels import kernel
+from topo_verify.extra.fast.kernels.events import digest
+from topo_verify.extra.fast.kernels.kernel import compiled, module_source
+from topo_verify.extra.fast.kernels.workspace import SMALL
 
 
 def result(folder: Path) -> int:
@@ -133,7 +134,7 @@ def trial(folder: Path, true: int, seed: str, count: Count) -> str | None:
 def trials(seeds: list[str]) -> Count:
     """Damage a cache by each of these seeds."""
     count = Count()
-    if not available():
+    if extras.missing_packages("fast"):
         return count
     with TemporaryDirectory() as place:
         os.chdir(place)

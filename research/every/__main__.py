@@ -21,11 +21,10 @@ from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 
 from research.every import table
-from topo_verify import CATALOGUE, World
+from topo_verify import CATALOGUE, World, extras
 from topo_verify.campaign.judge import judge
 from topo_verify.campaign.row import MostSaved, PolicyCosts
 from topo_verify.campaign.run import explore
-from topo_verify.compiled import available
 from topo_verify.errors import InternalError
 from topo_verify.programs.loader import Target
 from topo_verify.studies.search.states.script import scripted
@@ -93,7 +92,7 @@ def main() -> None:
     ask.add_argument("--mapper", choices=KNOWN, default="basic")
     ask.add_argument("--workers", type=int, default=2, help="processes")
     args = ask.parse_args()
-    if not available():
+    if extras.missing_packages("fast"):
         sys.exit("research.every needs numba: install topo-verify with the extra `fast`")
     print(f"| {' | '.join(COLUMNS)} |")
     print(f"| {' | '.join(['---:'] * (len(COLUMNS) - 1))} | --- |")

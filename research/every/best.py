@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from research.every import kernel as k
-from topo_verify.compiled.kernel import compiled
+from topo_verify.extra.fast.kernels.kernel import compiled
 from topo_verify.world.rooted_map import Dart
 
 RunOrder = tuple[tuple[Dart, ...], ...]

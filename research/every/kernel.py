@@ -17,9 +17,9 @@ differs (8).
 
 from __future__ import annotations
 
-from topo_verify.compiled.kernel import WordCube, WordTable, entry, kernel
-from topo_verify.compiled.names import Words
-from topo_verify.compiled.workspace import WordLayout
+from topo_verify.extra.fast.kernels.kernel import WordCube, WordTable, entry, kernel
+from topo_verify.extra.fast.kernels.names import Words
+from topo_verify.extra.fast.kernels.workspace import WordLayout
 
 STATES = WordLayout("states", {}, sources=(__name__,))
 

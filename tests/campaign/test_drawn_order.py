@@ -7,7 +7,7 @@ from collections.abc import Callable, Generator, Iterator
 import pytest
 
 from topo_verify.campaign import campaign as c
-from topo_verify.campaign.backend import counted
+from topo_verify.campaign.examiner import counted
 from topo_verify.campaign.row import Row
 from topo_verify.world.rooted_map import World
 

@@ -10,8 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from topo_verify.campaign.backend import counted, here
+from topo_verify.campaign.backend import here
 from topo_verify.campaign.campaign import Campaign, Ranks, results
+from topo_verify.campaign.examiner import counted
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import Tally, notable
 

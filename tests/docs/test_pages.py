@@ -38,7 +38,7 @@ LEFT_OUT = {
     r".* benchmarks/\S+\.py.*": "measures for minutes",
     r".* -m research\..*": "minutes to hours; tests/docs/test_price.py prints stored runs",
     r".*arena all|.*arena basic,folding --cmd .*": "a minute; tests/extra/arena/",
-    r".*--engine compiled.*": "compiles for a minute; tests/cli/test_search.py, tests/compiled/",
+    r".*--engine compiled.*": "compiles for a minute; tests/extra/fast/",
     r".*--marker all": "146 runs; tests/cli/test_explore.py",
     r".*--policies every --edges 4.*": "minutes; tests/studies/search/",
     r".*certify .*(--kernel|--check).*": "needs Coq; tests/extra/certificates/",

@@ -22,7 +22,10 @@ RUN_BY = {
     "mapper_python/wrong.py": ("tests/studies/conform/test_conform.py", "'wrong.py'"),
     "native_c/mapper.c": ("docs/tutorials/native.md", "examples/native_c/mapper.c"),
     "native_c/in_gdb.py": ("tests/programs/test_library.py", '"native_c" / "in_gdb.py"'),
-    "native_numba/mapper.py": ("tests/programs/test_jitted.py", '"native_numba" / "mapper.py"'),
+    "native_numba/mapper.py": (
+        "tests/extra/fast/test_functions.py",
+        '"native_numba" / "mapper.py"',
+    ),
     "native_rust/mapper.rs": ("tests/programs/test_library.py", '"native_rust" / "mapper.rs"'),
     "own_mapper/declared.py": ("docs/start/find-a-mistake.md", "own_mapper/declared.py:explore"),
     "own_mapper/mapper.py": ("docs/start/find-a-mistake.md", "own_mapper/mapper.py:explore"),

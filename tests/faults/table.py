@@ -19,7 +19,6 @@ from typing import NamedTuple
 
 import topo_verify as tv
 from tests.faults.every import EVERY
-from topo_verify.campaign.compiled_shard import examine_range
 from topo_verify.faults import Fault
 from topo_verify.strategies.sample import resolve_strategy, sample
 from topo_verify.world.enumeration import rank_order
@@ -85,13 +84,6 @@ def by_reference(fault: Fault, edges: int) -> Failing:
     failing = list(islice(wrong, None if edges <= COUNTED else 1))
     caught = (r.world for r in failing if r.claims.get(fault.claim or "") == "failed")
     return Failing(len(failing), next(caught, None))
-
-
-def by_kernel(fault: Fault, edges: int) -> Failing:
-    """The same, by the compiled engine, whose kernel has the mistake."""
-    end = examine_range([fault.name], edges, faults={fault.name: fault.name})
-    rank = end.named[0].first.get(fault.claim or "")
-    return Failing(end.tally.failing, None if rank is None else f"m{edges}/{rank}")
 
 
 def by_search(engine: Engine, fault: Fault, largest: int = LARGEST) -> tuple[str, str]:

@@ -15,14 +15,12 @@ from tests.faults.table import (
     EXAMPLES,
     SEEDS,
     by_examples,
-    by_kernel,
     by_reference,
     by_search,
     stored,
 )
 from tests.versions import older
 from topo_verify import World, examine
-from topo_verify.compiled.faults import PLANTED
 from topo_verify.faults import FAULTS
 
 ROWS = stored()
@@ -51,12 +49,6 @@ def test_the_table_has_a_row_for_each_fault() -> None:
 )
 def test_the_reference_engine_finds_a_fault_in_the_worlds_of_the_table(name: str) -> None:
     assert by_search(by_reference, EVERY[name]) == ROWS[name][3:5]
-
-
-@pytest.mark.parametrize("name", PLANTED)
-def test_the_compiled_engine_finds_a_fault_in_the_worlds_of_the_table(name: str) -> None:
-    pytest.importorskip("numba", reason="the compiled engine needs numba")
-    assert by_search(by_kernel, FAULTS[name]) == ROWS[name][3:5]
 
 
 @pytest.mark.parametrize("name", [name for name in FAULTY if edges(name) > 4])

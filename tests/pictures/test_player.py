@@ -374,7 +374,7 @@ def test_help_names_the_signs_and_closes(show: Open, lattice: str) -> None:
     for key in ("Escape", "?"):
         page.keyboard.press(key)
         expect(page.locator("#help")).to_be_hidden()  # the browser closes it when it can
-        # A browser moves the focus out of a closed dialog at its next frame, and a key may come before.
+        # A closed dialog keeps the focus until the next frame, and a key may come before.
         page.dispatch_event("#help button", "keydown", {"key": "?", "bubbles": True})
         expect(page.locator("#help")).to_be_visible()
 

@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "native_c" / "mapper.c"
 HOSTILE = ROOT / "tests" / "programs" / "hostile.c"
 MISDEEDS = ROOT / "tests" / "campaign" / "misdeeds.c"
-HOSTILE_NUMBA = ROOT / "tests" / "programs" / "hostile_numba.py"
+HOSTILE_NUMBA = ROOT / "tests" / "extra" / "fast" / "hostile_numba.py"
 
 
 def built(folder: Path, *options: str, source: Path = EXAMPLE) -> str:

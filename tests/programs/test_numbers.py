@@ -10,9 +10,8 @@ import pytest
 
 from tests.programs.natives import built
 from tests.programs.programs import python
-from topo_verify import InputError, World, examine
+from topo_verify import InputError, World, examine, extras
 from topo_verify.campaign.targets import one_target
-from topo_verify.compiled import available
 from topo_verify.programs.loader import Target, load
 from topo_verify.robot.events import read_trace
 from topo_verify.studies.search.search import search
@@ -126,7 +125,7 @@ def test_in_a_library(tmp_path: Path, use: str, number: int) -> None:
 
 
 @pytest.mark.long
-@pytest.mark.skipif(not available(), reason="numba is not installed")
+@pytest.mark.skipif(not extras.usable_engines(), reason="numba is not installed")
 @pytest.mark.parametrize("use", ["reports a cost", "declares a dart"])
 @pytest.mark.parametrize("number", [2**63 - 1, -(2**63)])
 def test_in_a_library_that_the_compiled_engine_calls(tmp_path: Path, use: str, number: int) -> None:

@@ -7,11 +7,10 @@ campaign.py        Campaign: worlds, mappers, limits; results in order
 drawn_row.py       the worlds that a search runs again in a row
 progress.py        how fast the work goes, and how long still
 store.py           Store: the SQLite file from which a campaign resumes
-backend.py         where shards are examined; what a lost worker means
-compiled.py        a shard by the compiled engine, judged again in part
-compiled_shard.py  the counts of the compiled engine
-compiled_checks.py the judgements of the compiled judge on a trace
-run.py             runs a mapper in a world; the engines
+backend.py         where shards are examined: in this process, in workers
+engine.py          what an engine answers, and the reference
+examiner.py        how shards are examined; what a lost worker means
+run.py             runs a mapper in a world
 judge.py           judges a run by every claim
 targets.py         what a TARGET means, and the text of a callable
 identity.py        what a mapper rests on

@@ -18,7 +18,8 @@ from typing import Any
 
 import msgspec
 
-from topo_verify.campaign.judge import Checks, Report, judge, replay_line, undecided
+from topo_verify.campaign.engine import Checks
+from topo_verify.campaign.judge import Report, judge, replay_line, undecided
 from topo_verify.campaign.row import OUTSIDE, SECOND_TRY, Judged, PolicyCosts, Row, hashed
 from topo_verify.campaign.run import Exploration, explore
 from topo_verify.checkers import Finding

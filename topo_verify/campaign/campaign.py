@@ -29,10 +29,10 @@ from typing import Any, Literal, Protocol
 import msgspec
 
 from topo_verify.campaign.attempt import Attempt, Look, attempt, row_of
-from topo_verify.campaign.judge import CheckedTraces, Checks
+from topo_verify.campaign.engine import Checks, on_engine
+from topo_verify.campaign.judge import CheckedTraces
 from topo_verify.campaign.progress import Progress, ProgressRate
 from topo_verify.campaign.row import Row, with_lost
-from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.campaign.tally import Counts, Notable, Tally
 from topo_verify.campaign.targets import targets
 from topo_verify.campaign.worker import Beat, function_at, no_beat
@@ -50,11 +50,8 @@ from topo_verify.world.rooted_map import Code, World
 BLOCK = 10_000
 """Listed worlds that are shuffled together."""
 
-ENGINE_SHARD = 100_000
-"""Worlds in a shard of the compiled engine, about half a second of work."""
-
 MAX_LOST = 3
-"""Worlds that may cost a worker each until a native mapper's other worlds are left."""
+"""Worlds that may cost a worker each until a library's other worlds are left."""
 
 MAX_TIMEOUTS = 3
 """Time-outs, and in some studies failing worlds, after which a mapper's other worlds are left."""
@@ -212,7 +209,7 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
     """What is to be run, as data that can be hashed, stored and sent.
 
     Attributes:
-        engine: what runs catalogue algorithms.
+        engine: the name of what runs and judges.
         in_process: a user's mapper shares the process of the harness.
         strict: ask claim 10 in worlds of more than 2,000 edges, too.
         validate: refuse unknown and repeated fields in a program's messages.
@@ -227,7 +224,7 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
     mappers: tuple[str, ...]
     pick: str | None = None
     order: str | None = None
-    engine: Engine = "reference"
+    engine: str = "reference"
     limits: Limits = Limits()
     in_process: bool = True
     strict: bool = False
@@ -278,7 +275,7 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class EngineSeconds(msgspec.Struct, frozen=True):
-    """Processor seconds of the compiled engine and of the checkers."""
+    """Processor seconds of another engine than the reference, and of the checkers beside it."""
 
     engine: float = 0.0
     checkers: float = 0.0

@@ -13,12 +13,13 @@ from contextlib import suppress
 from functools import cached_property, lru_cache
 from itertools import groupby
 from operator import attrgetter
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
 from topo_verify.algorithms import NAMED
-from topo_verify.campaign.run import CompiledAlgorithm, Exploration, explore
+from topo_verify.campaign.engine import Checks
+from topo_verify.campaign.run import EngineMapper, Exploration, explore
 from topo_verify.campaign.targets import is_found_again, target_arguments
 from topo_verify.checkers import CLAIMS, Finding, Judgement, Status, check
 from topo_verify.checkers.claims import LARGE
@@ -261,16 +262,6 @@ def assert_maps(
         raise ClaimUndecided(f"nothing is refuted, and {names} is not decided: {report}")
 
 
-class Checks(Protocol):
-    """A function that gives the judgements of `check`, perhaps faster."""
-
-    def __call__(
-        self, world: World, trace: Sequence[Event], stopped: str | None = None, *, strict: bool
-    ) -> Sequence[Judgement]:
-        """Judge as `check` does."""
-        ...
-
-
 class CheckedTraces:
     """Checks each distinct trace in a world once: mappers in small worlds often leave the same.
 
@@ -309,7 +300,7 @@ def judge(
 ) -> Report:
     """Judge a run by every claim; the arguments are those of `examine` and `judge_trace`.
 
-    Of a run that `is_for_compiled_judge`, the compiled judge replaces `check`.
+    Of a run that `is_for_engine`, the engine's judge replaces `check`.
     If the history does not entail the map, the mapper also runs in the witness world, where a
     deterministic mapper makes the same moves. Of a run without a trace only `TRACELESS` are
     judged.
@@ -319,10 +310,9 @@ def judge(
     replay_command = replay_line(where, run.algorithm, run.policies, words)
     if not run.trace:
         return _judge_result(run, where, replay_command)
-    if known is None and is_for_compiled_judge(run, strict=strict):
-        from topo_verify.campaign.compiled_checks import CompiledChecks
-
-        known = CompiledChecks(is_long=True)
+    if known is None and is_for_engine(run, strict=strict):
+        assert isinstance(run.mapper, EngineMapper)
+        known = run.mapper.checks()
     report = judge_trace(
         run.world,
         run.trace,
@@ -342,13 +332,9 @@ def judge(
     )
 
 
-def is_for_compiled_judge(run: Exploration, *, strict: bool) -> bool:
-    """Whether the compiled judge judges a run, and the checkers only what it does not pass.
-
-    So it is for a run of the compiled engine in a world with more than 2,000 edges.
-    """
-    is_large = len(run.world.edges) > LARGE
-    return is_large and not strict and isinstance(run.mapper, CompiledAlgorithm)
+def is_for_engine(run: Exploration, *, strict: bool) -> bool:
+    """Whether an engine judges its own run, and the checkers only what it does not pass."""
+    return isinstance(run.mapper, EngineMapper) and run.mapper.judges(run.world, strict=strict)
 
 
 TRACELESS = ("map-isomorphic", "cost-within-bound")

@@ -5,8 +5,8 @@ or a mapping with the keys, `vertices`, `edges`, `marker`, and optionally `cost`
 
     run = explore(world, "enhancement-ii")         # -> Exploration: map, cost, trace
 
-The compiled engine (`topo_verify.compiled`) runs catalogue algorithms about a hundred times as
-fast. It is given the world and is not trusted: its runs are judged like any other.
+Another engine (engine.py) may run catalogue algorithms. It is given the world and is not trusted:
+its runs are judged like any other.
 
 What this does not show: a mapper in this process can find world and trace, and can be stopped
 only if it runs Python code and does not catch BaseException in a loop
@@ -15,24 +15,23 @@ only if it runs Python code and does not catch BaseException in a loop
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from html import escape
 from itertools import pairwise
 from os import PathLike
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import TYPE_CHECKING
 
 import msgspec
 
-from topo_verify.algorithms import CATALOGUE, NAMED, REFERENCE, Algorithm
+from topo_verify.algorithms import NAMED, Algorithm
+from topo_verify.campaign.engine import Checks, on_engine
 from topo_verify.campaign.targets import one_target
 from topo_verify.checkers import check
 from topo_verify.checkers.map_in_world import MapInWorld
-from topo_verify.compiled import require
 from topo_verify.errors import ExaminationInterrupted, InputError, InternalError, plural, shown
 from topo_verify.programs.delivery import Undelivered, deliver, stop_text
-from topo_verify.programs.library import LIBRARY
-from topo_verify.programs.loader import Mapper, Target
+from topo_verify.programs.loader import Mapper, Target, is_library
 from topo_verify.programs.misbehaviour import Misbehaved
 from topo_verify.programs.program import PREFIX, Program
 from topo_verify.robot.events import (
@@ -172,6 +171,40 @@ class Exploration:
         return PlayedRun(self.algorithm, self.trace, judgements, self.stopped)
 
 
+@dataclass(frozen=True, slots=True)
+class EngineMapper:
+    """A mapper that another engine than the reference runs: that engine is given the world.
+
+    Attributes:
+        name: the algorithm's name in the catalogue.
+        trace: keep the trace of a run; False: only cost and map.
+    """
+
+    name: str
+    trace: bool = True
+
+    @property
+    def policies(self) -> Policies | None:
+        """The policies that it runs with."""
+        raise NotImplementedError
+
+    def explore(self, world: World, start: Start, limits: Limits) -> Exploration:
+        """Run in a world; `start` becomes the first event."""
+        raise NotImplementedError
+
+    def judges(self, world: World, *, strict: bool) -> bool:
+        """Whether this engine judges its own run there, and the checkers what it does not pass."""
+        raise NotImplementedError
+
+    def checks(self) -> Checks:
+        """What judges such a run."""
+        raise NotImplementedError
+
+    def __call__(self, robot: Robot) -> object:
+        """Raise an InternalError: the engine needs the world, which a robot hides."""
+        raise InternalError(f"the mapper {self.name} of an engine got a robot: {robot!r}")
+
+
 def _picture(delivered: MapData) -> str | None:
     """The picture of a delivered map in a notebook; None, so that it shows the text: no map."""
     from topo_verify.pictures.drawing import notebook
@@ -201,7 +234,7 @@ def explore(  # noqa: PLR0913  an argument an option
     pick: str | None = None,
     order: str | None = None,
     limits: Limits | None = None,
-    engine: Engine = "reference",
+    engine: str = "reference",
     trace: bool = True,
     stop_if_false: bool = False,
 ) -> Exploration:
@@ -213,7 +246,7 @@ def explore(  # noqa: PLR0913  an argument an option
         pick, order: policies of a catalogue algorithm; default: the reference policies.
         limits: moves and seconds; default: the bound of claim 7, 5 s between moves, 60 s in all.
         engine: runs a catalogue algorithm, "reference" or "compiled".
-        trace: keep the trace; False, for the compiled engine: only cost and map.
+        trace: keep the trace; False, for another engine than the reference: only cost and map.
         stop_if_false: end the run at its first false `augment`: no later decision is judged.
     Returns:
         The run. If the mapper delivers no map, `map` is None and `stopped` says why.
@@ -224,13 +257,12 @@ def explore(  # noqa: PLR0913  an argument an option
     world = _resolved(world, mapper)
     limits = given_limits(limits)
     target = _on(engine, one_target(mapper, pick=pick, order=order), limits, trace=trace)
-    if isinstance(target.mapper, CompiledAlgorithm):
-        trace = trace and target.mapper.trace
-        return _compiled(world, target, target.mapper, limits, trace=trace)
-    budget = world.cost_bound if limits.budget is None else limits.budget
-    robot = SimulatedRobot(world, budget, _objection(world) if stop_if_false else None)
     policies = policies_of(target)
     start = _start(world, target, policies)
+    if isinstance(target.mapper, EngineMapper):
+        return target.mapper.explore(world, start, limits)
+    budget = world.cost_bound if limits.budget is None else limits.budget
+    robot = SimulatedRobot(world, budget, _objection(world) if stop_if_false else None)
     if isinstance(target.mapper, Program):
         target.mapper.start()  # before the run, whose limits do not count it
     finish, stopped, error, limit = _run(target.mapper, robot, limits)
@@ -238,7 +270,7 @@ def explore(  # noqa: PLR0913  an argument an option
         robot.settle()
     if limit == "move-timeout" and target.text.startswith(PREFIX):
         stopped = f"{stopped}; {HUNG}"
-    elif limit == "move-timeout" and is_native(target):
+    elif limit == "move-timeout" and is_library(target):
         stopped = f"{stopped}; {NATIVE_HUNG}"
     misbehaved = None
     if isinstance(target.mapper, Program):
@@ -292,13 +324,23 @@ def _resolved(world: object, mapper: object) -> World:
     raise InputError(f"{expected}, got {world!r}{mend}")
 
 
-def _on(engine: Engine, target: Target, limits: Limits, *, trace: bool) -> Target:
-    if engine not in ENGINES:
-        raise InputError(f"engine={engine!r}: expected one of {', '.join(ENGINES)}")
+def _on(engine: str, target: Target, limits: Limits, *, trace: bool) -> Target:
     (target,) = on_engine(engine, (target,), limits)
-    if not trace and not isinstance(target.mapper, CompiledAlgorithm):
+    if trace:
+        return target
+    if not isinstance(target.mapper, EngineMapper):
         raise InputError("trace=False: the reference engine always keeps the trace; leave it out")
-    return target
+    return Target(target.text, replace(target.mapper, trace=False))
+
+
+WITH_POLICIES = Algorithm, EngineMapper
+"""The kinds of mappers that have policies. (A tuple: a union would be made for each run.)"""
+
+
+def policies_of(target: Target) -> Policies | None:
+    """The policies of a catalogue algorithm; None for other mappers."""
+    mapper = target.mapper
+    return mapper.policies if isinstance(mapper, WITH_POLICIES) else None
 
 
 def _start(world: World, target: Target, policies: Policies | None) -> Start:
@@ -307,26 +349,6 @@ def _start(world: World, target: Target, policies: Policies | None) -> Start:
         policies=policies,
         world=world.known_id,
         percept=first_percept(world),
-    )
-
-
-def _compiled(
-    world: World, target: Target, mapper: CompiledAlgorithm, limits: Limits, *, trace: bool
-) -> Exploration:
-    from topo_verify.compiled.explore import run_world
-
-    run = run_world(world, mapper.name, trace=trace, budget=limits.budget, fault=mapper.fault)
-    return Exploration(
-        world,
-        target.text,
-        mapper.policies,
-        run.events_after(_start(world, target, mapper.policies)),
-        run.map,
-        run.stopped,
-        cost=run.cost,
-        limit=None if run.map is not None else "budget",
-        mapper=mapper,
-        limits=limits,
     )
 
 
@@ -356,92 +378,3 @@ def _run(
     if isinstance(result, Undelivered):
         return None, result.why, error, None
     return result, None, None, None
-
-
-# ---------------------------------------------------------------- engines
-
-Engine = Literal["reference", "compiled"]
-"""What runs a catalogue algorithm."""
-
-ENGINES: tuple[Engine, ...] = get_args(Engine)
-
-
-@dataclass(frozen=True, slots=True)
-class CompiledAlgorithm:
-    """A catalogue algorithm for the compiled engine.
-
-    Attributes:
-        fault: the seeded fault that is planted in it, or "".
-        trace: keep the trace of a run; False: only cost and map.
-    """
-
-    name: str
-    fault: str = ""
-    trace: bool = True
-
-    @property
-    def policies(self) -> Policies:
-        """The reference policies; the kernels have no others."""
-        return REFERENCE
-
-    def __call__(self, robot: Robot) -> object:
-        """Raise an InternalError: the engine needs the world, which a robot hides."""
-        raise InternalError(f"the compiled {self.name} was called with a robot: {robot!r}")
-
-
-WITH_POLICIES = Algorithm, CompiledAlgorithm
-"""The kinds of mappers that have policies. (A tuple: a union would be made for each run.)"""
-
-
-def policies_of(target: Target) -> Policies | None:
-    """The policies of a catalogue algorithm; None for other mappers."""
-    mapper = target.mapper
-    return mapper.policies if isinstance(mapper, WITH_POLICIES) else None
-
-
-def on_engine(engine: Engine, targets: Iterable[Target], limits: Limits) -> tuple[Target, ...]:
-    """The same mappers for this engine; InputError if it cannot run one."""
-    mappers = tuple(targets)
-    if engine == "reference":
-        return mappers
-    require_compiled(mappers, limits)
-    return tuple(Target(target.text, CompiledAlgorithm(target.text)) for target in mappers)
-
-
-def is_native(target: Target) -> bool:
-    """Whether this is a function of a shared library."""
-    return target.text.startswith(LIBRARY)
-
-
-def require_compiled(targets: Iterable[Target], limits: Limits, *, libraries: bool = False) -> None:
-    """Raise an InputError unless the compiled engine can run these mappers under these limits.
-
-    `libraries` allows native mappers, too: they beat at every move, so a limit between two moves
-    holds for them.
-    """
-    require("--engine compiled")
-    targets = tuple(targets)
-    native = libraries and any(map(is_native, targets))
-    for target in targets:
-        if libraries and is_native(target):
-            continue
-        if not isinstance(target.mapper, Algorithm):
-            raise InputError(
-                f"--engine compiled runs the algorithms of the catalogue, {', '.join(CATALOGUE)},"
-                f" and {target.text} is none of them: leave --engine out"
-            )
-        if target.mapper != CATALOGUE.get(target.text):
-            chosen = target.mapper.policies
-            raise InputError(
-                f"--engine compiled runs {target.text} with the policies {REFERENCE.pick} and"
-                f" {REFERENCE.order}, got {chosen.pick} and {chosen.order}: leave out --pick and"
-                " --order, or --engine"
-            )
-    usual = Limits()
-    between = usual.move_timeout if native else limits.move_timeout
-    if replace(limits, budget=None, move_timeout=between) != usual:
-        options = "--world-timeout" if native else "--move-timeout and --world-timeout"
-        raise InputError(
-            "--engine compiled cannot stop a run after some seconds, and its runs are bounded by"
-            f" the number of moves: leave out {options}, or add --engine reference"
-        )

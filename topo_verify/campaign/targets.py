@@ -5,7 +5,7 @@
     path/file.py:attribute      a callable of a file
     --cmd program args          a program behind protocol 1, started in its first world
     --library file.so:symbol    a function of a shared library, in its own process
-    --library path/file.py:name a function that numba compiles; as path/file.py:name, too
+    --library path/file.py:name a function to be compiled first; as path/file.py:name, too
     all                         the algorithms that are right in every world
     basic,path/file.py:name     several of these, except programs and libraries
 
@@ -32,7 +32,7 @@ from topo_verify.algorithms import CATALOGUE, NAMED, STEERED, Algorithm, Steered
 from topo_verify.errors import InputError, close_name, is_utf8
 from topo_verify.programs.foreign import Foreign
 from topo_verify.programs.library import LIBRARY
-from topo_verify.programs.loader import Mapper, Target, load, missing_attribute
+from topo_verify.programs.loader import Mapper, Target, load, maker_of, missing_attribute
 from topo_verify.programs.program import OPTIONS, PREFIX, Program, split
 
 _LIBRARIES = (".so", ".dylib", ".dll")
@@ -60,7 +60,7 @@ def targets(
 def each_text(text: str) -> tuple[str, ...]:
     """The text of each mapper that a TARGET names: split at commas, with `all` expanded.
 
-    A numba function of a Python file becomes a native mapper.
+    A function of a file that is to be compiled becomes a native mapper.
     """
     place = text.rpartition(":")[0]
     named = "," in place and os.path.isfile(place)  # noqa: PTH113  Path.is_file raises if a list is longer than a file name
@@ -69,31 +69,14 @@ def each_text(text: str) -> tuple[str, ...]:
     general = [name for name, algorithm in CATALOGUE.items() if algorithm.assumes is None]
     parts = [text] if named else [part.strip() for part in text.split(",")]
     names = (name for part in parts for name in (general if part == "all" else [part]))
-    return tuple(LIBRARY + name if _names_jitted(name) else name for name in names)
+    return tuple(LIBRARY + name if _is_to_compile(name) else name for name in names)
 
 
-def _names_jitted(text: str) -> bool:
-    """Whether the source of `path/file.py:name` shows a function compiled by numba."""
-    place, _, name = text.rpartition(":")
-    if not place.endswith(".py"):
-        return False
-    try:
-        body = ast.parse(Path(place).read_bytes()).body
-    except (SyntaxError, ValueError, OSError, RecursionError, MemoryError):
-        return False
-    marks: list[ast.expr] = []
-    for node in body:
-        if isinstance(node, ast.FunctionDef) and node.name == name:
-            marks = node.decorator_list
-        elif isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == name:
-            marks = [node.value]
-    return any(_is_jit(mark) for mark in marks)
-
-
-def _is_jit(mark: ast.expr) -> bool:
-    while isinstance(mark, ast.Call):
-        mark = mark.func
-    return ast.unparse(mark).rpartition(".")[2] in ("njit", "jit")
+def _is_to_compile(text: str) -> bool:
+    """Whether the source of `path/file:name` shows a function to be compiled first."""
+    path, _, name = text.rpartition(":")
+    maker = maker_of(path)
+    return maker is not None and maker.shows(path, name)
 
 
 def one_target(

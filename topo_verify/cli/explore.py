@@ -16,8 +16,9 @@ import click
 import msgspec
 
 from topo_verify import extras
-from topo_verify.campaign.judge import Report, is_for_compiled_judge
-from topo_verify.campaign.run import Engine, Exploration, on_engine
+from topo_verify.campaign.engine import on_engine
+from topo_verify.campaign.judge import Report, is_for_engine
+from topo_verify.campaign.run import Exploration
 from topo_verify.checkers import Finding, Judgement, Status
 from topo_verify.checkers.claims import LARGE
 from topo_verify.checkers.findings import Verdict
@@ -158,11 +159,11 @@ class _ExploreOptions:
     metavar="LIST",
     help="Choose by these numbers, as 0,2,1: which e, which h next (one run only).",
 )
-@options.engine
+@extras.options("explore", "engine")
 @marker_option
 @click.option("--trace", metavar="FILE", help="Write the trace as JSON Lines (one run only).")
 @options.player
-@extras.options("explore")
+@extras.options("explore", "svg")
 @options.strict
 @click.option(
     "--gap", is_flag=True, help="Count the hypotheses that were walked although already refuted."
@@ -174,7 +175,7 @@ def explore(
     worlds: tuple[str, ...],
     mappers: options.Mappers,
     choices: str | None,
-    engine: Engine,
+    engine: str,
     marker: int | Literal["all"] | None,
     trace: str | None,
     player: str | None,
@@ -461,7 +462,7 @@ def _result(
         gap=measured,
         marker=at.world.root,
         place=0 if at.world.root is None else at.world.vertex_of[at.world.root],
-        by_compiled_judge=is_for_compiled_judge(run, strict=asked.strict),
+        by_compiled_judge=is_for_engine(run, strict=asked.strict),
     )
     return Result(entry, failed=bool(report.findings), incomplete=incomplete)
 

@@ -24,7 +24,7 @@ from click.core import ParameterSource
 from topo_verify.campaign.backend import MapperCampaign
 from topo_verify.campaign.campaign import close
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import ENGINES, policies_of
+from topo_verify.campaign.run import policies_of
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import one_target, target_text, targets
 from topo_verify.checkers.claims import LARGE
@@ -274,22 +274,6 @@ def make_folder(name: str, option: str) -> Path:
     return Path(name)
 
 
-engine = click.option(
-    "--engine",
-    type=click.Choice(ENGINES),
-    default="reference",
-    show_default=True,
-    help="compiled is faster and needs numba; only for the catalogue.",
-)
-
-
-search_engine = click.option(
-    "--engine",
-    type=click.Choice(ENGINES),
-    help="compiled is faster and needs numba.  [default: reference; compiled with --library]",
-)
-
-
 in_process = click.option(
     "--in-process",
     is_flag=True,
@@ -353,7 +337,7 @@ _PROGRAM = (
     click.option(
         "--library",
         metavar="FILE[:SYMBOL]",
-        help="Run this native mapper, or FILE.py:NAME by numba.  [default SYMBOL: map_world]",
+        help="Run this native mapper, or FILE.py:NAME compiled first.  [default SYMBOL: map_world]",
     ),
     in_process,
 )

@@ -7,9 +7,10 @@ from collections.abc import Iterable, Iterator, Sequence
 import click
 import msgspec
 
+from topo_verify import extras
 from topo_verify.campaign.campaign import MAX_TIMEOUTS
+from topo_verify.campaign.engine import on_engine
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import Engine, on_engine
 from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result
 from topo_verify.cli.runs import finding_blocks
@@ -39,13 +40,13 @@ SHOWN = 3
 @options.mappers(with_policies=True)
 @options.workers(0)
 @options.store
-@options.engine
+@extras.options("record", "engine")
 @options.limits
 def record(
     output: Output,
     *,
     mappers: options.Mappers,
-    engine: Engine,
+    engine: str,
     out: str,
     worlds: tuple[str, ...],
     seed: int,

@@ -12,8 +12,8 @@ import click
 
 from topo_verify import extras
 from topo_verify.campaign.backend import Elsewhere, MakeBackend, here, pooled
-from topo_verify.campaign.campaign import MAX_LOST, Backend, Campaign
-from topo_verify.campaign.run import Engine, is_native
+from topo_verify.campaign.campaign import MAX_LOST, Backend, Campaign, EngineSeconds
+from topo_verify.campaign.examiner import examiner_of
 from topo_verify.campaign.store import Store, StoredCampaign
 from topo_verify.campaign.targets import targets
 from topo_verify.campaign.work import processors
@@ -61,7 +61,6 @@ from topo_verify.world.enumeration.classes import WorldClass
     show_default=True,
     help="Use the reference policies, all named ones, or (to 4 edges) every possible choice.",
 )
-@options.search_engine
 @click.option("--worst", is_flag=True, help="Show the highest costs and the worlds that have them.")
 @click.option("--compare", metavar="A,B", help="Show where A costs more than B.")
 @options.seed("Seed of the worlds that are run again.")
@@ -78,7 +77,7 @@ def search(
     depends: tuple[str, ...],
     keep_going: bool,
     policies: Choices,
-    engine: Engine | None,
+    engine: str | None,
     worst: bool,
     compare: str | None,
     seed: int,
@@ -115,7 +114,7 @@ def search(
             needed = None if ledger is None else depends
             for searched in _searches(mappers, compare, ledger):
                 campaign = campaign_of(searched)
-                backend = _backend(searched, workers, opened, needed, output.note)
+                backend = _backend(campaign, searched, workers, opened, needed, output.note)
                 with _opened(output, ledger, depends, campaign, searched) as store:
                     one_search = study.Search(campaign, searched, backend, store)
                     yield from _searched(output, one_search, compare=compare is not None)
@@ -134,6 +133,7 @@ def search(
 
 
 def _backend(
+    campaign: Campaign,
     mappers: tuple[Target, ...],
     workers: int | None,
     elsewhere: MakeBackend | None,
@@ -143,7 +143,7 @@ def _backend(
     if elsewhere is not None:
         return elsewhere(depends)
     number = processors() if workers is None else workers
-    if number or any(map(is_native, mappers)):  # needs a worker
+    if number or examiner_of(campaign).needs_worker:
         return pooled(number, depends, note)
     return here(mappers, depends=depends)
 
@@ -185,7 +185,7 @@ def _searched(
         # Before raising: `Output` prints it, then exits 3, or 2 if the ledger is full.
         yield result()
         raise
-    if campaign.engine == "compiled":
+    if one_search.seconds != EngineSeconds():
         known = output.timing.setdefault("engine", {"engine": 0.0, "checkers": 0.0})
         known["engine"] += one_search.seconds.engine
         known["checkers"] += one_search.seconds.checkers

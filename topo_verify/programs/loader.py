@@ -6,21 +6,19 @@ Source: docs/semantics.md, section 16.
 from __future__ import annotations
 
 import ast
-import ctypes
 import importlib
 import importlib.util
-import re
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache
 from importlib.machinery import SourceFileLoader
 from pathlib import Path
 from types import CodeType
-from typing import Any, cast
+from typing import Any, Protocol, cast
 
-from topo_verify.errors import InputError, close_name, shown
+from topo_verify import extras
+from topo_verify.errors import InputError, close_name
 from topo_verify.programs import library
 from topo_verify.programs.delivery import loading_text
 from topo_verify.robot.events import Robot
@@ -37,6 +35,11 @@ class Target:
     mapper: Mapper
 
 
+def is_library(target: Target) -> bool:
+    """Whether this is a native mapper, a function of machine code."""
+    return target.text.startswith(library.LIBRARY)
+
+
 def load(text: str) -> Mapper:
     """The mapper at `package.module:attribute`, `path/file.py:attribute` or `--library PATH`.
 
@@ -47,9 +50,10 @@ def load(text: str) -> Mapper:
     """
     if text.startswith(library.LIBRARY):
         return library.NativeMapper(native_function(text))
-    mapper = _found(text)
-    if is_jitted(mapper):
-        raise InputError(f"target {text!r} is compiled by numba: give it as --library {text}")
+    mapper = object_at(text)
+    for maker in extras.function_makers():
+        if maker.makes(mapper):
+            raise InputError(f"target {text!r} {maker.words}: give it as --library {text}")
     if not callable(mapper):
         raise InputError(
             f"target {text!r}: expected a callable that takes a robot, got {type(mapper).__name__}"
@@ -57,32 +61,58 @@ def load(text: str) -> Mapper:
     return mapper
 
 
+class FunctionMaker(Protocol):
+    """A kind of TARGET that an extra brings: it makes functions of machine code out of a file.
+
+    Attributes:
+        words: what is said of such a function, as in `is compiled by …`.
+    """
+
+    words: str
+
+    def makes(self, mapper: object) -> bool:
+        """Is this loaded object such a function?"""
+        ...
+
+    def shows(self, path: str, name: str) -> bool:
+        """Whether the source of a file shows that its function `name` is one."""
+        ...
+
+    def function(self, text: str) -> Any:
+        """The function of a native mapper, made once in this process, as a ctypes object."""
+        ...
+
+
+def maker_of(path: str) -> FunctionMaker | None:
+    """What makes functions out of a file with this ending; None: it is a shared library."""
+    maker: FunctionMaker | None = extras.function_maker(Path(path).suffix)
+    return maker
+
+
 def native_function(text: str) -> Any:
     """The function of a native mapper as a ctypes object, valid as long as this process.
 
     Raises:
-        InputError: there is no such function, or numba cannot compile it.
+        InputError: there is no such function, or it cannot be compiled.
     """
-    if not is_python(text):
+    maker = maker_of(library.library_file(text)[0])
+    if maker is None:
         return library.library_function(text)
-    function = compiled_once(text)
+    function = maker.function(text)
     library.confine()
     return function
 
 
-def is_python(text: str) -> bool:
-    """Is this native mapper a function that numba compiles?"""
-    return text.startswith(library.LIBRARY) and library.library_file(text)[0].endswith(".py")
+def prepare(text: str) -> None:
+    """Compile a native mapper before this process forks, if it is one to compile."""
+    if text.startswith(library.LIBRARY):
+        maker = maker_of(library.library_file(text)[0])
+        if maker is not None:
+            maker.function(text)
 
 
-@cache
-def compiled_once(text: str) -> Any:
-    """The function of a native mapper in a Python file; raises as `native_function`."""
-    place = ":".join(library.library_file(text))
-    return jitted_function(_found(place), f"--library {place}")
-
-
-def _found(text: str) -> object:
+def object_at(text: str) -> object:
+    """What stands at `package.module:attribute` or `path/file.py:attribute`."""
     place, _, attribute = text.rpartition(":")
     value = _load_file(Path(place), text) if place.endswith(".py") else _load_module(place, text)
     for name in attribute.split("."):
@@ -148,56 +178,6 @@ def _load_file(path: Path, text: str) -> object:
             raise
         raise InputError(f"target {text!r}: {str(path)!r} fails: {loading_text(error)}") from error
     return module
-
-
-# ---------------------------------------------------------------- functions by numba
-
-
-_lasting: list[object] = []
-"""The compiled functions, which own their machine code."""
-
-
-def is_jitted(function: object) -> bool:
-    """Does numba compile this function?"""
-    module = sys.modules.get("numba.core.dispatcher")
-    return module is not None and isinstance(function, module.Dispatcher)
-
-
-def jitted_function(function: Any, where: str) -> Any:
-    """A function compiled by numba, as a ctypes object.
-
-    Args:
-        where: the beginning of the error message.
-    Raises:
-        InputError: it is no such function, or numba cannot compile it for a robot.
-    """
-    if not is_jitted(function):
-        raise InputError(
-            f"{where}: expected a function compiled by numba, got {type(function).__name__}: put"
-            " @numba.njit above it, or give it as a TARGET without --library"
-        )
-    # Numba freezes globals, so a call leaves to the next one only what hides behind an address.
-    from numba import cfunc, types
-    from numba.core.errors import NumbaError
-
-    def call(robot: int) -> None:
-        function(robot)
-
-    try:
-        machine_code: Any = cfunc(types.void(types.int64))(call)
-    except NumbaError as error:
-        raise InputError(f"{where}: numba cannot compile it: {_reason(str(error))}") from error
-    _lasting.append(machine_code)
-    return ctypes.CFUNCTYPE(None, ctypes.c_void_p)(machine_code.address)
-
-
-def _reason(text: str) -> str:
-    lines = [line.strip() for line in text.splitlines()]
-    reasons = [line for line in lines if line and not line.startswith("Failed in ")]
-    first = next((line for line in reasons if re.match(r"\w+Error: ", line)), reasons[0])
-    places = [line.rstrip(":") for line in lines if re.match(r'File ".*", line \d+', line)]
-    theirs = [place for place in places if "topo_verify/" not in place]
-    return shown("; ".join((first.rstrip("."), *theirs[-1:])), limit=400)
 
 
 # ---------------------------------------------------------------- hints for a misspelled TARGET

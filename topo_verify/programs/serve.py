@@ -25,7 +25,7 @@ from topo_verify.programs import isolation, loaded
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.delivery import Undelivered, deliver, finish_of, stop_text
 from topo_verify.programs.library import LIBRARY, Skipped
-from topo_verify.programs.loader import Mapper, compiled_once, is_python, load
+from topo_verify.programs.loader import Mapper, load, prepare
 from topo_verify.robot.events import Decision
 from topo_verify.robot.limits import MapperStopped
 from topo_verify.robot.percept import Door, Percept, Purpose
@@ -217,15 +217,14 @@ def fresh(text: str) -> None:
     """Serve the mapper of a TARGET for `Foreign`, each world in a fork of this process.
 
     A fork takes some milliseconds, a new Python a few hundred. If a signal ends a fork, this
-    process ends itself by the same. Numba compiles before any world.
+    process ends itself by the same. What is to be compiled is compiled before any world.
 
     What this does not show: that an earlier world left nothing on the disk or in the environment.
     """
     _reset_signals()
     reader, writer = isolation.private_pipes()
-    if is_python(text):
-        with suppress(InputError):
-            compiled_once(text)
+    with suppress(InputError):
+        prepare(text)
     _send(writer, ms.ReadyMessage())
     for line in reader:
         message = _to_child.decode(line)

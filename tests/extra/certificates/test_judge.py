@@ -21,10 +21,10 @@ from tests.faults.every import EVERY
 from tests.helpers import EMPTY, edited, trace_of, worlds
 from tests.proofs.mechanised.conftest import LIMIT, RARE
 from topo_verify import CATALOGUE, InputError, Limits, World, explore
-from topo_verify.campaign.compiled_shard import examine_range
 from topo_verify.checkers import CLAIMS, Judgement, check
 from topo_verify.checkers.folding import OWN_END, TURNED, TWO_OF_S, UNLIKE
 from topo_verify.extra.certificates import judge
+from topo_verify.extra.fast.snapshots import examine_range
 from topo_verify.programs.loader import Mapper
 from topo_verify.robot import events as ev
 from topo_verify.robot.percept import Percept

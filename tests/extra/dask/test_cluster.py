@@ -23,6 +23,7 @@ from tests.studies.search.searching import json, searched, shards_in, wait_for
 from topo_verify import InputError, InternalError, errors, extras
 from topo_verify.campaign import backend
 from topo_verify.campaign.campaign import Campaign, Shard, ShardMemory, ShardResult
+from topo_verify.campaign.examiner import MACHINES
 from topo_verify.campaign.identity import own_hash
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import targets
@@ -180,7 +181,7 @@ def test_a_world_that_takes_every_worker_with_it_is_undecided_and_convicts_nobod
     assert (found.verdict, found.checked, found.total) == ("UNKNOWN", 8, 9)
     assert found.counterexample is None
     (lost,) = found.lost
-    assert (lost.world.partition("/")[0], lost.how) == ("m3", backend.MACHINES)
+    assert (lost.world.partition("/")[0], lost.how) == ("m3", MACHINES)
 
 
 @pytest.mark.nightly

@@ -18,12 +18,12 @@ pytest.importorskip("distributed")
 from tests.extra.dask.test_cluster import address, started, worker
 from tests.studies.search.searching import json, searched, wait_for
 from topo_verify import InputError
-from topo_verify.campaign import campaign as campaigns
-from topo_verify.campaign.backend import COMPILING, job_of, work_of
+from topo_verify.campaign.backend import job_of, work_of
 from topo_verify.campaign.campaign import Campaign
 from topo_verify.campaign.targets import targets
 from topo_verify.extra.dask.backend import clustered
 from topo_verify.extra.dask.cluster import Cluster, connected
+from topo_verify.extra.fast.engine import COMPILING, CompiledEngine
 from topo_verify.studies.search.search import Search, SearchEntry, search, search_campaign
 from topo_verify.world.enumeration import rank_order
 
@@ -35,7 +35,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::ResourceWarning")
 @pytest.fixture(autouse=True)
 def small_shards(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Several shards a size, so that workers are at different ones."""
-    monkeypatch.setattr(campaigns, "ENGINE_SHARD", 100)
+    monkeypatch.setattr(CompiledEngine, "shard", 100)
     return folder
 
 
@@ -92,8 +92,8 @@ def test_a_worker_without_numba_is_named_with_the_mend(folder: Path) -> None:
     hidden.mkdir()
     (hidden / "sitecustomize.py").write_text("import sys\nsys.modules['numba'] = None\n")
     words = (
-        r"^worker tcp://.* of the cluster: .*the compiled engine needs numba:"
-        r" .* -m pip install numba"
+        r"^worker tcp://.* of the cluster: .*the extra fast needs numba:"
+        r" .* -m pip install 'topo-verify\[fast\]'"
     )
     with (
         started(0) as address,
@@ -120,7 +120,7 @@ def test_the_client_compiles_only_for_workers_of_its_machine(
         raise Refused
 
     campaigns: list[Campaign] = []
-    monkeypatch.setattr("topo_verify.campaign.compiled.warm", campaigns.append)
+    monkeypatch.setattr("topo_verify.extra.fast.shard.warm", campaigns.append)
     monkeypatch.setattr("topo_verify.extra.dask.backend.ClusterPool", refuse)
     nobody: Any = None
     with pytest.raises(Refused):

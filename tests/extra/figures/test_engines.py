@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import Refused
+from topo_verify import extras
 from topo_verify.campaign.judge import TRACELESS
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import Engine
 from topo_verify.campaign.store import Store
 from topo_verify.extra.figures import points
 from topo_verify.extra.figures.figures import FIGURES, LATTICE, FigureExtent
@@ -19,7 +19,7 @@ from topo_verify.extra.figures.points import line_campaigns
 pytest.importorskip("numba")
 
 
-def rows(folder: Path, engine: Engine, workers: int = 0) -> list[Row]:
+def rows(folder: Path, engine: str, workers: int = 0) -> list[Row]:
     """The rows of a small figure."""
     lattices = replace(LATTICE, sizes=(6,), large=())
     figure = replace(FIGURES["3"], setting=lattices)
@@ -72,5 +72,7 @@ def test_lattices_grow_to_100_by_100_with_the_compiled_engine() -> None:
 def test_without_numba_the_extra_is_named(
     refused: Refused, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("topo_verify.compiled.available", lambda: False)
-    refused("reproduce --figure 3 --quick --engine compiled", "--engine compiled needs numba")
+    monkeypatch.setattr(
+        extras, "missing_packages", lambda extra: ["numba"] if extra == "fast" else []
+    )
+    refused("reproduce --figure 3 --quick --engine compiled", "the extra fast needs numba")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from topo_verify.campaign.run import Engine
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.baseline.file import Baseline
@@ -14,7 +13,7 @@ def recording(
     target: Target,
     *texts: str,
     limits: Limits | None = None,
-    engine: Engine = "reference",
+    engine: str = "reference",
     workers: int = 0,
 ) -> Baseline:
     """The baseline of a mapper in the worlds that these texts name."""

@@ -15,12 +15,12 @@ import pytest
 from tests.campaign.misdeeds import DEEDS
 from tests.programs import natives
 from tests.programs.programs import python
+from topo_verify import extras
 from topo_verify.campaign.backend import pooled
 from topo_verify.campaign.drawn_row import ROW
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import targets
 from topo_verify.checkers.findings import Verdict
-from topo_verify.compiled import available
 from topo_verify.errors import InputError
 from topo_verify.robot.limits import Limits
 from topo_verify.studies.search import again
@@ -61,7 +61,7 @@ def target(way: str, plan: str, monkeypatch: pytest.MonkeyPatch) -> str:
         return f"misdeeds.py:{plan}"
     if way == "program":
         return python(Path("misdeeds.py").absolute(), plan)
-    if not available() or shutil.which("cc") is None:
+    if not extras.usable_engines() or shutil.which("cc") is None:
         pytest.skip("numba or cc is not installed")
     monkeypatch.setenv("MISDEEDS", plan.replace("_", " "))
     return natives.misdeeds(Path.cwd())

@@ -10,10 +10,9 @@ from unittest.mock import Mock
 
 import pytest
 
-from topo_verify import CATALOGUE, Percept, Robot, World, examine
+from topo_verify import CATALOGUE, Percept, Robot, World, examine, extras
 from topo_verify.campaign.campaign import MAX_TIMEOUTS
 from topo_verify.campaign.targets import targets
-from topo_verify.compiled import available
 from topo_verify.programs.loader import Target
 from topo_verify.proofs.catalogue import QUICK, choose
 from topo_verify.robot.limits import Limits
@@ -60,7 +59,7 @@ def test_the_whole_campaign_exhausts_what_it_says(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(campaign, "ProofsBeside", Mock(return_value=Proofs(quick=True)))
     monkeypatch.setattr(campaign, "TASKS", ("engine", "drawing"))
     parts = list(verify(targets("enhancement-ii"), seed=1))
-    small = 119364 if available() else 8954  # one size more with the compiled engine
+    small = 119364 if extras.usable_engines() else 8954  # one size more with the compiled engine
     assert [(part.part, part.verdict, part.checked, part.total) for part in parts] == [
         ("counts", "EXHAUSTED", 119364, 119364),
         ("small-worlds", "EXHAUSTED", small, small),

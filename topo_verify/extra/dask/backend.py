@@ -10,6 +10,7 @@ from functools import partial
 from topo_verify.campaign import backend as local
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import Depends
+from topo_verify.campaign.examiner import examiner_of
 from topo_verify.campaign.identity import Identity
 from topo_verify.errors import InputError
 from topo_verify.extra.dask.cluster import Cluster, ClusterPool, connected
@@ -53,7 +54,7 @@ def clustered(cluster: Cluster, depends: Depends = None) -> c.Backend:
             c.close(mappers)
         work = local.work_of(local.job_of(campaign, depends_on), ours)
         if cluster.is_local:
-            local.prepare(campaign)
+            examiner_of(campaign).prepare()
         with ClusterPool(cluster, work) as pool:
             for shard, result in pool.run(shards):
                 yield shard, local.with_our_memory(work, shard, result)

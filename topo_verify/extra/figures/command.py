@@ -9,8 +9,9 @@ from pathlib import Path
 import click
 
 from topo_verify import extras
+from topo_verify.campaign.engine import REFERENCE_ENGINE, engine_of
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import Engine, explore, require_compiled
+from topo_verify.campaign.run import explore
 from topo_verify.campaign.work import processors
 from topo_verify.cli import options
 from topo_verify.cli.output import Output, Result
@@ -62,7 +63,7 @@ _Found = list[tuple[fig.Figure, list[pts.FigurePoint]]]
     help="Write CSV, pictures and a page to DIR; resume from its runs.",
 )
 @options.seed("Of the graphs.")
-@options.engine
+@extras.options("reproduce", "engine")
 @options.number("--workers", least=1, meaning="Processes.  [default: all processors]")
 def reproduce(
     output: Output,
@@ -73,7 +74,7 @@ def reproduce(
     graphs: int | None,
     out: str,
     seed: int,
-    engine: Engine,
+    engine: str,
     workers: int | None,
 ) -> int:
     """Draw the paper's Figures 3 and 6 a-f again: mean costs with standard errors.
@@ -82,25 +83,24 @@ def reproduce(
     complete rule, folding. Every run is judged by every claim. The same options give the same
     CSV bytes. With --engine compiled lattices grow to 100x100.
     """
-    usual = fig.QUICK_GRAPHS if quick else fig.GRAPHS
-    pairs, large = fig.PAIRS if policies else (fig.REFERENCE,), engine == "compiled" and not quick
+    usual, other = fig.QUICK_GRAPHS if quick else fig.GRAPHS, engine != REFERENCE_ENGINE.name
+    pairs, large = fig.PAIRS if policies else (fig.REFERENCE,), other and not quick
     extent = fig.FigureExtent(graphs or usual, quick, pairs, seed, large)
     words = ["topo-verify", "reproduce", *(["--figure", figure] if figure != "all" else [])]
     words += ["--quick"] * quick + ["--policies"] * policies
     words += ["--graphs", str(graphs)] if graphs else []
     words += ["--seed", str(seed)] if seed else []
-    words += ["--engine", engine] if engine != "reference" else []
+    words += ["--engine", engine] if other else []
 
     def points() -> Iterator[Result[pts.FigurePoint]]:
         extras.require("figures")
         figures = fig.chosen_figures(figure)
-        if engine == "compiled":
-            require_compiled((), Limits())
-            if policies:
-                raise InputError(
-                    "--policies with --engine compiled: that engine knows the reference policies"
-                    " only; leave one of the two out"
-                )
+        engine_of(engine).require((), Limits())
+        if policies and other:
+            raise InputError(
+                f"--policies with --engine {engine}: that engine knows the reference policies"
+                " only; leave one of the two out"
+            )
         folder = options.make_folder(out, "--out")
         runs = _runs(output, figures, extent, engine, folder, workers or processors())
         drawn = [(chosen, pts.figure_points(chosen, extent, runs)) for chosen in figures]
@@ -124,12 +124,12 @@ def _runs(
     output: Output,
     figures: Sequence[fig.Figure],
     extent: fig.FigureExtent,
-    engine: Engine,
+    engine: str,
     folder: Path,
     workers: int,
 ) -> dict[pts.PlannedRun, Row]:
-    if engine == "compiled":
-        # Before the workers start, so that they find compiled kernels in the cache.
+    if engine != REFERENCE_ENGINE.name:
+        # Before the workers start, so that they find what the engine compiles in its cache.
         explore(World.from_id("m1/0"), engine=engine)
     with options.open_store(folder) as store:
         assert store is not None, "there is a folder"

@@ -24,8 +24,9 @@ from topo_verify.algorithms import Algorithm
 from topo_verify.campaign.attempt import Attempt
 from topo_verify.campaign.backend import MapperCampaign
 from topo_verify.campaign.campaign import Campaign, ListedWorlds
+from topo_verify.campaign.engine import REFERENCE_ENGINE
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import CompiledAlgorithm, Engine
+from topo_verify.campaign.run import EngineMapper
 from topo_verify.campaign.store import Store
 from topo_verify.checkers import Finding, Status
 from topo_verify.checkers.claims import LARGE
@@ -259,13 +260,13 @@ class PlannedRun(NamedTuple):
 
 
 def line_campaigns(
-    figures: Sequence[fig.Figure], extent: fig.FigureExtent, engine: Engine, store: Store
+    figures: Sequence[fig.Figure], extent: fig.FigureExtent, engine: str, store: Store
 ) -> list[MapperCampaign]:
     """A campaign for each algorithm, in all the graphs that the figures need it in."""
     name, ways = "{}", None
     if extent.policies != (fig.REFERENCE,):
         name, ways = "{}, every pair of policies", every_pair.__name__
-    elif engine == "compiled":
+    elif engine != REFERENCE_ENGINE.name:
         ways = without_large_traces.__name__
     worlds: dict[str, dict[str, None]] = defaultdict(dict)
     for figure in figures:
@@ -279,7 +280,7 @@ def line_campaigns(
             worlds=ListedWorlds(len(graphs)),
             mappers=(line,),
             engine=engine,
-            limits=Limits() if engine == "compiled" else LIMITS,
+            limits=LIMITS if engine == REFERENCE_ENGINE.name else Limits(),
             ways=None if ways is None else f"{__name__}:{ways}",
         )
         kept = store.resumed(campaign, name=name.format(line), all_rows=True)
@@ -301,8 +302,8 @@ def every_pair(
 def without_large_traces(
     target: Target, world: World, once: Callable[[Target], Attempt]
 ) -> Iterator[Attempt]:
-    """Run an algorithm by the compiled engine, without its trace in a large world."""
-    assert isinstance(target.mapper, CompiledAlgorithm)
+    """Run an algorithm by another engine, without its trace in a large world."""
+    assert isinstance(target.mapper, EngineMapper)
     mapper = replace(target.mapper, trace=len(world.edges) <= LARGE)
     yield once(Target(target.text, mapper))
 

@@ -16,7 +16,7 @@ from topo_verify.campaign.backend import MapperCampaign
 from topo_verify.campaign.identity import runs_here
 from topo_verify.campaign.judge import replay_line
 from topo_verify.campaign.row import Row
-from topo_verify.campaign.run import Engine, policies_of
+from topo_verify.campaign.run import policies_of
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import target_arguments
 from topo_verify.checkers import Finding
@@ -34,7 +34,7 @@ def baseline_runs(
     total: int,
     *,
     limits: Limits | None = None,
-    engine: Engine = "reference",
+    engine: str = "reference",
     store: Store | None = None,
 ) -> MapperCampaign:
     """The runs of a mapper in named worlds; they end after `MAX_TIMEOUTS` time-outs."""

@@ -20,8 +20,8 @@ from typing import NamedTuple, Self
 import msgspec
 
 from topo_verify.campaign.attempt import Attempt, row_of
-from topo_verify.campaign.backend import counted
 from topo_verify.campaign.campaign import Campaign, InFlight, Shard, ShardResults
+from topo_verify.campaign.examiner import counted
 from topo_verify.campaign.judge import judge
 from topo_verify.campaign.run import explore
 from topo_verify.campaign.worker import function_at

@@ -36,8 +36,10 @@ from typing import Literal
 import msgspec
 
 from topo_verify.campaign import campaign as c
-from topo_verify.campaign.backend import calls_native, here
+from topo_verify.campaign.backend import here
 from topo_verify.campaign.drawn_row import ROW, drawn_row
+from topo_verify.campaign.engine import engine_of
+from topo_verify.campaign.examiner import examiner_of
 from topo_verify.campaign.progress import Progress, no_progress
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import SAMPLE, Tally, sample_key
@@ -257,7 +259,7 @@ def _drawn(rows: Sequence[Row], campaign: c.Campaign) -> list[Row]:
     for fails in (True, False):
         alike = [row for row in drawn if bool(row.failed) == fails][:MOST]
         first += [row for row in alike if row not in first]
-    if calls_native(campaign):
+    if examiner_of(campaign).runs_ends_again:
         ends = (row for row in (rows[:1] + rows[-1:]) if not row.timed_out)
         first += [row for row in ends if row not in first]
     return first
@@ -303,10 +305,8 @@ def _one_process(
 ) -> c.ShardResults:
     with _program(campaign.mappers[0]) as program:
         program.start()
-        if campaign.engine == "compiled":
-            from topo_verify.campaign.compiled_checks import CompiledChecks
-
-            checks = CompiledChecks()
+        checks = engine_of(campaign.engine).checks()
+        if checks is not None:
             for shard in shards:
                 yield shard, c.examine(campaign, (program.target,), shard, known=checks)
             return

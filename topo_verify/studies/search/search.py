@@ -13,29 +13,24 @@ from msgspec.structs import astuple
 
 from topo_verify import extras
 from topo_verify.campaign import campaign as c
-from topo_verify.campaign.backend import Elsewhere, calls_native, here, pooled
+from topo_verify.campaign.backend import Elsewhere, here, pooled
 from topo_verify.campaign.drawn_row import is_of_catalogue
+from topo_verify.campaign.engine import engine_of, usual_engine
+from topo_verify.campaign.examiner import examiner_of
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import PolicyCosts, Row
-from topo_verify.campaign.run import Engine, is_native, require_compiled
 from topo_verify.campaign.tally import KEPT_PAIRS, KEPT_WORST, Costs, Pairs, Tally, notable
 from topo_verify.campaign.targets import is_found_again, one_target, targets
 from topo_verify.checkers import Judgement
 from topo_verify.checkers.findings import Verdict
 from topo_verify.errors import InputError, InternalError, ShortTraceback, plural
-from topo_verify.programs.loader import Mapper, Target
+from topo_verify.programs.loader import Mapper, Target, is_library
 from topo_verify.programs.program import Program
 from topo_verify.robot.limits import Limits, given_limits
 from topo_verify.studies.search.again import CLAIM, Repetition, RunAgain
 from topo_verify.studies.search.choices import SHARD, WAYS, Choices, require_choices
 from topo_verify.studies.search.states.every import BY_EVERY_CLAIM, Decider
 from topo_verify.world.enumeration.classes import WorldClass
-
-JUDGED_BY = (
-    "the compiled engine; every counterexample, the worst worlds and a seeded sample of 1 in 1,000"
-    " by the checkers"
-)
-
 
 DONE: tuple[Verdict, ...] = ("EXHAUSTED", "SAMPLED")
 """The verdicts of a completed search that refuted nothing."""
@@ -199,38 +194,27 @@ def search_campaign(  # noqa: PLR0913  an argument an option
     limits: Limits | None = None,
     seed: int = 0,
     in_process: bool = True,
-    engine: Engine | None = None,
+    engine: str | None = None,
 ) -> c.Campaign:
-    """The campaign of a search; default engine: compiled for a native mapper, else reference.
+    """The campaign of a search; default engine: the `usual_engine`.
 
     InputError: a mapper has no such policies, or the engine cannot run it.
     """
     limits = given_limits(limits)
     if engine is None:
-        engine = "compiled" if any(map(is_native, mappers)) else "reference"
-    if engine == "compiled":
-        if choices != "reference":
-            raise InputError(
-                f"--engine compiled with --policies {choices}: it knows the reference policies"
-                " only; leave one of the two out"
-            )
-        require_compiled(mappers, limits, libraries=True)
-        if limits.budget is not None:
-            raise InputError(
-                f"--engine compiled searches with the bound of claim 7 as its budget, got"
-                f" --budget {limits.budget}: leave out --budget, or --engine"
-            )
+        engine = usual_engine(mappers)
+    engine_of(engine).require_search(mappers, limits, choices)
     if choices != "reference":
         require_choices(mappers, choices, edges)
     return c.Campaign(
-        worlds=c.Ranks(edges, kind, c.ENGINE_SHARD if engine == "compiled" else SHARD[choices]),
+        worlds=c.Ranks(edges, kind, engine_of(engine).shard or SHARD[choices]),
         mappers=tuple(mapper.text for mapper in mappers),
         limits=limits,
         in_process=in_process,
         engine=engine,
         stop=c.Stop(
             failing=None if keep_going else 1,
-            lost=c.MAX_LOST if any(map(is_native, mappers)) else None,
+            lost=c.MAX_LOST if any(map(is_library, mappers)) else None,
         ),
         keep="notable",
         ways=WAYS[choices],
@@ -248,7 +232,7 @@ def search(  # noqa: PLR0913  an argument an option
     limits: Limits | None = None,
     workers: int = 0,
     cluster: str | None = None,
-    engine: Engine | None = None,
+    engine: str | None = None,
     tell: Progress | None = None,
 ) -> SearchEntry:
     """Examine a mapper in every world of a class with 1 to `edges` edges, smallest first.
@@ -280,7 +264,7 @@ def search(  # noqa: PLR0913  an argument an option
         limits=limits,
         engine=engine,
     )
-    local = not workers and not calls_native(campaign)
+    local = not workers and not examiner_of(campaign).needs_worker
     elsewhere: Elsewhere | None = None if cluster is None else extras.backend("cluster")(cluster)
     with nullcontext() if elsewhere is None else elsewhere.opened(workers or None) as opened:
         if opened is not None:
@@ -402,7 +386,7 @@ class Search:
         campaign, tally, failing = self.campaign, self.tally, self.failing
         sizes = tuple(self._size(edges, compare=compare) for edges in self.totals)
         checked, total = sum(size.checked for size in sizes), sum(self.totals.values())
-        compiled = campaign.engine == "compiled"
+        examiner = examiner_of(campaign)
         return SearchEntry(
             target=",".join(campaign.mappers),
             kind=self.worlds.kind,
@@ -433,8 +417,8 @@ class Search:
             run_again=self.again,
             engine=campaign.engine,
             decided_by="mapper" if self.choices == "every" else None,
-            judged_by=JUDGED_BY if compiled else self._judged_by,
-            by_checkers=tally.by_checkers if compiled else tally.worlds,
+            judged_by=BY_EVERY_CLAIM if self.choices == "every" else examiner.judged_by,
+            by_checkers=examiner.judged_by_checkers(tally),
         )
 
     def _verdict(self, *, whole: bool) -> Verdict:
@@ -462,10 +446,6 @@ class Search:
             )
             for claim, number in numbers.items()
         )
-
-    @property
-    def _judged_by(self) -> str:
-        return BY_EVERY_CLAIM if self.choices == "every" else "the checkers"
 
     def _size(self, edges: int, *, compare: bool) -> ByEdges:
         tally, mapper = self.tallies[edges], self.campaign.mappers[0]

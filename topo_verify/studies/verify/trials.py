@@ -1,8 +1,8 @@
 """The parts that run mappers in worlds and have every claim judged.
 
-A part goes on after a counterexample, to count the failing worlds. With the compiled engine,
-`small-worlds` goes one size further for catalogue algorithms; in the smaller sizes the engine
-must count what the checkers counted.
+A part goes on after a counterexample, to count the failing worlds. Where a faster engine is
+installed, `small-worlds` goes one size further for catalogue algorithms; in the smaller sizes that
+engine must count what the checkers counted.
 
 Catalogue algorithms run in worker processes: the small worlds in one campaign, the worlds of all
 later parts in another (`Together`), so that no processor idles at the end of a part.
@@ -21,6 +21,7 @@ from topo_verify.algorithms import CATALOGUE, Algorithm
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import KEPT_FINDINGS, Look
 from topo_verify.campaign.backend import here, pooled
+from topo_verify.campaign.engine import engine_of
 from topo_verify.campaign.judge import in_words, world_argument
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import Row
@@ -224,29 +225,32 @@ def claims_in_words(claims: dict[str, dict[str, int]]) -> str:
 
 
 class EngineCounts(msgspec.Struct, frozen=True):
-    """The engine's tally of each size of small worlds, and notable rows."""
+    """The tally of each size of small worlds by an engine of this name, and notable rows."""
 
+    engine: str
     tallies: dict[int, Tally]
     rows: tuple[Row, ...]
 
 
-def engine_counts(edges: int, targets: Sequence[Target]) -> EngineCounts:
-    """The engine's counts in every world of 1 to `edges` edges."""
-    campaign = _campaign(c.Ranks(edges, shard=c.ENGINE_SHARD), targets, Limits())
-    campaign = msgspec.structs.replace(campaign, engine="compiled", keep="notable")
+def engine_counts(engine: str, edges: int, targets: Sequence[Target]) -> EngineCounts:
+    """An engine's counts in every world of 1 to `edges` edges."""
+    worlds = c.Ranks(edges)
+    worlds = msgspec.structs.replace(worlds, shard=engine_of(engine).shard or worlds.shard)
+    campaign = _campaign(worlds, targets, Limits())
+    campaign = msgspec.structs.replace(campaign, engine=engine, keep="notable")
     tallies: dict[int, Tally] = {}
     rows: tuple[Row, ...] = ()
     for shard, result in c.results(campaign, here(targets)):
         tallies[shard.edges] = tallies.get(shard.edges, Tally()) + result.tally
         rows = notable((*rows, *result.rows))
-    return EngineCounts(tallies, rows)
+    return EngineCounts(engine, tallies, rows)
 
 
 class SmallWorlds(Trials):
     """Runs every mapper in every world of 1 to `edges` edges. A `PartJob`.
 
-    `further` counts one size more by the compiled engine. With 0 workers mappers run in this
-    process, so that Ctrl-C reaches a user's mapper.
+    `further` counts one size more by a faster engine. With 0 workers mappers run in this process,
+    so that Ctrl-C reaches a user's mapper.
     """
 
     def __init__(
@@ -259,7 +263,7 @@ class SmallWorlds(Trials):
         workers: int = 0,
     ) -> None:
         super().__init__("small-worlds", "", 0, (), targets, limits, finite=True)
-        self._workers, self._further = workers, further
+        self._workers, self._further, self._engine = workers, further, ""
         self._extend(edges)
 
     def _extend(self, edges: int) -> None:
@@ -267,7 +271,7 @@ class SmallWorlds(Trials):
         self.total = sum(c.Ranks(edges).totals().values())
 
     def work(self, tell: Progress) -> None:
-        """Search every world of each size; InternalError if the compiled engine differs."""
+        """Search every world of each size; InternalError if that engine differs."""
         stop = c.Stop(timeouts=c.MAX_TIMEOUTS)
         campaign = _campaign(c.Ranks(self._edges), self.targets, self.limits, stop)
         campaign = msgspec.structs.replace(campaign, keep="notable")
@@ -279,7 +283,8 @@ class SmallWorlds(Trials):
             self._keep((*self.rows, *result.rows))
         if self._further is not None and self.part().verdict == "EXHAUSTED":
             counts = self._further()
-            self._require_same(tallies, counts.tallies)
+            self._require_same(tallies, counts)
+            self._engine = counts.engine
             self._extend(self._edges + 1)
             self.tally = sum(counts.tallies.values(), Tally())
             self._keep(counts.rows)
@@ -288,14 +293,14 @@ class SmallWorlds(Trials):
         self.rows = [*notable(rows)]
         self.failing = [row for row in self.rows if row.failed]
 
-    def _require_same(self, before: dict[int, Tally], after: dict[int, Tally]) -> None:
+    def _require_same(self, before: dict[int, Tally], after: EngineCounts) -> None:
         for edges, tally in before.items():
             for name in ("worlds", "failing", "undecided", "statuses", "shares", "costs"):
-                ours, theirs = getattr(tally, name), getattr(after[edges], name)
+                ours, theirs = getattr(tally, name), getattr(after.tallies[edges], name)
                 if ours != theirs:
                     raise InternalError(
                         f"in the worlds of {plural(edges, 'edge')} the engines disagree on {name}:"
-                        f" {ours} by the checkers, {theirs} by the compiled engine"
+                        f" {ours} by the checkers, {theirs} by the {after.engine} engine"
                     )
 
     def _cut_off(self) -> str:
@@ -303,7 +308,7 @@ class SmallWorlds(Trials):
         words = f"; {plural(undecided, 'run')} not decided" if undecided else ""
         if self.tally.by_checkers:
             words += (
-                f"; those of {plural(self._edges, 'edge')} by the compiled engine, and"
+                f"; those of {plural(self._edges, 'edge')} by the {self._engine} engine, and"
                 f" {plural(self.tally.by_checkers, 'world')} by both"
             )
         return words

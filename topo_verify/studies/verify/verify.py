@@ -3,7 +3,7 @@
 | part | content | quick |
 | --- | --- | --- |
 | `counts` | the numbers of worlds of 1 to 6 edges equal those of formulas | 1 to 5 |
-| `small-worlds` | every world of 1 to 5 edges, with numba to 6 | 1 to 3 |
+| `small-worlds` | every world of 1 to 5 edges, with a faster engine to 6 | 1 to 3 |
 | `proofs` | theorems on worlds of any size; two controls that must be refuted | the first |
 | `sampled-worlds` | 200 worlds of 6 to 30 edges, drawn uniformly among those of a size | 40 |
 | `generated-worlds` | 160 worlds, 20 of each strategy | 40 |
@@ -22,12 +22,12 @@ from random import Random
 
 import msgspec
 
+from topo_verify import extras
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.campaign.campaign import MAX_TIMEOUTS
 from topo_verify.campaign.progress import Progress, no_progress
 from topo_verify.campaign.targets import targets as targets_of
 from topo_verify.campaign.work import processors
-from topo_verify.compiled import available
 from topo_verify.programs.loader import Target
 from topo_verify.robot.limits import Limits, given_limits
 from topo_verify.studies.beside import Beside
@@ -49,7 +49,7 @@ from topo_verify.world.rooted_map import Code, World
 SEED = 0
 
 LARGEST = 5
-"""Most edges of the small worlds, without the size that the compiled engine adds."""
+"""Most edges of the small worlds, without the size that a faster engine adds."""
 
 EACH = 20
 """Worlds drawn from each strategy."""
@@ -101,7 +101,8 @@ def _jobs(
     if beside is None:
         yield SmallWorlds(3 if quick else LARGEST, targets, limits)
     else:
-        further = partial(_counts, beside) if available() and limits == Limits() else None
+        faster = extras.usable_engines() and limits == Limits()
+        further = partial(_counts, beside) if faster else None
         yield SmallWorlds(LARGEST, targets, limits, further=further, workers=processors())
     if "proofs" not in others:
         yield Proofs(quick=quick) if beside is None else ProofsBeside(beside)
@@ -165,8 +166,10 @@ def task_result(task: str, targets: str, seed: int) -> BesideResult:
         return BesideResult(part=job.part())
     if task == "drawing":
         return BesideResult(codes=tuple(world.code for world in generated_worlds(EACH, seed)))
-    counts = engine_counts(LARGEST + 1, targets_of(targets)) if available() else None
-    return BesideResult(counts=counts)
+    engines = extras.usable_engines()
+    if not engines:
+        return BesideResult()
+    return BesideResult(counts=engine_counts(engines[0], LARGEST + 1, targets_of(targets)))
 
 
 def _counts(beside: Beside[BesideResult]) -> EngineCounts:

@@ -1,0 +1,21 @@
+"""The option --engine."""
+
+from __future__ import annotations
+
+import click
+
+_NAMES = click.Choice(("reference", "compiled"))
+
+engine = click.option(
+    "--engine",
+    type=_NAMES,
+    default="reference",
+    show_default=True,
+    help="compiled is faster and needs numba; only for the catalogue.",
+)
+
+search_engine = click.option(
+    "--engine",
+    type=_NAMES,
+    help="compiled is faster and needs numba.  [default: reference; compiled with --library]",
+)
