@@ -7,7 +7,7 @@ makes a site of them is done by the extensions in docs/site/, one file each:
     glossary.py    links from the words on every page to glossary.md
     players.py     commands whose page is made by the build and shown below them
     notebook.py   a notebook, with what its cells show
-    codelines.py   links to the code, tests and Coq that explanation/paper.md names
+    codelines.py   links to the code, tests and Coq that pages of explanation/ name
     breaks.py      where long names in tables may be broken
     finding.py     the site's search, beside the page of docs/search.md
     checked.py     every link and anchor of the finished pages

@@ -1,4 +1,4 @@
-"""The code that explanation/paper.md names: each name gets its line number, and a link to the line.
+"""The code that two pages name: each name gets its line number, and a link to the line.
 
     `file.py:function`   of topo_verify/ or tests/
     `File.theorem`       of topo_verify/proofs/coq/
@@ -19,7 +19,7 @@ from docutils import nodes
 from sphinx.application import Sphinx
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = "explanation/paper"
+PAGES = ("explanation/paper", "explanation/run")
 COQ = "topo_verify/proofs/coq"
 
 
@@ -79,7 +79,7 @@ def _line_in_coq(source: str, name: str) -> int | None:
 
 
 def _add_links(app: Sphinx, doctree: nodes.document, page: str) -> None:
-    if page != PAGE or app.builder.format != "html":
+    if page not in PAGES or app.builder.format != "html":
         return
     for code in list(doctree.findall(nodes.literal)):
         if line := line_named(code.astext()):
@@ -90,9 +90,9 @@ def _add_links(app: Sphinx, doctree: nodes.document, page: str) -> None:
 
 
 def _pages(app: Sphinx) -> Iterator[tuple[str, dict[str, Any], str]]:
-    """A page for each file that the page names, with an anchor at each line."""
-    text = (ROOT / "docs" / f"{PAGE}.md").read_text(encoding="utf-8")
-    lines = filter(None, map(line_named, re.findall(r"`([^`]+)`", text)))
+    """A page for each file that the pages name, with an anchor at each line."""
+    texts = [(ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8") for page in PAGES]
+    lines = filter(None, map(line_named, re.findall(r"`([^`\n]+)`", "\n".join(texts))))
     for file in sorted({line.file for line in lines}):
         source = (ROOT / file).read_text(encoding="utf-8")
         language = "coq" if file.endswith(".v") else "python"
