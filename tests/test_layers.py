@@ -485,6 +485,18 @@ def test_contributing_names_every_room_on_its_floor() -> None:
     assert named == {room: number for room, number in FLOORS.items() if room not in outside}
 
 
+def read_first(contributing: str) -> list[str]:
+    """The files that CONTRIBUTING.md tells a newcomer to read."""
+    section = contributing.partition("## Five files to read first\n")[2].partition("\n## ")[0]
+    return re.findall(r"^\d+\. `(\S+)`: ", section, re.MULTILINE)
+
+
+def test_the_five_files_to_read_first_are_there() -> None:
+    files = read_first((ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"))
+    assert len(files) == 5
+    assert [file for file in files if not (PACKAGE / file).is_file()] == []
+
+
 @pytest.mark.parametrize("name", ["campaign", "studies", "studies/search", "studies/verify"])
 def test_a_package_describes_its_files(name: str) -> None:
     folder = PACKAGE / name

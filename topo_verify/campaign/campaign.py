@@ -182,7 +182,7 @@ class Stop(msgspec.Struct, frozen=True):
     """Numbers of failing worlds and of time-outs that end a campaign.
 
     Attributes:
-        still: all worlds so far, and at least so many, ended in a mapper that stood still.
+        still: number of worlds after which a mapper that stood still in each of them is left.
         lost: worlds that cost a worker each.
     """
 

@@ -1,7 +1,11 @@
-"""The claims of docs/semantics.md, section 9: one function each, which yields what is wrong.
+"""The claims of docs/semantics.md, section 9: one function each, which yields its findings.
 
-Trusted. What these do not show: claims 1-8 ask whether the mapper was right in THIS world, so a
-lucky guess passes them. Claims 9 and 10 ask about every world with the same history.
+`check` replays a trace in its world once. Each claim reads this `ReplayedTrace`: where the robot
+stood at each event, and how far the declared map S was true. A claim without findings is `ok` if
+all that it speaks of was declared; `coverage` counts that.
+
+Trusted. What these do not show: claims 1 to 8 ask whether the mapper was right in this world, so a
+lucky guess passes them. Claims 9 and 10 quantify over every world with the same history.
 """
 
 from __future__ import annotations

@@ -1,8 +1,12 @@
 """The robot in a simulated world: hides the world, meters the cost, records what happens.
 
-Trusted. A mapper holds a `RobotHandle`. A determined mapper in the same process can reach the
-simulator through a method of its handle, so moves are counted apart from the trace. In another
-process it finds nothing.
+The robot stands at a vertex; its **reference dart** is the dart by which it came in, at first the
+marked one. Door k is the dart k steps clockwise from the reference dart. The robot senses a
+`Percept`, the number of doors and the door that the marker points at, and never a dart.
+
+Trusted. A mapper gets a `RobotHandle`. If it runs in the same process, it can reach the simulator
+through a method of the handle, so moves are counted apart from the trace. A mapper in another
+process cannot reach it.
 
 Source: docs/semantics.md, section 2.
 """

@@ -1,6 +1,8 @@
 """The search: a mapper in every world of a class, up to the smallest counterexample or EXHAUSTED.
 
-EXHAUSTED compares two independent numbers: of worlds in which mappers ran, and of all worlds.
+`search_campaign` makes the campaign, `Search.work` adds up its results by the number of edges, and
+`Search.entry` derives the verdict. For EXHAUSTED two numbers must agree: of the worlds in which the
+mapper ran, and of the worlds of the class, whose count does not use the enumeration of the search.
 """
 
 from __future__ import annotations
