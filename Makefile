@@ -116,7 +116,7 @@ $(VENV)/.core: pyproject.toml constraints.txt $(VENV)/.created
 	@touch $@
 
 $(VENV)/.test: $(VENV)/.core
-	$(INSTALL) -c constraints.txt --no-build-isolation -e '.[test]'
+	$(INSTALL) -c constraints.txt --no-build-isolation -e '.[docs,test]'
 	@touch $@
 
 # setuptools: drup has no wheel, and later Pythons bring no setuptools of their own.

@@ -64,6 +64,7 @@ def test_a_notebook_becomes_its_cells_and_what_they_show(tmp_path: Path) -> None
         "[a](../a.md), `b.py`\n\n```python\nprint('<b>')\nx = 1\nx\n```\n\n"
         "``````{raw} html\n<pre>&lt;b&gt;\n</pre><pre>1</pre>\n``````"
     )
+    pytest.importorskip("matplotlib")
     cells[1]["source"] = ["import matplotlib.pyplot as plt\n", "plt.plot([1, 2])\n", "plt.show()"]
     path.write_text(json.dumps({"cells": cells}), encoding="utf-8")
     chart = part("site/notebook.py").page(path)

@@ -51,7 +51,6 @@ class Examiner:
     Attributes:
         needs_worker: shards are examined in a worker process, even with `workers=0`.
         attempts, loading: as in `Work`.
-        tells_slow: a world in which a mapper may hang is named while the campaign runs.
         judged_by: what judged the worlds, in words.
         runs_ends_again: the first and the last row of a search are run again, too.
     """

@@ -248,11 +248,6 @@ def test_one_that_is_not_of_the_catalogue_does_not_pass_for_one() -> None:
     assert text_of(mine) == "<homing>"
 
 
-def test_the_compiled_engine_has_no_twin_of_them() -> None:
-    with pytest.raises(InputError, match=r"and homing is none of them: leave --engine out$"):
-        explore(families.lattice(2, 2), "homing", engine="compiled")
-
-
 def test_they_have_no_policies_to_choose() -> None:
     with pytest.raises(InputError, match="homing has no policies"):
         targets("homing", pick="last")

@@ -62,8 +62,8 @@ def test_a_mapper_of_the_users_is_not_for_the_compiled_engine(refused: Refused) 
 def test_without_numba_the_extra_is_named(
     refused: Refused, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(extras, "missing_packages", lambda _extra: ["numba"])
+    monkeypatch.setitem(extras.PACKAGES, "fast", ("no_such_numba",))
     refused(
         "search basic --edges 2 --engine compiled",
-        f"the extra fast needs numba: {sys.executable} -m pip install 'topo-verify[fast]', or",
+        f"the extra fast needs no_such_numba: {sys.executable} -m pip install 'topo-verify[fast]'",
     )

@@ -54,6 +54,7 @@ def test_a_budget_stops_the_compiled_engine_where_it_stops_the_reference() -> No
             {"mapper": CATALOGUE["basic"].with_policies(pick="last")},
             "policies nearest and shortest",
         ),
+        ({"mapper": "homing"}, "and homing is none of them: leave --engine out$"),
         ({"mapper": print}, "runs the algorithms of the catalogue, basic,"),
         ({"limits": Limits(move_timeout=1.0)}, "leave out --move-timeout and --world-timeout"),
         ({"engine": "steam"}, "engine='steam': expected one of reference, compiled"),
@@ -67,8 +68,8 @@ def test_what_the_engine_cannot_run_is_refused(options: dict[str, Any], words: s
 
 
 def test_without_numba_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(extras, "missing_packages", lambda _extra: ["numba"])
-    with pytest.raises(InputError, match=r"needs numba: .* 'topo-verify\[fast\]', or"):
+    monkeypatch.setitem(extras.PACKAGES, "fast", ("no_such_numba",))
+    with pytest.raises(InputError, match=r"needs no_such_numba: .* 'topo-verify\[fast\]', or"):
         explore(NYC, "basic", engine="compiled")
 
 

@@ -72,7 +72,5 @@ def test_lattices_grow_to_100_by_100_with_the_compiled_engine() -> None:
 def test_without_numba_the_extra_is_named(
     refused: Refused, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(
-        extras, "missing_packages", lambda extra: ["numba"] if extra == "fast" else []
-    )
-    refused("reproduce --figure 3 --quick --engine compiled", "the extra fast needs numba")
+    monkeypatch.setitem(extras.PACKAGES, "fast", ("no_such_numba",))
+    refused("reproduce --figure 3 --quick --engine compiled", "the extra fast needs no_such_numba")

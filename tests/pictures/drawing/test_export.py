@@ -39,6 +39,7 @@ def test_an_svg_is_the_picture(world: World, layout: Layout) -> None:
 def test_png_and_pdf_are_rendered_the_same_every_time(
     world: World, layout: Layout, kind: Literal["png", "pdf"], magic: bytes
 ) -> None:
+    pytest.importorskip("typst")
     made = document(world, layout, kind)
     assert made.startswith(magic)
     assert document(world, layout, kind) == made

@@ -177,8 +177,12 @@ class CompiledExaminer(Examiner):
     """Examines the shards of catalogue algorithms by kernels, and a part again by the checkers."""
 
     loading = COMPILING
-    tells_slow = False
     judged_by = JUDGED_BY
+
+    @property
+    def tells_slow(self) -> bool:
+        """No: between two heartbeats there are thousands of worlds."""
+        return False
 
     def judged_by_checkers(self, tally: Tally) -> int:
         """The number of worlds that the checkers judged again."""
@@ -205,8 +209,12 @@ class NativeExaminer(CompiledExaminer):
 
     needs_worker = True
     attempts = 1
-    tells_slow = True
     runs_ends_again = True
+
+    @property
+    def tells_slow(self) -> bool:
+        """Yes: native code beats at every move."""
+        return True
 
     def is_last(self, parts: list[c.ShardResult], losses: int) -> bool:
         """Whether the campaign ends: a shard may cost `MAX_LOSSES` workers."""
