@@ -25,7 +25,7 @@ from topo_verify.campaign.identity import source_hash
 from topo_verify.campaign.pool import Pool
 from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import targets
-from topo_verify.campaign.work import Division, Loss, Pieces, Work
+from topo_verify.campaign.work import Division, Pieces, Work, WorkerLoss
 from topo_verify.campaign.worker import WorkerProcess
 from topo_verify.programs.launcher import prepare
 from topo_verify.programs.loaded import Loaded
@@ -215,8 +215,8 @@ def test_a_loss_behind_the_counterexample_is_not_counted(*, keep_going: bool, fa
     """Another worker was lost in m3/23 when m3/21 was convicted; whether it was is chance."""
     campaign = search_campaign(targets("mappers.py:exits"), edges=3, keep_going=keep_going)
     work = backend.work_of(backend.job_of(campaign, None))
-    first = work.lost(Shard(3, 21, 22), Loss("exit code 3", None, loading=False))
-    behind = Loss("exit code 3", None, loading=False)
+    first = work.lost(Shard(3, 21, 22), WorkerLoss(3, None, loading=False))
+    behind = WorkerLoss(3, None, loading=False)
     result = work.survived(first, [(Shard(3, 23, 24), behind)], [Shard(3, 21, 22)])
     assert result.tally.failing == failing
 
@@ -458,7 +458,7 @@ def toy_work(*, job: str = "", silence: float = 60.0, attempts: int = 2) -> Work
     def cut(task: Numbers, at: int) -> list[Numbers]:
         return [part for part in (task[:at], task[at : at + 1], task[at + 1 :]) if part]
 
-    def lost(_task: Numbers, loss: Loss) -> Numbers:
+    def lost(_task: Numbers, loss: WorkerLoss) -> Numbers:
         return [-9 if loss.silence is not None else -5 - loss.loading]
 
     return Work(

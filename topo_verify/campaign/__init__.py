@@ -9,7 +9,8 @@ progress.py        how fast the work goes, and how long still
 store.py           Store: the SQLite file from which a campaign resumes
 backend.py         where shards are examined: in this process, in workers
 engine.py          what an engine answers, and the reference
-examiner.py        how shards are examined; what a lost worker means
+examiner.py        how shards are examined
+loss.py            what a lost process means: one table
 run.py             runs a mapper in a world
 judge.py           judges a run by every claim
 targets.py         what a TARGET means, and the text of a callable

@@ -1,10 +1,7 @@
 """An attempt: runs a mapper in a world, judges every claim, and makes the row.
 
-A process may be ended through the mapper's fault or from outside (SIGKILL by the out-of-memory
-killer, SIGTERM by an administrator), and a mapper may stand still, or its machine, so the world is
-tried again. If the mapper fails again, the first run counts. Else a crash is still a finding; a
-signal `FROM_OUTSIDE`, and a move that took too long, leave the world undecided, as they do if the
-second run is undecided.
+A mapper that lost its process or stood still is tried again in the world; loss.py says what the two
+tries mean.
 """
 
 from __future__ import annotations
@@ -20,6 +17,7 @@ import msgspec
 
 from topo_verify.campaign.engine import Checks
 from topo_verify.campaign.judge import Report, judge, replay_line, undecided
+from topo_verify.campaign.loss import How, Loss, SecondTry
 from topo_verify.campaign.row import OUTSIDE, SECOND_TRY, Judged, PolicyCosts, Row, hashed
 from topo_verify.campaign.run import Exploration, explore
 from topo_verify.checkers import Finding
@@ -43,7 +41,8 @@ class Attempt:
     Attributes:
         seconds: processor time of mapper and robot.
         lines: the transcript of a program that records one.
-        lost: how an earlier try ended, perhaps not by the mapper's fault.
+        loss: of a first try that lost its process or stood still.
+        lost: the same in words, if it leaves the world undecided.
         choices: as in a `Row`.
     """
 
@@ -51,8 +50,14 @@ class Attempt:
     report: Report
     seconds: float = 0.0
     lines: tuple[TranscriptLine, ...] | None = None
+    loss: Loss | None = None
     lost: str | None = None
     choices: PolicyCosts | None = None
+
+    @property
+    def is_lost(self) -> bool:
+        """Whether the loss of a process leaves the world undecided."""
+        return self.loss is not None and self.loss.meaning == "undecided"
 
     @property
     def lost_why(self) -> str | None:
@@ -103,20 +108,39 @@ def attempt(  # noqa: PLR0913  an argument an option
 
     program = target.mapper if isinstance(target.mapper, Program) else None
     first = once()
-    ended = first.run.misbehaved
-    stood_still = first.run.limit == MoveTimeout.limit
-    if not (stood_still or (ended and ended.signal)):
+    how = _lost_how(first.run)
+    if how is None:
         return first
     second = once()
-    maybe_external = stood_still or (ended is not None and ended.maybe_external)
-    if not (second.report.ok or (maybe_external and undecided(second.run, second.report))):
+    loss = Loss("process", how, _shown_by(second))
+    if loss.meaning == "undecided":
+        return replace(second, loss=loss, lost=_how_in_words(first.run))
+    if loss.again != "right":
         return first
-    if stood_still:
-        return replace(second, lost=first.run.stopped)
-    if ended is not None and ended.maybe_external:
-        return replace(second, lost=f"its process was ended by {ended.signal}")
     run = replace(first.run, stopped=f"{first.run.stopped}{SECOND_TRY}")
-    return replace(first, run=run, report=judge(run, where=where, options=limits.options))
+    report = judge(run, where=where, options=limits.options)
+    return replace(first, run=run, report=report, loss=loss)
+
+
+def _lost_how(run: Exploration) -> How | None:
+    """How a run lost the mapper's process, or that it stood still; None: neither."""
+    if run.limit == MoveTimeout.limit:
+        return "silent"
+    if run.misbehaved is None or run.misbehaved.signal is None:
+        return None
+    return "killed" if run.misbehaved.maybe_external else "crashed"
+
+
+def _shown_by(second: Attempt) -> SecondTry:
+    if second.report.ok:
+        return "right"
+    return "open" if undecided(second.run, second.report) else "wrong"
+
+
+def _how_in_words(run: Exploration) -> str | None:
+    if run.misbehaved is None or run.limit == MoveTimeout.limit:
+        return run.stopped
+    return f"its process was ended by {run.misbehaved.signal}"
 
 
 def _processor_seconds(program: Program | None) -> float:
@@ -154,8 +178,9 @@ def row_of(judged: Attempt, where: str, place: int, turn: int = 0, look: Look | 
         claims=tuple([Judged(j.status, j.judged, j.of) for j in report.judgements]),
         findings=_first(report.findings),
         undecided=why,
-        ended=_ended(run),
+        ended=run.ended,
         stopped=run.stopped,
+        loss=judged.loss,
         lost=judged.lost,
         moves=hashed(doors),
         decisions=hashed(decisions) if decisions else None,
@@ -174,12 +199,9 @@ _decoder = msgspec.json.Decoder(Row)
 
 
 def lost_row(
-    world: World, place: int, where: str, mapper: str, limits: Limits, cause: str, *, external: bool
+    world: World, place: int, where: str, mapper: str, limits: Limits, cause: str, loss: Loss
 ) -> Row:
-    """The row of a run that took its process with it, in the words of `cause`.
-
-    If `external`, the mapper may not be at fault, and the world is undecided.
-    """
+    """The row of a run that took its process with it; `cause` says in words how."""
     bare = Row(
         world=where,
         vertices=len(world.vertices),
@@ -189,8 +211,9 @@ def lost_row(
         mapper=mapper,
         ended="worker-lost",
         stopped=cause,
+        loss=loss,
     )
-    if external:
+    if loss.meaning == "undecided":
         return msgspec.structs.replace(bare, undecided=cause, lost=cause)
     replay = replay_line(where, mapper, None, limits.options)
     message = f"no map was delivered: {cause}"
@@ -206,12 +229,6 @@ def _first(findings: Sequence[Finding]) -> tuple[Finding, ...]:
         if numbers[finding.claim] <= KEPT_FINDINGS:
             kept.append(finding)
     return tuple(kept)
-
-
-def _ended(run: Exploration) -> str:
-    if run.map is not None:
-        return "map"
-    return run.misbehaved.kind if run.misbehaved is not None else run.limit or "no-map"
 
 
 def _counted(trace: Sequence[ev.Event]) -> tuple[list[int], list[object], int, int, int]:

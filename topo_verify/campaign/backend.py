@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
@@ -17,6 +16,7 @@ from topo_verify.campaign.attempt import Look
 from topo_verify.campaign.engine import on_engine
 from topo_verify.campaign.examiner import Examiner, examiner_of, parts_of
 from topo_verify.campaign.identity import Identity, merged, require_equal, source_hash
+from topo_verify.campaign.loss import Loss
 from topo_verify.campaign.pool import Pool
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import Row
@@ -38,8 +38,6 @@ _LAST = sys.maxsize
 
 SHORT_OF_MEMORY = "the mapper raised MemoryError there, and here it did not"
 """Why a world is undecided in which a worker, but not the client, lacked memory."""
-
-_MEMORY_ERROR = re.compile(r"the mapper raised \w*MemoryError\b")
 
 Depends = Sequence[str] | None
 """Further files that mappers depend on; None: do not ask what they load."""
@@ -132,7 +130,7 @@ def _examined(
         return msgspec.structs.replace(result, loaded=identity.loaded())
     except Unlisted as why:
         cause = f"after the run: {why}"
-        row = examiner.row_at(shard, _LAST, cause, external=False)
+        row = examiner.row_at(shard, _LAST, cause, Loss("process", "crashed", "wrong"))
         if row is None or result.tally.failing:
             return result
         (wrong,) = row.findings
@@ -194,9 +192,7 @@ def with_our_memory(
     A worker may have less memory. So a MemoryError refutes only if the mapper fails here, too;
     otherwise the world is undecided. What else failed there stays a finding.
     """
-    short = [
-        row for row in result.rows if any(_MEMORY_ERROR.search(f.message) for f in row.findings)
-    ]
+    short = [row for row in result.rows if row.ended == "out-of-memory"]
     if not short:
         return result
     with Pool(work, 1) as pool:
@@ -205,9 +201,15 @@ def with_our_memory(
     for row in result.rows:
         if (row.place, row.mapper) in still or not row.failed:
             continue
-        why = SHORT_OF_MEMORY if row in short else None
-        findings = () if why else row.findings
-        lost = msgspec.structs.replace(row, findings=findings, undecided=why, lost=why)
+        lost = row
+        if row in short:
+            lost = msgspec.structs.replace(
+                row,
+                findings=(),
+                undecided=SHORT_OF_MEMORY,
+                lost=SHORT_OF_MEMORY,
+                loss=Loss("worker", "memory", "right"),
+            )
         again = again.with_loss(lost)
     return again
 
@@ -272,7 +274,8 @@ def _note_slow(
     if place in noted or not examiner.is_waiting(worker) or silence < limit / 2:
         return
     noted.add(place)
-    row = examiner.row_at(*examiner.place_of(shard, worker.items), "", external=True)
+    silent = Loss("worker", "silent", "lost")
+    row = examiner.row_at(*examiner.place_of(shard, worker.items), "", silent)
     if row is not None:
         less = " (--move-timeout 1 waits less)" if limit > 1 else ""
         note(

@@ -31,6 +31,7 @@ import msgspec
 from topo_verify.campaign.attempt import Attempt, Look, attempt, row_of
 from topo_verify.campaign.engine import Checks, on_engine
 from topo_verify.campaign.judge import CheckedTraces
+from topo_verify.campaign.loss import Loss
 from topo_verify.campaign.progress import Progress, ProgressRate
 from topo_verify.campaign.row import Row, with_lost
 from topo_verify.campaign.tally import Counts, Notable, Tally
@@ -485,7 +486,10 @@ class _Order:
             else:
                 for row in self._ended_again.get((shard.edges, shard.start), ()):
                     why = row.lost or row.stopped
-                    lost = msgspec.structs.replace(row, findings=(), undecided=why, lost=why)
+                    loss = row.loss or Loss("process", "silent", "right")
+                    lost = msgspec.structs.replace(
+                        row, findings=(), undecided=why, loss=loss, lost=why
+                    )
                     known = known.with_loss(lost)
                 self._ahead[shard.edges, shard.start] = known
                 self._rate.known(known.tally.worlds)
@@ -561,7 +565,7 @@ class _Order:
         with closing(self._backend(self._campaign, drawn, no_beat)) as examined:
             for shard, result in examined:
                 known = store.get(shard)
-                ended = [row for row in result.rows if row.lost or row.timed_out]
+                ended = [row for row in result.rows if row.is_lost or row.timed_out]
                 if ended:
                     self._ended_again[shard.edges, shard.start] = ended
                 elif known is not None and known.tally.digest != result.tally.digest:

@@ -1,15 +1,7 @@
 """How the shards of a campaign are examined, and what a lost worker means for them.
 
-A lost worker means the same in every study:
-
-- A run that loses its worker twice is a finding, since it delivers no map. So is a run whose
-  worker is silent for longer than any limit allows.
-- A run that loses its worker once and passes later is a finding, too: a right mapper does not
-  crash.
-- If something else may have ended the worker (a signal from outside, or silence before a run that
-  passed), the world is undecided.
-
-An engine that calls code in its own worker processes replaces some of this.
+A lost worker means the same in every study: loss.py has the table. An engine that calls code in its
+own worker processes replaces some of this.
 """
 
 from __future__ import annotations
@@ -17,15 +9,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
-import msgspec
-
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import Look, lost_row
 from topo_verify.campaign.drawn_row import drawn_row, is_run_again
 from topo_verify.campaign.engine import engine_of
+from topo_verify.campaign.loss import Loss
 from topo_verify.campaign.row import SECOND_TRY, Row
 from topo_verify.campaign.tally import Counts, Tally
-from topo_verify.campaign.work import Loss, Work
+from topo_verify.campaign.work import Work, WorkerLoss
 from topo_verify.campaign.worker import Beat, WorkerProcess, function_at
 from topo_verify.errors import HelperLost, InputError
 from topo_verify.programs.loader import Target
@@ -108,27 +99,24 @@ class Examiner:
         """Where a worker was after `items` items: in a shard, after this number of runs."""
         return shard, items
 
-    def lost(self, shard: c.Shard, loss: Loss) -> c.ShardResult:
+    def lost(self, shard: c.Shard, loss: WorkerLoss) -> c.ShardResult:
         """The result of a shard of at most one world that was lost with its last worker."""
         if loss.loading:
-            was_ended = loss.maybe_external and loss.silence is None
-            raise (HelperLost if was_ended else InputError)(
+            raise (HelperLost if loss.how == "killed" else InputError)(
                 f"target {self.campaign.mappers[0]!r}: a process that loads it ends ({loss.cause})"
             )
         return self._lost_in_run(shard, loss)
 
-    def _lost_in_run(self, shard: c.Shard, loss: Loss) -> c.ShardResult:
-        external = loss.maybe_external and loss.silence is None
-        row = self.row_at(shard, loss.items, str(loss), external=external)
-        if row is not None and external:
-            why = f"its worker was killed each time ({loss.status})"
-            row = msgspec.structs.replace(row, undecided=why, lost=why)
+    def _lost_in_run(self, shard: c.Shard, loss: WorkerLoss) -> c.ShardResult:
+        killed = loss.how == "killed"
+        words = f"its worker was killed each time ({loss.status})" if killed else str(loss)
+        row = self.row_at(shard, loss.items, words, Loss("worker", loss.how, "lost"))
         return counted([] if row is None else [[row]])
 
     def survived(
         self,
         result: c.ShardResult,
-        losses: Sequence[tuple[c.Shard, Loss]],
+        losses: Sequence[tuple[c.Shard, WorkerLoss]],
         given_up: Sequence[c.Shard],
     ) -> c.ShardResult:
         """The result of a shard, with the losses in runs that passed later."""
@@ -138,7 +126,7 @@ class Examiner:
             if (
                 row is None
                 or any(
-                    known.place == row.place and (known.failed or known.lost)
+                    known.place == row.place and (known.failed or known.is_lost)
                     for known in result.rows
                 )
                 or any(part.start <= row.place < part.stop for part in given_up)
@@ -149,22 +137,26 @@ class Examiner:
             result = result.with_loss(row)
         return result
 
-    def _lost_once(self, shard: c.Shard, loss: Loss, given_up: Sequence[c.Shard]) -> Row | None:
+    def _lost_once(
+        self, shard: c.Shard, loss: WorkerLoss, given_up: Sequence[c.Shard]
+    ) -> Row | None:
         """The row of a run that lost its worker once, if the shard is not given up."""
         del given_up
-        cause = loss.cause if loss.maybe_external else f"{loss}{SECOND_TRY}"
-        return self.row_at(shard, loss.items, cause, external=loss.maybe_external)
+        return self.row_at(
+            shard, loss.items, once_in_words(loss), Loss("worker", loss.how, "right")
+        )
 
     def lost_with_machines(self, shard: c.Shard) -> c.ShardResult:
         """The result of a shard that lost whole machines."""
         worlds = self.campaign.worlds.worlds(shard)
         mapper, limits = self.campaign.mappers[0], self.campaign.limits
+        lost = Loss("machine", "silent", "lost")
         return counted(
-            [lost_row(world, place, name, mapper, limits, MACHINES, external=True)]
+            [lost_row(world, place, name, mapper, limits, MACHINES, lost)]
             for place, name, world in worlds
         )
 
-    def row_at(self, shard: c.Shard, runs: int, cause: str, *, external: bool) -> Row | None:
+    def row_at(self, shard: c.Shard, runs: int, cause: str, loss: Loss) -> Row | None:
         """The row of the run in which a worker was lost, after `runs` runs."""
         worlds, mappers = list(self.campaign.worlds.worlds(shard)), self.campaign.mappers
         if not worlds:
@@ -172,7 +164,12 @@ class Examiner:
         at, which = divmod(min(runs, len(worlds) * len(mappers) - 1), len(mappers))
         place, name, world = worlds[at]
         limits = self.campaign.limits
-        return lost_row(world, place, name, mappers[which], limits, cause, external=external)
+        return lost_row(world, place, name, mappers[which], limits, cause, loss)
+
+
+def once_in_words(loss: WorkerLoss) -> str:
+    """How a worker was lost before a run that passed."""
+    return f"{loss}{SECOND_TRY}" if loss.how == "crashed" else loss.cause
 
 
 def parts_of(shard: c.Shard) -> list[c.Shard]:

@@ -24,7 +24,7 @@ from typing import Generic, Self
 
 import msgspec
 
-from topo_verify.campaign.work import BY_SIGNAL, Loss, Piece, Pieces, ResultT, TaskT, Work
+from topo_verify.campaign.work import Piece, Pieces, ResultT, TaskT, Work, WorkerLoss
 from topo_verify.campaign.worker import (
     Beat,
     TaskDone,
@@ -160,19 +160,17 @@ class Pool(Generic[TaskT, ResultT]):
         `said`: the exception of a worker that native code may have damaged.
         """
         self._workers.remove(worker)
-        status = worker.kill()
+        code = worker.kill()
         require_launcher()
-        status = said or status
         piece = self._at.pop(worker, None)
         if piece is None:  # it was idle, so no task is to blame
             return
-        loss = Loss(status, silence, loading=not worker.ready, items=worker.items)
+        loss = WorkerLoss(code, silence, loading=not worker.ready, items=worker.items, said=said)
         piece.deaths += 1
         if worker.ready:
             piece.whole.losses.append((piece.task, loss))
         # one that dies while it loads would die with any piece, unless something else killed it
-        was_killed = status in BY_SIGNAL and silence is None
-        if (worker.ready or was_killed) and piece.deaths < self._work.attempts:
+        if (worker.ready or loss.how == "killed") and piece.deaths < self._work.attempts:
             self._pieces.queue.appendleft(piece)
             return
         if worker.ready:

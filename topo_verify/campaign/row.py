@@ -9,12 +9,13 @@ from typing import Any
 
 import msgspec
 
+from topo_verify.campaign.loss import Loss
 from topo_verify.checkers import CLAIMS, Finding, Judgement, Status
+from topo_verify.programs.misbehaviour import Ending
 from topo_verify.robot import events as ev
 
 SECOND_TRY = "; at the second try it delivered one"
-"""The end of `stopped` if a first try lost its process and a second one passed."""
-
+"""Said of a first try that lost its process, if a second one passed."""
 
 OUTSIDE = "perhaps for a reason outside; the second try passed"
 
@@ -82,9 +83,10 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
         claims: judgements in the order of `CLAIMS`; empty without a run.
         findings: at most `KEPT_FINDINGS` of each claim.
         undecided: why the run decides nothing, or None.
-        ended: `map`; otherwise a limit, a misbehaviour, `no-map` or `worker-lost`.
+        ended: how the run ended, as in `Exploration`; or `worker-lost`.
         stopped: the same in words, or None.
-        lost: how an earlier try ended, perhaps not by the mapper's fault; or None.
+        loss: of a run that lost its process: what was lost, and what the second try shows.
+        lost: the same in words, if the mapper is perhaps not at fault; or None.
         moves, decisions, map: digests of doors, declared decisions and a valid map.
         timed_out: a time limit struck, however the run ended.
         seconds: processor time of mapper and robot, for `timing` only.
@@ -107,8 +109,9 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     claims: tuple[Judged, ...] = ()
     findings: tuple[Finding, ...] = ()
     undecided: str | None = None
-    ended: str = "map"
+    ended: Ending = "map"
     stopped: str | None = None
+    loss: Loss | None = None
     lost: str | None = None
     moves: str = ""
     decisions: str | None = None
@@ -133,7 +136,12 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     @property
     def by_chance(self) -> bool:
         """Whether it lost a process, so another run may end differently."""
-        return self.lost is not None or (self.stopped or "").endswith(SECOND_TRY)
+        return self.loss is not None and self.loss.is_by_chance
+
+    @property
+    def is_lost(self) -> bool:
+        """Whether the loss of a process leaves its world undecided."""
+        return self.loss is not None and self.loss.meaning == "undecided"
 
     @property
     def right(self) -> bool:
@@ -171,13 +179,17 @@ def with_lost(rows: Iterable[Row], lost: Row) -> list[Row]:
     for row in rows:
         if (row.place, row.mapper, row.turn) != (lost.place, lost.mapper, lost.turn):
             kept.append(row)
-        elif lost.undecided is None:
+        elif not lost.is_lost:
             lost = msgspec.structs.replace(
-                row, ended=lost.ended, stopped=lost.stopped, findings=lost.findings
+                row,
+                ended=lost.ended,
+                stopped=lost.stopped,
+                loss=lost.loss,
+                findings=lost.findings,
             )
         else:
             why = f"its worker was lost ({lost.lost}), {OUTSIDE}"
-            lost = msgspec.structs.replace(row, undecided=why, lost=lost.lost)
+            lost = msgspec.structs.replace(row, undecided=why, loss=lost.loss, lost=lost.lost)
     return sorted([*kept, lost], key=attrgetter("edges", "place", "turn"))
 
 

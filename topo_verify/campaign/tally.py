@@ -87,7 +87,7 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
 
     def amended(self, row: Row) -> Tally:
         """The tally once one of its runs turned out to have lost its worker."""
-        if row.undecided is not None:
+        if row.is_lost:
             return self + Tally(undecided=1, lost=1)
         return self + Tally(failing=1, claims=dict.fromkeys(row.failed, 1))
 
@@ -162,7 +162,7 @@ class Counts:
             digests.update(row.digest.encode())
             # A lost worker may have hung for a whole time limit.
             self.timeouts += row.timed_out or row.ended == "worker-lost"
-            self.lost += row.lost is not None
+            self.lost += row.is_lost
             if row.choices is not None:
                 self._choices += row.choices
             if row.late:
@@ -260,7 +260,7 @@ class Notable:
                 self._keep("failing", row, KEPT_FAILING)
                 for claim in row.failed:
                     self._claims.setdefault((row.edges, claim), row)
-            if row.lost:
+            if row.is_lost:
                 self._keep("lost", row, SAMPLE)
             elif row.undecided:
                 self._keep("undecided", row, 1)

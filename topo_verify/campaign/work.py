@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from itertools import chain
 from typing import Any, Generic, TypeVar
 
+from topo_verify.campaign.loss import How
 from topo_verify.programs.interruption import FROM_OUTSIDE
 
 TaskT = TypeVar("TaskT")
@@ -24,30 +25,36 @@ def processors() -> int:
     return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
 
 
-BY_SIGNAL = {f"signal {number.value}" for number in FROM_OUTSIDE}
-"""The exit statuses in words of a process that another one ended."""
-
-
 @dataclass(frozen=True)
-class Loss:
+class WorkerLoss:
     """How a worker was lost.
 
     Attributes:
-        status: its exit status in words, `exit code 3` or `signal 9`.
+        code: its exit code; below 0: the signal that ended it.
         silence: seconds without a heartbeat until it was killed; None: it ended by itself.
         loading: it was not ready for its first task yet.
         items: finished items of its task.
+        said: the exception of a worker that native code may have damaged, or "".
     """
 
-    status: str
+    code: int
     silence: float | None
     loading: bool
     items: int = 0
+    said: str = ""
 
     @property
-    def maybe_external(self) -> bool:
-        """Whether something else may have ended it, e.g. the out-of-memory killer."""
-        return self.silence is not None or self.status in BY_SIGNAL
+    def how(self) -> How:
+        """How it ended; a signal that others send may be the out-of-memory killer's."""
+        if self.silence is not None:
+            return "silent"
+        return "killed" if -self.code in FROM_OUTSIDE and not self.said else "crashed"
+
+    @property
+    def status(self) -> str:
+        """Its exit status in words, `exit code 3` or `signal 9`; or what it said."""
+        signal_or_code = f"signal {-self.code}" if self.code < 0 else f"exit code {self.code}"
+        return self.said or signal_or_code
 
     @property
     def cause(self) -> str:
@@ -113,8 +120,8 @@ class Work(Generic[TaskT, ResultT]):
     serve: str
     job: Any
     result: type[ResultT]
-    lost: Callable[[TaskT, Loss], ResultT]
-    survived: Callable[[ResultT, Sequence[tuple[TaskT, Loss]], Sequence[TaskT]], ResultT] = (
+    lost: Callable[[TaskT, WorkerLoss], ResultT]
+    survived: Callable[[ResultT, Sequence[tuple[TaskT, WorkerLoss]], Sequence[TaskT]], ResultT] = (
         lambda result, _losses, _given_up: result
     )
     silence: float
@@ -140,7 +147,7 @@ class WholeTask(Generic[TaskT, ResultT]):
     task: TaskT
     turn: int
     pieces: list[Piece[TaskT, ResultT]] = field(default_factory=list["Piece[TaskT, ResultT]"])
-    losses: list[tuple[TaskT, Loss]] = field(default_factory=list[tuple[TaskT, Loss]])
+    losses: list[tuple[TaskT, WorkerLoss]] = field(default_factory=list[tuple[TaskT, WorkerLoss]])
     given_up: list[TaskT] = field(default_factory=list[TaskT])
 
 

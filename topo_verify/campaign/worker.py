@@ -263,8 +263,8 @@ class WorkerProcess:
                 if not self._received():
                     return
 
-    def kill(self) -> str:
-        """Kill it with its process group; return its exit status in words."""
+    def kill(self) -> int:
+        """Kill it with its process group; return its exit code, below 0 for a signal."""
         # Its id names no other group: it is not reaped before `wait`.
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(self.process.pid, signal.SIGKILL)
@@ -272,7 +272,7 @@ class WorkerProcess:
         self.silence()
         self.out.close()
         self._file.close()
-        return f"signal {-code}" if code < 0 else f"exit code {code}"
+        return code
 
 
 # ---------------------------------------------------------------- in the worker

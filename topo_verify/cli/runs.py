@@ -149,7 +149,7 @@ def judged(
     )
     run, report = replace(tried.run, stopped=tried.lost_why or tried.run.stopped), tried.report
     # Its findings would only say that it has no map.
-    if tried.lost is not None or undecided(run, report):
+    if tried.is_lost or undecided(run, report):
         return run, report.with_findings(()), True
     if not report.findings:
         return run, report, False

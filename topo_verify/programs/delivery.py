@@ -14,7 +14,7 @@ from contextlib import suppress
 from inspect import iscoroutine, isgenerator
 from operator import index
 from pathlib import Path
-from typing import NamedTuple, TypeVar
+from typing import Literal, NamedTuple, TypeVar
 
 from topo_verify import errors
 from topo_verify.errors import LINE, InputError, shown
@@ -44,6 +44,12 @@ class Undelivered(NamedTuple):
 
     why: str
     error: BaseException | None = None
+
+    @property
+    def kind(self) -> Literal["no-map", "out-of-memory"]:
+        """Whether memory was short, which may be the machine's fault."""
+        is_short = isinstance(self.error, MemoryError)
+        return "out-of-memory" if is_short else "no-map"
 
 
 def deliver(

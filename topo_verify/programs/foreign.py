@@ -18,7 +18,7 @@ from typing import ClassVar, TypeVar
 
 import msgspec
 
-from topo_verify.errors import HelperLost, InputError
+from topo_verify.errors import HelperLost, InputError, plural
 from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import Child, Ended, ReaperProcess, Silent, TooLong
 from topo_verify.programs.delivery import users_line
@@ -26,7 +26,7 @@ from topo_verify.programs.isolation import python_command
 from topo_verify.programs.library import LIBRARY, library_file
 from topo_verify.programs.loaded import Loaded
 from topo_verify.programs.loader import Target
-from topo_verify.programs.misbehaviour import CRASHES, Misbehaved, crash_report, decoded
+from topo_verify.programs.misbehaviour import Misbehaved, crash_report, decoded
 from topo_verify.programs.program import Program
 from topo_verify.programs.serve import WHERE
 from topo_verify.robot.events import Finish, Robot
@@ -40,6 +40,9 @@ LOADING = 120.0
 
 UNWINDING = Limits(move_timeout=1.0, world_timeout=1.0)
 """How long a mapper has to end a world in which its robot was stopped."""
+
+SANITIZER = "; -fsanitize=address names the line: docs/tutorials/native.md"
+"""The end of the message of a library's crash."""
 
 WHERE_SECONDS = 0.5
 """How long to wait for the line at which a mapper hangs."""
@@ -82,6 +85,7 @@ class Foreign(Program):
         self.text = text
         self._decode = _from_child.decode
         self._was_loaded = False
+        self._robot: Robot | None = None
         self._says_line = not fresh and not text.startswith(LIBRARY)
 
     @property
@@ -114,25 +118,23 @@ class Foreign(Program):
         return _users_line(self._child.after_signal(WHERE, WHERE_SECONDS))
 
     def _play(self, child: Child, robot: Robot) -> Finish | Misbehaved:
-        try:
-            return super()._play(child, robot)
-        except Misbehaved as why:
-            if why.kind != "crashed":
-                raise
-            if not self.text.startswith(LIBRARY):
-                line = _users_line(os.fsencode(child.stderr())) if why.signal else ""
-                if not line:
-                    raise
-                words = f"the mapper was ended by {why.signal} at {line}"
-                raise Misbehaved(why.kind, words, signal=why.signal) from None
+        self._robot = robot
+        return super()._play(child, robot)
+
+    def _report_crash(self, child: Child, due: str) -> Misbehaved:
+        if self.text.startswith(LIBRARY):
             path, symbol = library_file(self.text)
-            words = str(why).replace("the program", f"{symbol} of {path}", 1)
-            if isinstance(robot, SimulatedRobot):
-                moves = f"after {robot.cost} move{'s' * (robot.cost != 1)}"
-                words = words.replace(" before it", f" {moves}, before it", 1)
-            if why.signal in CRASHES and not path.endswith(".py"):
-                words += "; -fsanitize=address names the line: docs/tutorials/native.md"
-            raise Misbehaved(why.kind, words, signal=why.signal) from None
+            when = ""
+            if isinstance(self._robot, SimulatedRobot):
+                when = f"after {plural(self._robot.cost, 'move')}"
+            advice = "" if path.endswith(".py") else SANITIZER
+            return crash_report(child, due, advice, who=f"{symbol} of {path}", when=when)
+        why = crash_report(child, due)
+        line = _users_line(os.fsencode(child.stderr())) if why.signal else ""
+        if why.kind != "crashed" or not line:
+            return why
+        words = f"the mapper was ended by {why.signal} at {line}"
+        return Misbehaved(why.kind, words, signal=why.signal)
 
     def _unwound(self) -> bool:
         child = self._ready()
@@ -174,19 +176,15 @@ class Foreign(Program):
 
     def _answer(self, child: Child, decoder: msgspec.json.Decoder[T], due: str) -> T:
         """The child's next message outside of a world; `due` as in "was loaded"."""
+        who = "its process"
         try:
-            message: T = decoded(child.line(seconds=LOADING), decoder.decode, validate=False)
+            line = child.line(seconds=LOADING)
         except Silent:
-            why = Misbehaved("silent", f"the program sent nothing for {LOADING:g} s")
+            raise Misbehaved("silent", f"{who} sent nothing for {LOADING:g} s") from None
         except (Ended, TooLong):
-            why = crash_report(child, due)
-        except Misbehaved as error:
-            why = error
-        else:
-            return message
-        raise Misbehaved(
-            why.kind, str(why).replace("the program", "its process", 1), signal=why.signal
-        )
+            raise crash_report(child, due, who=who) from None
+        message: T = decoded(line, decoder.decode, validate=False, who=who)
+        return message
 
 
 def _users_line(stack: bytes) -> str:

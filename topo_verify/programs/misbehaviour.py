@@ -16,7 +16,7 @@ from topo_verify.programs import protocol as ms
 from topo_verify.programs.child import Child
 from topo_verify.programs.interruption import FROM_OUTSIDE
 from topo_verify.robot.events import decode_error
-from topo_verify.robot.limits import MapperStopped
+from topo_verify.robot.limits import Limit, MapperStopped
 
 Misbehaviour = Literal[
     "crashed",
@@ -40,9 +40,13 @@ Misbehaviour = Literal[
     "silent",
     "unknown-world",
     "no-map",
+    "out-of-memory",
     "skip",
     "error",
 ]
+
+Ending = Literal["map", "worker-lost"] | Limit | Misbehaviour
+"""How a run ended: it delivered a map, lost its worker, met a limit, or the mapper did this."""
 
 MISBEHAVIOURS: tuple[Misbehaviour, ...] = get_args(Misbehaviour)
 
@@ -53,6 +57,8 @@ CRASHES = ("SIGSEGV", "SIGBUS", "SIGABRT", "SIGFPE")
 """Signals by which a fault in machine code ends its process."""
 
 _OUTSIDE = {number.name for number in FROM_OUTSIDE}
+
+PROGRAM = "the program"
 
 LAST_LINES = 10
 """Last lines of standard error that a message shows."""
@@ -85,8 +91,10 @@ class Misbehaved(MapperStopped):
         return Misbehaved(self.kind, str(self), detail=self.detail, signal=self.signal)
 
 
-def decoded(line: bytes, decode: Callable[[bytes], Any], *, validate: bool) -> Any:
-    """The message in a line from a program.
+def decoded(
+    line: bytes, decode: Callable[[bytes], Any], *, validate: bool, who: str = PROGRAM
+) -> Any:
+    """The message in a line from a program; `who` is the subject of the sentence.
 
     Raises:
         Misbehaved: the line holds no message.
@@ -108,7 +116,7 @@ def decoded(line: bytes, decode: Callable[[bytes], Any], *, validate: bool) -> A
         kind, description = "not-json", f"a line that is not JSON ({reason})"
     else:
         return message
-    raise Misbehaved(kind, f"the program wrote {description}: {shown_line(line)}")
+    raise Misbehaved(kind, f"{who} wrote {description}: {shown_line(line)}")
 
 
 def _kind(error: str) -> Misbehaviour:
@@ -137,21 +145,27 @@ def shown_line(line: bytes) -> str:
     return shown(line[: 2 * SHOWN].decode(errors="backslashreplace"), limit=SHOWN)
 
 
-def crash_report(child: Child, due: str, advice: str = "") -> Misbehaved:
-    """Why a program's output ended too early; `due` as in "delivered a map".
+def crash_report(
+    child: Child, due: str, advice: str = "", *, who: str = PROGRAM, when: str = ""
+) -> Misbehaved:
+    """Why a program's output ended too early.
 
     Args:
+        due: what it was to do next, as in "delivered a map".
         advice: the end of the message if the program crashed.
+        who: the subject of the sentence.
+        when: how far it came, as in "after 3 moves".
     """
-    status = child.exit_status()
-    complaint = last_words(child.stderr()) + advice * (child.signal() in CRASHES)
+    status, crashed = child.exit_status(), child.signal() in CRASHES
+    complaint = f"{last_words(child.stderr())}{advice if crashed else ''}"
     if child.in_half_a_line:
         end = status or "closed its output"
-        message = f"the program {end} in the middle of a line{complaint}"
+        message = f"{who} {end} in the middle of a line{complaint}"
         return Misbehaved("half-line", message, signal=child.signal())
     if status is None:
-        return Misbehaved("closed-output", "the program closed its output and runs on")
-    message = f"the program {status} before it {due}{complaint}"
+        return Misbehaved("closed-output", f"{who} closed its output and runs on")
+    came = f" {when}," if when else ""
+    message = f"{who} {status}{came} before it {due}{complaint}"
     return Misbehaved("crashed", message, signal=child.signal())
 
 

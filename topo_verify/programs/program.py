@@ -173,7 +173,7 @@ class Program:
         if (ended := child.ended_by_itself()) is None:
             self._idle = True
         elif ended:
-            raise crash_report(child, "read the next message", self.advice)
+            raise self._report_crash(child, "read the next message")
 
     def _send(self, child: Child, message: ms.ToChild) -> None:
         line = _encode(message)
@@ -192,10 +192,13 @@ class Program:
         except TooLong:
             raise Misbehaved("too-long", self._too_long(child)) from None
         except Ended:
-            raise crash_report(child, "delivered a map", self.advice) from None
+            raise self._report_crash(child, "delivered a map") from None
         if self.record:
             self.lines.append(("<", line))
         return line
+
+    def _report_crash(self, child: Child, due: str) -> Misbehaved:
+        return crash_report(child, due, self.advice)
 
     def _too_long(self, child: Child) -> str:
         if child.in_half_a_line:

@@ -128,7 +128,7 @@ class RefusedMessage(_Message, frozen=True):
 class UndeliveredMessage(_Message, frozen=True):
     """From our child: the mapper raised, returned no map, misused the robot or skips the world."""
 
-    kind: Literal["no-map", "bad-door", "bad-declaration", "skip"]
+    kind: Literal["no-map", "out-of-memory", "bad-door", "bad-declaration", "skip"]
     why: str
 
 

@@ -171,7 +171,7 @@ def _as_child(mapper: Mapper, robot: RemoteRobot) -> object:
         kind, misuse = robot.misuse
         return ms.UndeliveredMessage(kind, _words(stop_text(misuse)))
     if isinstance(result, Undelivered):
-        return ms.UndeliveredMessage("no-map", _words(result.why))
+        return ms.UndeliveredMessage(result.kind, _words(result.why))
     return ms.DoneMessage(result.map, result.cost)
 
 

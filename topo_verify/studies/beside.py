@@ -10,7 +10,7 @@ from typing import Any, Generic, Self, TypeVar
 import msgspec
 
 from topo_verify.campaign.pool import Pool
-from topo_verify.campaign.work import Loss, Work
+from topo_verify.campaign.work import Work, WorkerLoss
 from topo_verify.campaign.worker import Handler, function_at
 from topo_verify.errors import InternalError
 
@@ -72,5 +72,5 @@ class Beside(Generic[R]):
         return self._results[name]
 
 
-def _lost(name: str, loss: Loss) -> Any:
+def _lost(name: str, loss: WorkerLoss) -> Any:
     raise InternalError(f"in a worker, which was to do the task {name}: {loss}")

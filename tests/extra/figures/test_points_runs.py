@@ -12,6 +12,7 @@ from tests.extra.figures.rows import measured
 from topo_verify import explore
 from topo_verify.campaign.attempt import lost_row
 from topo_verify.campaign.backend import MapperCampaign
+from topo_verify.campaign.loss import Loss
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.store import Store
 from topo_verify.extra.figures import figures, points
@@ -93,6 +94,8 @@ def test_a_run_out_of_time_convicts_no_algorithm(
 
 def test_a_lost_worker_leaves_every_pair_undecided() -> None:
     world = resolve_world(WORLD)
-    row = lost_row(world, 0, WORLD, "basic", Limits(), "signal 9", external=True)
+    row = lost_row(
+        world, 0, WORLD, "basic", Limits(), "signal 9", Loss("worker", "silent", "right")
+    )
     assert [run[2:] for run in runs_of(row)] == [(pair.pick, pair.order) for pair in figures.PAIRS]
     assert row.undecided == "signal 9"

@@ -16,11 +16,12 @@ from topo_verify.algorithms import CATALOGUE, REFERENCE, Algorithm
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import Look
 from topo_verify.campaign.engine import Checks, Engine
-from topo_verify.campaign.examiner import Examiner, split
-from topo_verify.campaign.row import SECOND_TRY, Row
+from topo_verify.campaign.examiner import Examiner, once_in_words, split
+from topo_verify.campaign.loss import Loss
+from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import EngineMapper, Exploration
 from topo_verify.campaign.tally import Tally
-from topo_verify.campaign.work import Loss
+from topo_verify.campaign.work import WorkerLoss
 from topo_verify.campaign.worker import Beat, WorkerProcess
 from topo_verify.checkers.claims import LARGE
 from topo_verify.errors import InputError
@@ -241,7 +242,7 @@ class NativeExaminer(CompiledExaminer):
         rank = shard.start + max(0, min(items, shard.stop - shard.start - 1))
         return c.Shard(shard.edges, rank, rank + 1), 0
 
-    def _lost_in_run(self, shard: c.Shard, loss: Loss) -> c.ShardResult:
+    def _lost_in_run(self, shard: c.Shard, loss: WorkerLoss) -> c.ShardResult:
         """The result of a world that native code did not survive: a run in a fresh process.
 
         If it delivers a map there, the world is undecided.
@@ -251,7 +252,7 @@ class NativeExaminer(CompiledExaminer):
             result = c.examine(self.campaign, mappers, shard)
         finally:
             c.close(mappers)
-        row = self.row_at(shard, 0, str(loss), external=True)
+        row = self.row_at(shard, 0, str(loss), Loss("engine", loss.how, "right"))
         if row is None or result.tally.failing or result.tally.undecided:
             return result
         return result.with_loss(row)
@@ -259,7 +260,7 @@ class NativeExaminer(CompiledExaminer):
     def survived(
         self,
         result: c.ShardResult,
-        losses: Sequence[tuple[c.Shard, Loss]],
+        losses: Sequence[tuple[c.Shard, WorkerLoss]],
         given_up: Sequence[c.Shard],
     ) -> c.ShardResult:
         """The result of a shard, with the losses in runs that passed later."""
@@ -269,8 +270,10 @@ class NativeExaminer(CompiledExaminer):
             result = msgspec.structs.replace(result, tally=tally)
         return result
 
-    def _lost_once(self, shard: c.Shard, loss: Loss, given_up: Sequence[c.Shard]) -> Row | None:
+    def _lost_once(
+        self, shard: c.Shard, loss: WorkerLoss, given_up: Sequence[c.Shard]
+    ) -> Row | None:
         if any(shard.start <= part.start < shard.stop for part in given_up):
             return None
-        cause = loss.cause if loss.maybe_external else f"{loss}{SECOND_TRY}"
-        return self.row_at(*self.place_of(shard, loss.items), cause, external=True)
+        place = self.place_of(shard, loss.items)
+        return self.row_at(*place, once_in_words(loss), Loss("engine", loss.how, "right"))

@@ -35,6 +35,7 @@ import msgspec
 
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import attempt, lost_row, row_of
+from topo_verify.campaign.loss import Loss
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Exploration, explore
 from topo_verify.campaign.tally import KEPT_FAILING, Costs, Counts, Tally, notable
@@ -58,6 +59,9 @@ STEP = (1, 1, 1, 2)
 
 DECLINED_ONCE = "it was undecided when the engine called it, and delivered a map behind the pipe"
 """Why a world is undecided that the mapper declined in one of two runs."""
+
+DIFFERS = Loss("engine", "differs", "right")
+"""Two runs end differently."""
 
 SLICE = 50_000
 """Ranks examined between two heartbeats. The counts of each slice begin empty."""
@@ -212,7 +216,7 @@ class _CompiledShard:
             self._rows[place, row.turn] = row
         if not (result.tally.failing or result.tally.undecided):
             text, limits = self._mappers[0].text, self._campaign.limits
-            row = lost_row(world, place, name, text, limits, wrong.how, external=True)
+            row = lost_row(world, place, name, text, limits, wrong.how, DIFFERS)
             self._rows[place, 0] = row
             tally += Tally(undecided=1, lost=1)
         return tally
@@ -254,7 +258,7 @@ class _CompiledShard:
         if self._calls is not None and is_decided and not end.without_room:
             ((place, name, world),) = self._worlds.worlds(alone)
             text, limits = self._mappers[0].text, self._campaign.limits
-            row = lost_row(world, place, name, text, limits, DECLINED_ONCE, external=True)
+            row = lost_row(world, place, name, text, limits, DECLINED_ONCE, DIFFERS)
             result = result.with_loss(row)
         self._rows |= {(row.place, row.turn): row for row in result.rows}
         return result.tally

@@ -94,7 +94,7 @@ def outcome_of(row: Row, like: str) -> WorldOutcome:
     result = [finding for finding in findings if finding.claim in RESULT]
     claims = [finding for finding in findings if finding.claim not in RESULT]
     if row.ended != "map":
-        result = [] if row.lost or open_ended else [_loss(row, note)]
+        result = [] if row.is_lost or open_ended else [_loss(row, note)]
     if lost:
         claims = [
             finding
@@ -117,7 +117,7 @@ def outcome_of(row: Row, like: str) -> WorldOutcome:
         kept["decisions"] = (_parted(row, like, difference),) if difference and failed else ()
     states["cost"] = "passed" if not (lost or result) else open_ended or "undecided"
     why = row.stopped if open_ended else None
-    if row.lost is not None and "failed" not in states.values():
+    if row.is_lost and "failed" not in states.values():
         for level in states:
             states[level] = "undecided"
         why = row.undecided

@@ -201,7 +201,7 @@ class Repetition:
 
     def _run_row(self, report: Progress) -> None:
         campaign, known = self._campaign, self._known
-        lost = {row.world for row in self._rows if row.lost}
+        lost = {row.world for row in self._rows if row.is_lost}
         names = [name for name in [*drawn_row(campaign)][:ROW] if name not in lost]
         stop = c.Stop(failing=1, timeouts=MOST_ENDED, lost=MOST_ENDED)
         for now in _runs(campaign, names, _one_process, report, stop):
@@ -243,7 +243,7 @@ def compared(row: Row | None, digest: str | None, now: Row) -> Sameness:
 
 def _by_machine(row: Row) -> bool:
     """Whether something else than the mapper may have ended a run."""
-    return row.lost is not None or row.timed_out
+    return row.is_lost or row.timed_out
 
 
 def _drawn(rows: Sequence[Row], campaign: c.Campaign) -> list[Row]:

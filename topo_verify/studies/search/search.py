@@ -407,12 +407,14 @@ class Search:
             ),
             judgements=tally.judgements(),
             from_ledger=self.from_store,
-            lost=tuple(LostWorker(row.world, row.lost) for row in self.rows if row.lost),
+            lost=tuple(
+                LostWorker(row.world, row.lost) for row in self.rows if row.is_lost and row.lost
+            ),
             undecided=next(
                 (
                     UndecidedWorld(row.world, row.undecided)
                     for row in self.rows
-                    if row.undecided and not row.lost
+                    if row.undecided and not row.is_lost
                 ),
                 None,
             ),
