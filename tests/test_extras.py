@@ -15,7 +15,17 @@ from topo_verify import InputError, extras
 from topo_verify.cli import SHORT_HELPS
 
 ROOT = Path(__file__).resolve().parent.parent
-PLACES = [*extras.COMMANDS.values(), *(p for places in extras.OPTIONS.values() for p in places)]
+COMMAND_LINE = [
+    *extras.COMMANDS.values(),
+    *(place for places in extras.OPTIONS.values() for place in places),
+]
+"""What the command line loads, for --help too."""
+PLACES = [
+    *COMMAND_LINE,
+    *extras.ENGINES.values(),
+    *extras.FUNCTION_MAKERS.values(),
+    *extras.BACKENDS.values(),
+]
 EXTRAS = sorted(p.parent.name for p in (ROOT / "topo_verify" / "extra").glob("*/__init__.py"))
 
 
@@ -82,7 +92,7 @@ def test_a_command_may_ask_for_one_option_where_it_belongs() -> None:
     ]  # fmt: skip
 
 
-@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("place", COMMAND_LINE)
 def test_what_the_command_line_loads_needs_no_package_of_an_extra(place: str) -> None:
     packages = [name for names in extras.PACKAGES.values() for name in names]
     code = (
