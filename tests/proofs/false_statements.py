@@ -1,4 +1,16 @@
-"""Every false statement, as a theorem that must be refuted."""
+"""Every false statement, as a theorem that must be refuted, and its world replayed.
+
+They show that the theorems can fail. To add one:
+
+- Mutant of an inductive theorem: list in `needs` of its `Obligation` each premise without which the
+  obligation is false. The most telling one becomes a theorem here; the nightly test of
+  first_order/test_theorems.py tries all of them.
+- Mutant of a rule: a `RuleMutant` in first_order/mutants/, with one mistake, a scene and the moves
+  that show it. For whole words: a `RuleFault` in topo_verify/proofs/bounded/encoding.py, and its
+  row in bounded/mutants.py.
+- Negative: a `Negative` in `SMALLEST`, topo_verify/proofs/bounded/confirmations.py, with the fewest
+  edges that refute it.
+"""
 
 from __future__ import annotations
 
