@@ -65,7 +65,7 @@ class InputError(ShortTraceback, TopoVerifyError, ValueError):
 
 
 class WriteError(InputError):
-    """A file, or standard output, cannot be written; what was found by then is still reported."""
+    """A file or standard output cannot be written; results so far are still reported."""
 
 
 class ExaminationInterrupted(ShortTraceback, KeyboardInterrupt):

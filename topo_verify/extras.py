@@ -56,7 +56,7 @@ PACKAGES = {
 
 
 def found(place: str) -> Any:
-    """What is at a place; its module is imported now."""
+    """The object at a place; its module is imported now."""
     module, _, attribute = place.partition(":")
     return getattr(import_module(f"topo_verify.extra.{module}"), attribute)
 

@@ -122,7 +122,7 @@ class RunFile(Protocol):
         ...
 
     def write(self, playback: Playback, mapper: str) -> None:
-        """Write the file."""
+        """Write the animated run of this mapper to the file."""
         ...
 
 

@@ -38,7 +38,7 @@ EARLIER = {
 
 
 class Saying(NamedTuple):
-    """What is said of a moment.
+    """The narration of a moment.
 
     Attributes:
         kind: its colour: a question, right, wrong, or none.
@@ -75,7 +75,7 @@ class Narrator:
 
     @cached_property
     def sayings(self) -> tuple[Saying, ...]:
-        """What is said of each moment, in order."""
+        """The narration of each moment, in order."""
         return tuple(self._sayings())
 
     def _sayings(self) -> Iterator[Saying]:

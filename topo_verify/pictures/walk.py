@@ -137,7 +137,7 @@ class _View:
     # ------------------------------------------------------------ the table
 
     def legend(self, moments: Sequence[Moment]) -> Iterator[str]:
-        """What the places in the table are called, if the robot moves."""
+        """The sentence that explains the places in the table; nothing if the robot never moves."""
         if any(isinstance(moment.event, ev.Move) for moment in moments):
             names = _ON_S if _declares_map(self.playback) else _IN_WORLD
             yield from self.wrapped(f"{names} {_SEES}")

@@ -284,7 +284,7 @@ def _exhibit(
 
 
 def _purposes(name: str, trace: Sequence[Event]) -> str:
-    """What a run's moves were for, in words."""
+    """The purposes of a run's moves, in words."""
     moves = Counter(event.purpose for event in trace if isinstance(event, Move))
     spent = [f"{word} {moves[purpose]}" for purpose, word in PURPOSES.items() if moves[purpose]]
     return f"{name}: {', '.join(spent)}"

@@ -54,10 +54,10 @@ class LeagueBehind(msgspec.Struct, frozen=True):
 
 
 class LostWorld(msgspec.Struct, frozen=True):
-    """A world in which a mapper pays more than the first of the table.
+    """A world in which a mapper costs more than the first of the table.
 
     Attributes:
-        other: what the first of the table pays.
+        other: the cost of the first of the table.
         excess: the difference, as a multiple of the least cost.
         show: the command line that writes a page with both runs side by side.
     """

@@ -85,7 +85,7 @@ def _kept(
 
 
 def not_shown(campaigns: Sequence[MapperCampaign], store: Store) -> str:
-    """A sentence about the store's runs of no such campaign, or ""."""
+    """A sentence about runs in the store that belong to none of these campaigns, or ""."""
     planned: set[tuple[str, str]] = set()
     for campaign in campaigns:
         assert isinstance(campaign.store, _Hidden), "it was made by `matches`"

@@ -68,7 +68,7 @@ class CoqCertifier:
             yield prove
 
     def show(self, proof: KernelCheck) -> Iterator[Block]:
-        """What was certified, and by what."""
+        """The outcome of the certificate check, as blocks of text."""
         outcome = f"accepted by {proof.by}" if proof.accepted else f"NOT CHECKED: {proof.why}"
         delivered = " The delivered map is that world." if proof.delivered else ""
         proved, decisions = proof.decisions, ""

@@ -34,7 +34,7 @@ def opinion(output: Output, report: Report) -> ProvedOpinion:
 
 
 def words(opinion: ProvedOpinion) -> str:
-    """What the judge says, for people."""
+    """The judge's verdicts as blocks of text."""
     if opinion.why:
         return f"Not judged by the judge that is proved in Coq: {opinion.why}"
     number = len(opinion.judgements)

@@ -1,4 +1,4 @@
-"""Does tasks on a Dask cluster, whichever of its workers are lost.
+"""Does tasks on a Dask cluster, and requeues those of lost workers.
 
 A pool on the worker's machine (worker.py) settles what a task does to its process. So a
 loss here means that a whole Dask worker went:

@@ -60,7 +60,7 @@ def _compiled(function: F) -> F:
 
 
 class NativePercept(NamedTuple):
-    """What the robot senses: `tv_percept`. After a refusal the degree is `NONE`."""
+    """A percept of the robot: `tv_percept`. After a refusal the degree is `NONE`."""
 
     degree: int
     marker: int

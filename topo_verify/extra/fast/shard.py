@@ -58,7 +58,7 @@ STEP = (1, 1, 1, 2)
 """Worlds in such a step. A second world is not the first after a pause."""
 
 DECLINED_ONCE = "it was undecided when the engine called it, and delivered a map behind the pipe"
-"""Why a world is undecided that the mapper declined in one of two runs."""
+"""The reason why a world is undecided: the mapper declined it in one of two runs."""
 
 DIFFERS = Loss("engine", "differs", "right")
 """Two runs end differently."""

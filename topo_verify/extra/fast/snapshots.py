@@ -293,7 +293,7 @@ def doors_hash(events: Iterable[Event]) -> int:
 
 
 def run_digest(rank: int, cost: int, statuses: Iterable[Status], events: Iterable[Event]) -> int:
-    """What one run adds to its algorithm's digest: `enter` in tally.py."""
+    """The summand of one run in its algorithm's digest: `enter` in tally.py."""
     mixed = (doors_hash(events) ^ cost) * tally.MIXED
     for status in statuses:
         mixed = (mixed ^ STATUSES.index(status)) * HASH_PRIME

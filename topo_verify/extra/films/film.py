@@ -316,7 +316,7 @@ def _spans(values: Sequence[T]) -> Iterator[tuple[int, int, T]]:
 
 
 def captions(playback: Playback) -> Sequence[Saying]:
-    """What is said of each moment; of one with findings, the first of them."""
+    """The caption of each moment: its sentence, or its first finding."""
     sayings = [
         _wrong(moment.findings[0].message) if moment.findings else saying
         for moment, saying in zip(playback.moments, Narrator(playback).sayings, strict=True)

@@ -50,7 +50,7 @@ Way = tuple[tuple[Point, ...], ...]
 
 
 class Leg(NamedTuple):
-    """The way that something goes during one moment; a single point: it stands there."""
+    """The path of an object during one moment; a single point if it stands."""
 
     moment: int
     way: Way
@@ -86,7 +86,7 @@ def length(points: Sequence[Point]) -> float:
 
 
 class Tracks:
-    """What is seen of a run in a layout of its world."""
+    """The visible parts of a run in a layout of its world."""
 
     def __init__(self, playback: Playback, layout: Layout) -> None:
         self.playback, self.layout = playback, layout

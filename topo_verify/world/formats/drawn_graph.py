@@ -35,7 +35,7 @@ _ROUNDING = 1e-6
 """Relative difference of two positions of one node up to which they are the same."""
 
 PLACES = frozenset({"pos", "x", "y", "geometry", *chain.from_iterable(_DEGREES)})
-"""The attributes that say where a node lies."""
+"""The attributes that hold a node's position."""
 
 NOT_READ = frozenset({"graphics", "viz", "coords", "coordinates", "location", "position", "point"})
 """Other attributes that may say it: the refusal of a node without a place names them."""
@@ -106,7 +106,7 @@ def _named(label: Any) -> str:
 
 
 def position(attributes: Mapping[str, Any], subject: str) -> Point:
-    """Where the node lies."""
+    """The position of the node."""
     given = {name: value for name, value in attributes.items() if not is_blank(value)}
     readings: list[Point] = []
     if "pos" in given and not _is_word(given["pos"]):

@@ -29,7 +29,7 @@ from topo_verify.world.rooted_map import World
 W = TypeVar("W", bound=World)
 
 REMARKS = logging.getLogger("topo_verify.world.formats")
-"""What a reader has to say of a file that it reads; commands print it as notes on stderr."""
+"""The logger of remarks about a file; commands print them as notes on stderr."""
 
 MOST_EDGES = 500_000
 
@@ -262,7 +262,7 @@ def _say_stated_orders(
     same: Mapping[int, int],
     source: str,
 ) -> None:
-    """Say where the file states another order than that of the drawing."""
+    """Remark at which vertices the file states another order than the drawing."""
     end_of = {
         way.name: DrawnEnd(same[number], 0) if number in same else DrawnEnd(number, 1)
         for number, way in enumerate(ways)

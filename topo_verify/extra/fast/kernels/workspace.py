@@ -175,7 +175,7 @@ class RecordWords(EndWords):
 class PlaceWords(EndWords):
     """The fold of all places: folding.py."""
 
-    darts: int  # with dart 0, which is none
+    darts: int  # with dart 0, a placeholder
     node: PerPlaceDart  # first dart of its node
     looks: PerPlaceDart  # 2 * degree, and 1 if the marker is here
     leader: PerPlaceDart  # 0: it leads

@@ -54,7 +54,7 @@ class OpenWords(WordView):
 class FoldWords(OpenWords):
     nodes: int
     doors: int
-    tidied: int  # doors after the nodes that are none any more were dropped
+    tidied: int  # doors left after merged nodes were dropped
     at: int
     dart: int
     parent: PerNode
@@ -251,7 +251,7 @@ def end_of_trace(trace: TraceWords) -> int:
 
 @inlined
 def event_size(run: RunWords, case: CaseWords, i: int, end: int) -> int:
-    """The words of the event at i; 0 (verdict open) if it is none."""
+    """The length of the event at i in words; 0 (verdict open) if there is no event."""
     kind = EventWords(run, i).kind
     size = 0
     if kind in (MOVE, CONFIRM):
