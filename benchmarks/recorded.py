@@ -1,10 +1,10 @@
-"""Records the JSON of many commands, without times: what a change of the structure must not change.
+"""Records the JSON of many commands, without times; a refactoring must not change it.
 
     python benchmarks/recorded.py FOLDER            one file a command
-    git diff --no-index OLD NEW                     what two recordings differ in
+    git diff --no-index OLD NEW                     how two recordings differ
 
-The commands run in the environment of this Python, in this tree's root, so that a checkout of an
-earlier commit with an environment of its own records what that commit says. Some minutes.
+The commands run in the root of this tree, in the environment of this Python. So an earlier commit
+is recorded from a second checkout with a second environment. A recording takes some minutes.
 
 What this does not show: text, pictures and pages, which the tests judge.
 """

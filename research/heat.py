@@ -185,7 +185,7 @@ def untrue_colours(svg: str, world: World, costs: Sequence[int]) -> list[str]:
 
 
 def heat_map(world: str, mapper: str) -> str:
-    """The heat map of what a mapper pays in a world; it must be right from every place."""
+    """The heat map of a mapper's costs in a world; it must deliver a right map from every dart."""
     there = resolve_world(world)
     return heat_svg(there, marker.costs(there, mapper), title=f"{mapper} in {there.name}")
 

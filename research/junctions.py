@@ -40,7 +40,7 @@ Direction = Callable[[Point, Sequence[Point], float], float]
 
 
 def along(course: Sequence[Point], length: float) -> Point:
-    """The point of a course after so much length, or its last one."""
+    """The point of a course at this length from its beginning, or its last point."""
     for a, b in itertools.pairwise(course):
         step = dist(a, b)
         if step >= length:

@@ -32,8 +32,8 @@ def rows(results: Iterable[dict[str, Any]]) -> Iterable[tuple[Any, ...]]:
             if size["checked"] != size["total"]:
                 raise SystemExit(f"{result['target']}: not all worlds were examined")
             fields = (size[name] for name in ("edges", "checked", "failing", "undecided"))
-            dear = (size["max_cost"], size["attained"], size["worst"][0], size["total_cost"])
-            yield result["target"], *fields, *dear
+            highest = (size["max_cost"], size["attained"], size["worst"][0], size["total_cost"])
+            yield result["target"], *fields, *highest
 
 
 def main() -> None:

@@ -197,7 +197,7 @@ def _match(pattern: str, text: str) -> str:
 
 
 def unseen() -> list[str]:
-    """The ends of a command whose forms do not agree, and that the trials do not see."""
+    """Planted endings whose outputs disagree and that the trials miss."""
     page, badge = "<p>Exit code 0: ", "<title>basic: EXHAUSTED, all</title>"
     both = {"r.html", "r.svg"}
     planted = {

@@ -50,7 +50,7 @@ def costs_in(name: str, world_id: str) -> PolicyCosts:
     found = table.found_in(world, algorithm)
     if found.wrong:
         raise InternalError(f"the model of {name} finds a claim false in {world_id}")
-    for order, expected in ((found.cheap, found.cheapest), (found.dear, found.dearest)):
+    for order, expected in ((found.cheap, found.cheapest), (found.costly, found.dearest)):
         mapper = scripted(algorithm, table.Ordered(world, order))
         cost = judged_cost(world, Target(name, mapper))
         if cost != expected:

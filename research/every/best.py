@@ -16,7 +16,7 @@ RunOrder = tuple[tuple[Dart, ...], ...]
 
 
 class Tables:
-    """What the kernel reads and fills, for the life of the process."""
+    """The arrays that the kernel reads and fills, kept for the life of the process."""
 
     def __init__(self) -> None:
         self.world = _ints(5, k.MOST_DARTS)

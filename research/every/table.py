@@ -29,7 +29,7 @@ class KernelFound(NamedTuple):
 
     Attributes:
         wrong: what is wrong in some state, as a number of `kernel.py`; 0: nothing.
-        cheap, dear: runs with the least and the highest cost.
+        cheap, costly: runs with the least and the highest cost.
     """
 
     wrong: int
@@ -38,7 +38,7 @@ class KernelFound(NamedTuple):
     cheapest: int
     dearest: int
     cheap: RunOrder
-    dear: RunOrder
+    costly: RunOrder
 
 
 def is_known(algorithm: Algorithm) -> bool:
@@ -67,8 +67,8 @@ def found_in(
 
     if wrong == FULL:
         raise InternalError(f"{world.text} has too many states for the kernel")
-    cheap, dear = ((), ()) if wrong else (tables.order(0), tables.order(1))
-    return KernelFound(wrong, states, choices, least, most, cheap, dear)
+    cheap, costly = ((), ()) if wrong else (tables.order(0), tables.order(1))
+    return KernelFound(wrong, states, choices, least, most, cheap, costly)
 
 
 @cache

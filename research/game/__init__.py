@@ -1,1 +1,1 @@
-"""Games of robot against world on all worlds with a few edges: what the best robot pays."""
+"""Games of robot against world on all worlds with a few edges: the cost of the best robot."""

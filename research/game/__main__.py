@@ -1,4 +1,4 @@
-"""What the best possible robot pays in worlds of 1 to M edges, as three tables (M = 4: 90 s).
+"""The cost of the best possible robot in worlds of 1 to M edges, as three tables (M = 4: 90 s).
 
     python -m research.game 3
 
@@ -53,7 +53,7 @@ def price_table(values: Sequence[game.GameValue]) -> Table:
 
 
 def knowledge_table(values: Sequence[game.GameValue]) -> Table:
-    """What the best robot pays, and what it saves to know more."""
+    """The cost of the best robot, and how much knowledge saves it."""
     nothing = {(entry.edges, entry.drawn): entry for entry in values if entry.knows == "nothing"}
     rows = (
         (

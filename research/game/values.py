@@ -1,4 +1,4 @@
-"""The values of the games on the worlds with m edges: what the best robot pays.
+"""The values of the games on the worlds with m edges: the cost of the best robot.
 
 What a robot **knows** decides when its game ends; what is **drawn**, in which worlds its cost
 counts.
@@ -45,7 +45,7 @@ GAMES: tuple[tuple[DrawnClass, Knowledge], ...] = (
     ("planar", "m"),
     ("planar", "m and planar"),
 )
-"""What is drawn and what is known."""
+"""The games: the worlds that are drawn from, and the knowledge of the robot."""
 
 MOST_EDGES = 4
 """With five edges there are 8162 worlds."""
@@ -63,7 +63,7 @@ MOST_FOLDS = 100_000
 
 
 class CostsOfRobot(msgspec.Struct, frozen=True):
-    """What a robot pays in the worlds of a game.
+    """The costs of a robot in the worlds of a game.
 
     Attributes:
         worst, mean: over these worlds.
@@ -153,7 +153,7 @@ def game_value(
 
 
 def _games(edges: int, knows: Knowledge, drawn: DrawnClass) -> Iterator[Rules[Any]]:
-    """The rules of the games, one for each thing that the robot may be told."""
+    """The rules of the games, one for each kind of knowledge."""
     counted = [DrawnWorld(world.code) for world in drawn_worlds(edges, drawn)]
     match knows:
         case "nothing":

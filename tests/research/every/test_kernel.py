@@ -126,7 +126,7 @@ def test_its_two_runs_cost_the_mapper_what_it_says(name: str) -> None:
     algorithm = CATALOGUE[name]
     for world in list(worlds([4]))[::10]:
         found = table.found_in(world, algorithm)
-        for order, cost in ((found.cheap, found.cheapest), (found.dear, found.dearest)):
+        for order, cost in ((found.cheap, found.cheapest), (found.costly, found.dearest)):
             run = explore(world, Target(name, scripted(algorithm, table.Ordered(world, order))))
             assert run.cost == cost
 
