@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 import shlex
 import shutil
@@ -21,6 +20,7 @@ from click.testing import CliRunner, Result
 
 from tests.campaign.conftest import few_worlds_run_again
 from tests.proofs.mechanised.conftest import library, linked
+from tests.python import python
 from topo_verify.campaign.campaign import Shard, ShardResult
 from topo_verify.campaign.store import StoredCampaign
 from topo_verify.cli import main
@@ -93,14 +93,8 @@ def program(folder: Path) -> Program:
     """Run a command line in a process of its own."""
 
     def program(line: str, **environment: str) -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
-            [sys.executable, "-m", "topo_verify", *shlex.split(line)],
-            cwd=folder,
-            env={**os.environ, **environment},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        words = ("-m", "topo_verify", *shlex.split(line))
+        return python(*words, cwd=folder, environment=environment)
 
     return program
 

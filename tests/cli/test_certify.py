@@ -18,6 +18,11 @@ RING = """\
 """
 
 
+TITLES = "door,degree,marker\n"
+COLUMNS = "expected the columns door, degree, marker"
+NUMBER = "expected a whole number from 0 to 1000000 as"
+
+
 @pytest.fixture(autouse=True)
 def logs(folder: Path) -> None:
     """The logs of a ring of two, whole and cut short, in the current folder."""
@@ -90,73 +95,46 @@ def test_a_csv_table_is_a_log(results: Results, table: str) -> None:
 @pytest.mark.parametrize(
     ("table", "why"),
     [
-        ("door,degree\n,2\n", "t.csv, row 1: expected the columns door, degree, marker"),
+        ("door,degree\n,2\n", f"t.csv, row 1: {COLUMNS}"),
         (",2,0\n0,2,\n", "got a row without titles: begin with them"),
+        ("a,degree,marker\n", f"t.csv, row 1: {COLUMNS}, got no 'door'"),
+        (TITLES, "t.csv: expected a row with the percept at the start"),
+        (f"{TITLES}0,2,0\n", "row 2: expected no door: the robot starts, got '0'"),
+        (f"{TITLES},2,0\n,2,\n", "row 3: expected a door, as in every row but"),
+        (f"{TITLES}\n,2,0\n1,two,\n", f"row 4: {NUMBER} degree, got 'two'"),
+        (f"{TITLES},2,0\n1,2,-1\n", f"row 3: {NUMBER} marker, got '-1'; leave it"),
+        (f"{TITLES},2,0\n1,,\n", f"row 3: {NUMBER} degree, got ''"),
+        (f"{TITLES},2,0\n1,9000000,\n", "from 0 to 1000000 as degree, got '9000000'"),
         (
-            "a,degree,marker\n",
-            "t.csv, row 1: expected the columns door, degree, marker, got no 'door'",
-        ),
-        ("door,degree,marker\n", "t.csv: expected a row with the percept at the start"),
-        ("door,degree,marker\n0,2,0\n", "row 2: expected no door: the robot starts, got '0'"),
-        ("door,degree,marker\n,2,0\n,2,\n", "row 3: expected a door, as in every row but"),
-        (
-            "door,degree,marker\n\n,2,0\n1,two,\n",
-            "row 4: expected a whole number from 0 to 1000000 as degree, got 'two'",
-        ),
-        (
-            "door,degree,marker\n,2,0\n1,2,-1\n",
-            "row 3: expected a whole number from 0 to 1000000 as marker, got '-1'; leave it",
-        ),
-        (
-            "door,degree,marker\n,2,0\n1,,\n",
-            "row 3: expected a whole number from 0 to 1000000 as degree, got ''",
-        ),
-        ("door,degree,marker\n,2,0\n1,9000000,\n", "from 0 to 1000000 as degree, got '9000000'"),
-        (
-            "door,degree,marker\n,2,0\n# lunch\n",
+            f"{TITLES},2,0\n# lunch\n",
             "row 3: expected 3 cells, as in the row of titles, got 1; a table has no comments",
         ),
         (
             'door,degree,marker,note\n,2,0,"a\nb"\n',
             "row 2: expected cells of a table: unexpected end of data; a cell in quotes",
         ),
-        (
-            "door,degree,marker\n,1,0\n0,1",
-            "row 3: expected 3 cells, as in the row",
-        ),
-        ("door,degree,marker\n,2,0\n1,2,1,9\n", "row 3: expected 3 cells, as in the row"),
-        (
-            "door,door,degree,marker\n,,2,0\n",
-            "row 1: expected the columns door, degree, marker, got",
-        ),
-        (
-            "# robot 7\ndoor,degree,marker\n,2,0\n",
-            "row 1: expected the columns door, degree, marker",
-        ),
+        (f"{TITLES},1,0\n0,1", "row 3: expected 3 cells, as in the row"),
+        (f"{TITLES},2,0\n1,2,1,9\n", "row 3: expected 3 cells, as in the row"),
+        ("door,door,degree,marker\n,,2,0\n", f"row 1: {COLUMNS}, got"),
+        ("# robot 7\ndoor,degree,marker\n,2,0\n", f"row 1: {COLUMNS}"),
         ("\ufeff".encode("utf-16"), "t.csv: expected text in UTF-8, got UTF-16"),
-        (
-            "sep=;\ndoor,degree,marker\n",
-            "t.csv, row 2: expected the columns door, degree, marker, got no 'door'",
-        ),
-        ('door,degree,marker\n,2,0\n0,2,"\n1,2,1\n', "row 3: expected cells of a table"),
+        ("sep=;\ndoor,degree,marker\n", f"t.csv, row 2: {COLUMNS}, got no 'door'"),
+        (f'{TITLES},2,0\n0,2,"\n1,2,1\n', "row 3: expected cells of a table"),
         ("sep=;\nsep=;\n", "row 2: expected the columns"),
         ("sep=;\n", "t.csv: expected a row with the percept at the start"),
-        ("door,degree,marker\n,2.5,0\n", "row 2: expected a whole number from 0 to 1000000 as deg"),
+        (f"{TITLES},2.5,0\n", "row 2: expected a whole number from 0 to 1000000 as deg"),
         ("door;degree;marker\n;1,000;0\n", "row 2: expected a whole number"),
-        ("door,degree,marker\n,1_0,0\n", "row 2: expected a whole number"),
-        ("door,degree,marker\n,1e99,0\n", "row 2: expected a whole number"),
-        ("door,degree,marker\n,inf,0\n", "row 2: expected a whole number"),
-        ("door,degree,marker\n,<NA>,0\n", "row 2: expected a whole number"),
-        ("door,degree,marker\n,-2,0\n", "row 2: expected a whole number"),
+        (f"{TITLES},1_0,0\n", "row 2: expected a whole number"),
+        (f"{TITLES},1e99,0\n", "row 2: expected a whole number"),
+        (f"{TITLES},inf,0\n", "row 2: expected a whole number"),
+        (f"{TITLES},<NA>,0\n", "row 2: expected a whole number"),
+        (f"{TITLES},-2,0\n", "row 2: expected a whole number"),
+        (f"{TITLES}-1,2,0\n", "expected no door: the robot starts, got '-1'; leave it em"),
+        (f"{TITLES}-1.00,2,0\n", "the robot starts, got '-1.00'; leave it empty"),
+        (f"{TITLES},2,0\n0,2,-1\n", "got '-1'; leave it empty where no marker is seen"),
+        (f"{TITLES},2,0\n0,2,-1.0\n", "got '-1.0'; leave it empty where no marker"),
         (
-            "door,degree,marker\n-1,2,0\n",
-            "expected no door: the robot starts, got '-1'; leave it em",
-        ),
-        ("door,degree,marker\n-1.00,2,0\n", "the robot starts, got '-1.00'; leave it empty"),
-        ("door,degree,marker\n,2,0\n0,2,-1\n", "got '-1'; leave it empty where no marker is seen"),
-        ("door,degree,marker\n,2,0\n0,2,-1.0\n", "got '-1.0'; leave it empty where no marker"),
-        (
-            gzip.compress(b"door,degree,marker\n,2,0\n", mtime=0)[:-9],
+            gzip.compress(f"{TITLES},2,0\n".encode(), mtime=0)[:-9],
             "t.csv is packed by gzip, and damaged",
         ),
     ],

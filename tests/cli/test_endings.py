@@ -20,6 +20,8 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from tests.cli.conftest import Call, Program, interrupted
+from tests.python import python
+from topo_verify import World
 from topo_verify.cli import runs
 
 ENDS = """
@@ -126,14 +128,7 @@ def codes(folder: Path) -> set[int]:
 def ran(folder: Path, *words: str, first: str = "") -> tuple[int, str, str]:
     """Exit code and streams of a command, before which some lines of Python run."""
     code = f"{first}\nfrom topo_verify.cli import main\nmain()"
-    done = subprocess.run(
-        [sys.executable, "-c", code, *words],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=120,
-    )
+    done = python("-c", code, *words, cwd=folder, timeout=120)
     assert "Traceback" not in done.stderr
     return done.returncode, done.stdout, done.stderr
 
@@ -188,19 +183,8 @@ def test_no_command_ends_with_the_code_of_a_mapper(program: Program, line: str) 
 
 
 def test_the_child_has_the_streams_of_the_command(folder: Path) -> None:
-    world = subprocess.run(
-        [sys.executable, "-m", "topo_verify", "world", "convert", "m2/5", "--to", "json"],
-        cwd=folder,
-        capture_output=True,
-        check=True,
-    ).stdout
-    done = subprocess.run(
-        [sys.executable, "-m", "topo_verify", "explore", "-", "--format", "json"],
-        cwd=folder,
-        input=world,
-        capture_output=True,
-        check=True,
-    )
+    words = ("-m", "topo_verify", "explore", "-", "--format", "json")
+    done = python(*words, cwd=folder, input=World.from_id("m2/5").to_json(), check=True)
     assert json.loads(done.stdout)["ok"]
 
 
@@ -361,7 +345,12 @@ def test_a_failing_claim_outlives_an_interruption_of_its_repetition(
 # ---------------------------------------------------------------- what cannot be written
 
 
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full here")
+WITH_A_FULL_DEVICE = pytest.mark.skipif(
+    not Path("/dev/full").exists(), reason="no device that is always full here"
+)
+
+
+@WITH_A_FULL_DEVICE
 @pytest.mark.parametrize("option", ["--report", "--junit", "--badge"])
 @pytest.mark.parametrize(
     ("line", "right"),
@@ -384,7 +373,7 @@ def test_a_file_that_cannot_be_written_exits_2_unless_a_claim_fails(
     assert not page.exists() or f"<p>Exit code {right}: " in page.read_text()
 
 
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full here")
+@WITH_A_FULL_DEVICE
 @pytest.mark.parametrize(
     ("line", "right"),
     [
@@ -406,7 +395,7 @@ def test_a_full_standard_output_is_said_in_the_files(folder: Path, line: str, ri
     assert b"cannot write to standard output" in done.stderr
 
 
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full here")
+@WITH_A_FULL_DEVICE
 @pytest.mark.parametrize(
     ("line", "right"),
     [
@@ -479,8 +468,7 @@ from topo_verify.programs import interruption
 interruption.end_at_sigterm()
 ctypes.CFUNCTYPE(None)(lambda: signal.raise_signal(signal.SIGTERM))()
 """
-    done = subprocess.run([sys.executable, "-c", code], cwd=folder, capture_output=True, check=True)
-    assert done.stderr == b""
+    assert python("-c", code, cwd=folder, check=True).stderr == ""
 
 
 SLEEPS = ("search", "mappers.py:starts_and_sleeps", "--edges", "2", "--move-timeout", "60")

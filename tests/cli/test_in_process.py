@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
 from tests.cli.conftest import Call, Program, Results
+from tests.python import python
 from topo_verify.checkers import check
 
 RUDE = """
@@ -118,13 +118,7 @@ def test_a_trace_with_fewer_moves_than_were_made_is_a_finding(results: Results) 
 def test_workers_run_no_code_from_the_current_folder(folder: Path) -> None:
     (folder / "json.py").write_text("raise SystemExit('not the standard library')\n")
     line = "conform basic --worlds edges<=2 --workers 2"
-    done = subprocess.run(
-        [sys.executable, "-P", "-m", "topo_verify", *line.split()],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = python("-P", "-m", "topo_verify", *line.split(), cwd=folder)
     assert done.returncode == 0, done.stderr
     assert "EXHAUSTED" in done.stdout
 

@@ -66,20 +66,6 @@ def test_an_option_of_one_value_is_refused_when_it_is_given_twice(
     assert done.stderr.count("\n") == 1
 
 
-@pytest.mark.parametrize(
-    "line",
-    [
-        "conform --cmd bad --cmd good",
-        "search basic --edges 3 --edges 1",
-        "search basic --edges 1 --quick --workers 0 --workers=0",
-        "world draw m2/0 -ofirst.svg -o second.svg",
-    ],
-)
-def test_the_last_of_two_values_does_not_win_in_silence(line: str, call: Call) -> None:
-    done = call(line)
-    assert (done.exit_code, done.stdout) == (2, "")
-
-
 def test_all_values_of_three_are_named(call: Call) -> None:
     done = call("search basic --edges 1 --edges 2 --edges 3")
     assert "expected --edges at most once, got '1', '2' and '3': leave out all but one" in (
@@ -110,38 +96,9 @@ def test_every_algorithm_counts(results: Results) -> None:
     assert page["algorithms"] == ["basic", "folding"]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
-    ("line", "targets"),
-    [
-        ("explore m2/5 --target mappers.py:right,basic", ["mappers.py:right", "basic"]),
-        ("search mappers.py:right,basic --edges 1", ["mappers.py:right", "basic"]),
-        ("search 'basic, mappers.py:right' --edges 1", ["basic", "mappers.py:right"]),
-        ("arena mappers.py:right,basic --suite tiny", ["mappers.py:right", "basic"]),
-    ],
-)
-def test_a_list_with_commas_takes_files(line: str, targets: list[str], results: Results) -> None:
-    entries = results(f"{line} --in-process")["results"]
-    names = [one.get("target") or one.get("algorithm") or one["mapper"] for one in entries]
-    assert sorted(set(names)) == sorted(targets)
-
-
-def test_each_mapper_of_a_list_is_tried_by_conform(results: Results) -> None:
-    found = results(
-        "conform mappers.py:guesses,basic --worlds m1/0 --worlds m1/1 --workers 0", code=1
-    )
-    verdicts = {(one["target"], one["level"]): one["verdict"] for one in found["results"]}
-    assert verdicts["mappers.py:guesses", "result"] == "REFUTED"
-    assert verdicts["basic", "result"] == "SAMPLED"
-
-
 def test_a_file_may_have_a_comma_in_its_name(call: Call, folder: Any) -> None:
     (folder / "a,b.py").write_text("from mappers import right\n")
     assert call("explore m2/5 --target a,b.py:right").exit_code == 0
-
-
-def test_a_wrong_file_in_a_list_is_named(refused: Refused) -> None:
-    refused("explore m2/5 --target basic,gone.py:f", "there is no file 'gone.py'")
 
 
 @pytest.mark.parametrize("classes", [("planar", "simple"), ("simple", "planar"), ("any", "simple")])

@@ -76,8 +76,3 @@ def test_verify_and_explore_run_programs(results: Results) -> None:
     (entry,) = results(f'explore nyc --cmd "{RIGHT}"')["results"]
     (ours,) = results("explore nyc --target basic")["results"]
     assert entry["cost"] == ours["cost"]
-
-
-@pytest.mark.parametrize("line", ["verify basic", "explore nyc --target basic", "search basic"])
-def test_a_target_and_a_program_are_one_too_many(refused: Refused, line: str) -> None:
-    refused(f'{line} --cmd "{RIGHT}"', "one of them, not two")

@@ -132,15 +132,6 @@ def test_a_folder_without_permission_is_refused(
     )
 
 
-def test_after_an_interrupt_the_report_says_so(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    interrupted = Mock(side_effect=KeyboardInterrupt)
-    monkeypatch.setattr("topo_verify.studies.search.search.Search.work", interrupted)
-    assert call(f"search basic --edges 2 {FILES}").exit_code == 3
-    assert "interrupted" in Path("r.html").read_text()
-    assert 'errors="1"' in Path("r.xml").read_text()
-    assert "UNKNOWN" in _title()
-
-
 def test_the_command_line_leaves_out_how_results_are_shown() -> None:
     given = ["search", "a b.py:c", "--report", "r", "--junit=x", "--edges", "3", "--quiet"]
     assert command_line(given) == "topo-verify search 'a b.py:c' --edges 3"

@@ -23,16 +23,6 @@ def test_the_entry_of_an_exhausted_class_has_its_numbers_and_worst_worlds(result
     assert entry["by_edges"][2]["worst"] == ["m3/9"]
 
 
-@pytest.mark.long
-def test_a_counterexample_exits_1_and_its_line_shows_it_again(results: Results, call: Call) -> None:
-    (entry,) = results("search mappers.py:guesses --edges 3 --workers 2", code=1)["results"]
-    first = entry["counterexample"]
-    assert first.keys() == {"world", "edges", "claim", "message", "replay"}
-    assert (first["world"], first["edges"], first["claim"]) == ("m1/1", 1, "map-isomorphic")
-    assert (entry["verdict"], entry["checked"]) == ("REFUTED", 2)
-    assert call(first["replay"].removeprefix("topo-verify ")).exit_code == 1
-
-
 @pytest.mark.nightly
 def test_a_mapper_out_of_time_exits_3(results: Results, call: Call) -> None:
     line = "search mappers.py:loops --edges 1 --workers 0 --world-timeout 0.02"
@@ -65,8 +55,15 @@ def test_the_table_says_how_many_worlds_were_checked(call: Call) -> None:
     assert "max cost" not in text
 
 
-def test_the_smallest_counterexample_is_shown_with_its_replay_command(call: Call) -> None:
-    text = call("search mappers.py:guesses --edges 3 --workers 0").stdout
+def test_the_smallest_counterexample_is_shown_with_a_line_that_shows_it_again(
+    call: Call, results: Results
+) -> None:
+    line = "search mappers.py:guesses --edges 3 --workers 0"
+    (entry,) = results(line, code=1)["results"]
+    first = entry["counterexample"]
+    assert first.keys() == {"world", "edges", "claim", "message", "replay"}
+    assert call(first["replay"].removeprefix("topo-verify ")).exit_code == 1
+    text = call(line).stdout
     assert "REFUTED: 2 of 86 worlds checked, a claim fails in 1" in text
     assert "smallest counterexample: m1/1\n" in text
     assert "  again: topo-verify replay m1/1 --target mappers.py:guesses\n" in text
@@ -95,29 +92,6 @@ def test_worst_shows_costs_and_the_worlds_that_have_them(call: Call) -> None:
     assert "m2/1, m2/2, m2/6" in lines[3]
 
 
-@pytest.mark.nightly
-def test_compare_shows_where_the_first_costs_more(call: Call, results: Results) -> None:
-    line = "search --compare enhancement-ii,enhancement-i --edges 4 --workers 0"
-    (entry,) = results(line)["results"]
-    assert [size["compare"]["dearer"] for size in entry["by_edges"]] == [0, 0, 0, 2]
-    assert [size["compare"]["totals"][0] for size in entry["by_edges"]] == [
-        size["total_cost"] for size in entry["by_edges"]
-    ]
-    assert entry["by_edges"][3]["compare"]["first"][0] == {
-        "world": "m4/16", "cost": 11, "other": 9,
-    }  # fmt: skip
-    text = call(line).stdout
-    assert "A enhancement-ii, B enhancement-i: worlds of 1 to 4 edges" in text
-
-
-@pytest.mark.long
-def test_claims_without_declarations_are_named(call: Call) -> None:
-    text = " ".join(call("search mappers.py:silent --edges 2 --workers 0").stdout.split())
-    assert (
-        "Not judged, because mappers.py:silent declares nothing about it: true-hypothesis-p" in text
-    )
-
-
 # ---------------------------------------------------------------- ledger, Ctrl-C
 
 
@@ -131,21 +105,23 @@ def test_a_ledger_is_resumed(results: Results, folder: Path) -> None:
     assert after["checked"] == 86
 
 
-@pytest.mark.long
-def test_ctrl_c_exits_3_and_prints_what_is_done(folder: Path) -> None:
-    line = "search mappers.py:starts_and_sleeps --move-timeout 60 --format json --workers 2"
-    code, out, error = interrupted(folder, *line.split())
-    envelope = json.loads(out)
-    (entry,) = envelope["results"]
-    assert code == envelope["exit"] == 3
-    assert entry["verdict"] == "UNKNOWN"
-    assert 0 <= entry["checked"] <= 2  # the worlds of one edge, as far as they were done
-    assert error.startswith(f"topo-verify: interrupted after {entry['checked']} of 8,954 worlds")
+def test_two_mappers_are_compared_under_the_names_a_and_b(call: Call, results: Results) -> None:
+    line = "search --compare enhancement-ii,enhancement-i --edges 2 --workers 0"
+    (entry,) = results(line)["results"]
+    assert [size["compare"]["totals"][0] for size in entry["by_edges"]] == [
+        size["total_cost"] for size in entry["by_edges"]
+    ]
+    assert "A enhancement-ii, B enhancement-i: worlds of 1 to 2 edges" in call(line).stdout
 
 
-def test_ctrl_c_tells_whether_the_ledger_has_finished_work(folder: Path, call: Call) -> None:
+def test_ctrl_c_exits_3_and_tells_whether_the_ledger_has_finished_work(
+    folder: Path, call: Call
+) -> None:
     line = "search mappers.py:starts_and_sleeps --move-timeout 60 --workers 1 --ledger"
-    *_, error = interrupted(folder, *f"{line} none --edges 2 --class genus:1".split())
+    words = f"{line} none --edges 2 --class genus:1 --format json".split()
+    code, out, error = interrupted(folder, *words)
+    assert code == json.loads(out)["exit"] == 3
+    assert json.loads(out)["results"][0]["verdict"] == "UNKNOWN"
     assert error.startswith("topo-verify: none has nothing yet: no shard of worlds was finished\n")
     call(f"{line} some --edges 1")
     (folder / "at-work").unlink()

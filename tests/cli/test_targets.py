@@ -39,10 +39,10 @@ def test_the_former_name_of_target_is_answered(line: str, refused: Refused) -> N
 
 @pytest.mark.usefixtures("baseline")
 @pytest.mark.parametrize(
-    "line", [*(line.format("basic --cmd ./x") for line in LINES.values()), "explore m2/3 --cmd ''"]
+    "line", [*(line.format("basic") for line in LINES.values()), "explore m2/3 --target basic"]
 )
-def test_a_program_is_a_target_as_well(line: str, call: Call) -> None:
-    assert call(line).exit_code == 2
+def test_a_program_is_a_target_as_well(line: str, refused: Refused) -> None:
+    refused(f"{line} --cmd ./x", "one of them, not two")
 
 
 @pytest.mark.parametrize("command", [*LINES, "arena", "explore", "replay", "play"])
