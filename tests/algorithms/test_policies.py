@@ -8,7 +8,7 @@ import pytest
 
 from tests.helpers import of_type, trace_of, worlds
 from topo_verify import CATALOGUE, World, examine
-from topo_verify.algorithms import Policies, policies
+from topo_verify.algorithms import policies
 from topo_verify.algorithms.chart import Chart
 from topo_verify.robot.events import Pose
 from topo_verify.robot.percept import Percept
@@ -84,13 +84,6 @@ def test_random_policies_repeat_for_the_same_seed_and_differ_for_others() -> Non
     one, again = runs("random(1)")
     assert one == again
     assert len({str(runs(f"random({seed})")[0]) for seed in range(5)}) > 1
-
-
-def test_the_order_is_drawn_anew_for_each_run_and_not_shared_with_the_pick() -> None:
-    algorithm = CATALOGUE["basic"].with_policies(pick="random(3)", order="random(3)")
-    world = World.from_id("m5/5000")
-    assert trace_of(world, algorithm) == trace_of(world, algorithm)
-    assert algorithm.policies == Policies("random(3)", "random(3)")
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
+from tests.processes import gone
 from tests.studies.search.searching import json, search_of, wait_for
 from topo_verify import InputError, InternalError, Limits
 from topo_verify.campaign import backend
@@ -222,13 +223,6 @@ def test_a_loss_behind_the_counterexample_is_not_counted(*, keep_going: bool, fa
 
 
 @pytest.mark.long
-def test_a_worker_that_is_killed_once_leaves_the_verdict_open() -> None:
-    found = search("mappers.py:killed_once", edges=3, workers=2)
-    assert (found.verdict, found.checked, found.counterexample) == ("UNKNOWN", 85, None)
-    assert [(one.world, one.how) for one in found.lost] == [("m3/21", "signal 9")]
-
-
-@pytest.mark.long
 def test_a_lost_worker_is_remembered_by_a_store(folder: Path) -> None:
     mappers = targets("mappers.py:killed_once")
     identity = search_campaign(mappers, edges=3).identity(source_hash(mappers))
@@ -262,17 +256,6 @@ def test_a_mapper_that_cannot_be_interrupted_is_given_up(monkeypatch: pytest.Mon
     assert first is not None
     assert first.world == "m3/21"
     assert "its process was ended, for it gave no sign of life for" in first.message
-
-
-@pytest.mark.nightly
-def test_a_mapper_that_loops_ends_at_its_time_limit() -> None:
-    found = search("mappers.py:loops", edges=3, workers=2, limits=LOOPED)
-    alone = search("mappers.py:loops", edges=3, limits=LOOPED)
-    # What is run again has its own time limits, which are too short for a busy machine.
-    once, twice = (msgspec.structs.replace(one, run_again=None) for one in (found, alone))
-    assert json(once) == json(twice)
-    assert found.counterexample is not None
-    assert "did not move for 0.8 s" in found.counterexample.message
 
 
 def test_a_note_names_the_world_of_a_mapper_that_loops_and_advises_nothing_given() -> None:
@@ -368,14 +351,6 @@ SEARCHER = """
 from topo_verify.studies.search.search import search
 search("mappers.py:{name}", edges=4, workers=2)
 """
-
-
-def gone(pid: int) -> bool:
-    """Is there no such process, or only its remains?"""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
-    except FileNotFoundError:
-        return True
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="no /proc to look for processes")

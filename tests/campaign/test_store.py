@@ -338,15 +338,6 @@ def test_the_catalogue_runs_in_this_process_whatever_is_asked() -> None:
     assert searched(msgspec.structs.replace(SMALL, in_process=False)) == once
 
 
-def test_a_changed_source_is_refused(here: Path) -> None:
-    campaign = planned("mappers.py:right", 2)
-    searched(campaign)
-    with (here / "mappers.py").open("a") as file:
-        file.write("changed = True\n")
-    with pytest.raises(InputError, match="the source of the mapper has changed since"):
-        searched(campaign)
-
-
 @pytest.mark.parametrize(
     ("version", "words"),
     [

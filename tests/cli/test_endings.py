@@ -11,8 +11,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
-from collections.abc import Callable
 from pathlib import Path
 from unittest.mock import Mock
 from xml.etree import ElementTree as ET
@@ -20,7 +18,9 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from tests.cli.conftest import Call, Program, interrupted
+from tests.processes import state
 from tests.python import python
+from tests.studies.search.searching import wait_for
 from topo_verify import World
 from topo_verify.cli import runs
 
@@ -432,18 +432,6 @@ def _processes(of: int) -> list[int]:
     return found + [process for child in found for process in _processes(child)]
 
 
-def _state(process: int) -> str:
-    return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
-
-
-def _await(condition: Callable[[], bool]) -> None:
-    for _ in range(3000):
-        if condition():
-            return
-        time.sleep(0.01)
-    raise AssertionError("it does not come")
-
-
 @ON_LINUX
 @pytest.mark.parametrize("mapper", ["terminates", "hangs_up", "kills", "exits"])
 @pytest.mark.parametrize(
@@ -493,9 +481,9 @@ def test_a_stopped_command_stops_its_child_and_goes_on_with_it(folder: Path) -> 
     with _begun(folder, "--workers", "0") as running:
         both = [running.pid, _processes(running.pid)[0]]
         running.send_signal(signal.SIGTSTP)
-        _await(lambda: [_state(process) for process in both] == ["T", "T"])
+        wait_for(lambda: [state(process) for process in both] == ["T", "T"])
         running.send_signal(signal.SIGCONT)
-        _await(lambda: "T" not in {_state(process) for process in both})
+        wait_for(lambda: "T" not in {state(process) for process in both})
         running.send_signal(signal.SIGINT)
         out, _ = running.communicate(timeout=60)
     assert running.returncode == json.loads(out)["exit"] == 3
@@ -510,5 +498,5 @@ def _begun(folder: Path, *more: str) -> subprocess.Popen[str]:
         text=True,
         process_group=0,  # stopping is for a group that a shell controls
     )
-    _await((folder / "at-work").exists)
+    wait_for((folder / "at-work").exists)
     return running

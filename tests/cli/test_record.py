@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Call, Refused, Results
+from tests.cli.conftest import Call, Results
 from topo_verify.studies.baseline import file
 
 
@@ -48,14 +48,6 @@ def test_a_store_is_resumed_in_more_worlds_and_by_compare(results: Results) -> N
         )
     ]
     assert stored == [0, 2, 13]
-
-
-def test_a_store_of_other_runs_is_refused(call: Call, refused: Refused) -> None:
-    assert call("record basic --worlds m1/0 --out b --store runs.db").exit_code == 0
-    for line in ("record folding", "record basic --pick last", "record basic --budget 9"):
-        refused(
-            f"{line} --worlds m1/0 --out b --store runs.db", "store runs.db holds another campaign"
-        )
 
 
 def test_limits_worlds_seed_and_policies_are_in_the_file(call: Call, folder: Path) -> None:

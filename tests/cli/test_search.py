@@ -95,16 +95,6 @@ def test_worst_shows_costs_and_the_worlds_that_have_them(call: Call) -> None:
 # ---------------------------------------------------------------- ledger, Ctrl-C
 
 
-@pytest.mark.long
-def test_a_ledger_is_resumed(results: Results, folder: Path) -> None:
-    line = "search basic --workers 2 --ledger done --edges"
-    (before,) = results(f"{line} 2")["results"]
-    assert (folder / "done").exists()
-    (after,) = results(f"{line} 3")["results"]
-    assert after["by_edges"][:2] == before["by_edges"]
-    assert after["checked"] == 86
-
-
 def test_two_mappers_are_compared_under_the_names_a_and_b(call: Call, results: Results) -> None:
     line = "search --compare enhancement-ii,enhancement-i --edges 2 --workers 0"
     (entry,) = results(line)["results"]

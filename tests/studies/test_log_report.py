@@ -106,11 +106,6 @@ def test_a_table_in_memory_is_told_to_be_written() -> None:
         tv.certify(table)
 
 
-def test_lines_may_end_as_on_an_old_mac(tmp_path: Path) -> None:
-    (tmp_path / "log.csv").write_bytes(b"door,degree,marker\r,1,0\r0,1,\r")
-    assert tv.certify(tmp_path / "log.csv").verdict == "PROVED"
-
-
 def test_a_cell_that_no_table_has_is_refused(tmp_path: Path) -> None:
     (tmp_path / "log.csv").write_text("door,degree,marker\n,1," + "0" * 200_000)
     with pytest.raises(tv.InputError, match="row 2: expected cells of a table: field larger"):

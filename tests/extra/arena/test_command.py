@@ -5,8 +5,6 @@ from __future__ import annotations
 import json
 import re
 import shlex
-import signal
-import subprocess
 import sys
 from pathlib import Path
 
@@ -70,46 +68,6 @@ def test_a_seeded_fault_and_a_lucky_guesser_have_no_place(call: Call, results: R
     assert {*ranked} == {"basic"}
     assert "map-entailed" in broken
     assert "again: topo-verify replay" in broken
-
-
-@pytest.mark.long
-@pytest.mark.parametrize(("then", "now"), [("--in-process", ""), ("", "--in-process")])
-def test_runs_in_our_process_and_runs_apart_do_not_meet(call: Call, then: str, now: str) -> None:
-    """In our process a mapper can replace the checkers: `--in-process` says what a run is worth."""
-    line = "arena mappers.py:silent --suite triangle --workers 0 --out here"
-    assert call(f"{line} {then}").exit_code == 0
-    done = call(f"{line} {now}")
-    assert done.exit_code == 2
-    words = "its in-process is true, now it is false" if then else "false, now it is true"
-    assert words in done.stderr
-    assert done.stderr.count("\n") == 1
-    assert call(f"{line} basic {then}").exit_code == 0
-
-
-KILLER = """
-import os, pathlib, signal
-from topo_verify import CATALOGUE
-
-worlds = []
-
-def kills(robot):
-    worlds.append(robot)
-    if len(worlds) == 3 and not os.path.exists("killed"):
-        os.mkdir("killed")
-        os.kill(os.getpid(), signal.SIGKILL)
-    return CATALOGUE["basic"](robot)
-"""
-
-
-@pytest.mark.nightly
-def test_a_league_that_is_killed_goes_on_where_it_was(call: Call) -> None:
-    Path("killer.py").write_text(KILLER)
-    line = "arena killer.py:kills folding --suite tiny --workers 0 --in-process --out here"
-    command = [sys.executable, "-m", "topo_verify", *line.split()]
-    assert subprocess.run(command, check=False).returncode == -signal.SIGKILL
-    done = call(line.replace("tiny", "small"))
-    assert done.exit_code == 0
-    assert "2 of 8 runs are in here/runs.db" in done.stderr
 
 
 @pytest.mark.parametrize("option", ["--budget 1000", "--world-timeout 61"])
@@ -379,14 +337,6 @@ def test_the_standings_come_first_then_where_each_lost(call: Call) -> None:
     (command,) = (line for line in text.splitlines() if "side by side: topo-verify" in line)
     done = call(command.partition(" topo-verify ")[2])
     assert (done.exit_code, done.stdout[:35]) == (0, "basic-small-1.html: folding, basic ")
-
-
-def test_another_seed_draws_other_worlds(results: Results) -> None:
-    one, other = (
-        results(f"arena basic --suite small --workers 0 --seed {n}")["results"] for n in (0, 8)
-    )
-    assert one[0]["families"][0] == other[0]["families"][0]
-    assert one[0]["families"][1] != other[0]["families"][1]
 
 
 def test_a_mapper_that_assumes_planar_worlds_is_left_out_of_others(call: Call) -> None:

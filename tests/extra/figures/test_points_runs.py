@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-import msgspec
 import pytest
 
 from tests.extra.figures.rows import measured
@@ -27,13 +26,8 @@ FIGURE = figures.Figure("3", "a test", SMALL, ("basic", "enhancement-ii"), {})
 EXTENT = figures.FigureExtent(graphs=2)
 
 
-def made(campaigns: list[MapperCampaign], workers: int = 0) -> dict[PlannedRun, Row]:
-    return {run: row for one in campaigns for row in one.rows(workers) for run in runs_of(row)}
-
-
-def alike(rows: dict[PlannedRun, Row]) -> dict[PlannedRun, Row]:
-    """The rows without what differs from run to run."""
-    return {run: msgspec.structs.replace(row, seconds=0.0) for run, row in rows.items()}
+def made(campaigns: list[MapperCampaign]) -> dict[PlannedRun, Row]:
+    return {run: row for one in campaigns for row in one.rows(0) for run in runs_of(row)}
 
 
 def test_a_row_has_what_the_run_cost_and_how_many_claims_held() -> None:
@@ -44,15 +38,6 @@ def test_a_row_has_what_the_run_cost_and_how_many_claims_held() -> None:
     assert (row.edges, row.vertices) == (len(world.edges), len(world.vertices))
     assert row.least == world.least_cost()
     assert ({judged.status for judged in row.claims}, row.findings) == ({"ok"}, ())
-
-
-@pytest.mark.long
-def test_workers_make_the_same_rows(tmp_path: Path) -> None:
-    with Store(tmp_path / "one.db") as one, Store(tmp_path / "two.db") as two:
-        here = made(line_campaigns([FIGURE], EXTENT, "reference", one))
-        there = made(line_campaigns([FIGURE], EXTENT, "reference", two), workers=2)
-    assert len(here) == 4
-    assert alike(there) == alike(here)
 
 
 def test_every_pair_of_policies_is_a_run_and_another_call_goes_on(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from tests.programs.programs import compiled, conforming, javascript, misbehaving, served
+from tests.programs.programs import compiled, conforming, javascript, misbehaving
 from topo_verify.campaign.backend import pooled
 from topo_verify.errors import InputError
 from topo_verify.robot.events import Start, read_trace
@@ -84,16 +84,6 @@ def test_costs_are_those_of_worlds_that_are_mapped_rightly() -> None:
     found = standings(f"{MAPPERS}:guesses", "edges<=2")
     assert found["cost"].passed == found["result"].passed < 12
     assert len(found["cost"].priced) == found["cost"].passed
-
-
-@pytest.mark.nightly
-@pytest.mark.parametrize("workers", [0, 1, 3])
-def test_the_number_of_workers_changes_nothing(workers: int) -> None:
-    target, limits = served(f"{MAPPERS}:ignores_direction"), Limits(budget=60)
-    texts = ("edges<=2", "m3/14", "m4/41")
-    alone = standings(target, *texts, like="basic", limits=limits)
-    found = standings(target, *texts, like="basic", limits=limits, workers=workers)
-    assert msgspec.json.encode(found) == msgspec.json.encode(alone)
 
 
 def test_a_python_mapper_that_ends_its_worker_is_a_finding(tmp_path: Path) -> None:

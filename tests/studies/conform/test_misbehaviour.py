@@ -5,16 +5,15 @@ Each program is right in the first and the third world and misbehaves in the sec
 
 from __future__ import annotations
 
-import os
-import re
-import time
 from pathlib import Path
 
 import pytest
 
 from tests.marks import with_marks
+from tests.processes import gone
 from tests.programs.misbehaving import WAYS
 from tests.programs.programs import kinds, messages, misbehaving, outcomes
+from tests.studies.search.searching import wait_for
 from topo_verify.programs.misbehaviour import MISBEHAVIOURS
 from topo_verify.robot.limits import Limits
 
@@ -149,30 +148,9 @@ def test_a_program_that_moves_on_when_its_time_is_over_is_undecided() -> None:
 # ---------------------------------------------------------------- nothing is left behind
 
 
-def alive(process: int) -> bool:
-    """Is there such a process, and is it more than a zombie?"""
-    try:
-        status = Path(f"/proc/{process}/status").read_text()
-    except FileNotFoundError:
-        return False
-    return re.search(r"^State:\s+Z", status, re.MULTILINE) is None
-
-
-def gone(process: int, *, within: float = 5.0) -> bool:
-    """Is it gone, perhaps after a moment?"""
-    until = time.monotonic() + within
-    while alive(process) and time.monotonic() < until:
-        time.sleep(0.01)
-    return not alive(process)
-
-
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no /proc here")
 @pytest.mark.parametrize("way", ["leaves a child", "leaves a child in a session of its own"])
 def test_children_that_live_on_are_ended(way: str) -> None:
     outcomes(misbehaving(way), "m1/0", "m1/1", "m1/0", limits=LIMITS)
     (child,) = map(int, Path("lingers").read_text().split())
-    assert gone(child)
-
-
-def test_the_check_for_life_sees_life() -> None:
-    assert alive(os.getpid())
+    wait_for(lambda: gone(child))

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import pytest
 
 from tests.campaign import mappers
-from tests.programs.programs import served
 from tests.small_rows import SmallRows, costs
 from tests.studies.search.searching import searched
 from topo_verify import CATALOGUE, InputError, InternalError, Limits, Robot
@@ -136,26 +134,6 @@ def test_a_mapper_that_is_out_of_time_is_neither_right_nor_wrong() -> None:
     found = search(mappers.strolls, edges=2, limits=Limits(world_timeout=0.01))
     assert (found.verdict, found.checked, found.total) == ("UNKNOWN", 0, 12)
     assert [size.undecided for size in found.by_edges] == [2, 10]
-
-
-@pytest.mark.long
-@pytest.mark.parametrize(
-    ("deed", "verdict"), [("killed_once", "UNKNOWN"), ("segfaults_once", "REFUTED")]
-)
-def test_a_program_that_is_killed_once_is_tried_again(
-    folder: Path, deed: str, verdict: str
-) -> None:
-    found = search(served(f"{folder / 'mappers.py'}:{deed}"), edges=3)
-    assert found.verdict == verdict
-    if verdict == "UNKNOWN":
-        (lost,) = found.lost
-        assert (lost.world, lost.how) == ("m3/21", "its process was ended by SIGKILL")
-        assert found.checked == 85
-    else:
-        assert found.counterexample is not None
-        assert found.counterexample.world == "m3/21"
-        assert "SIGSEGV before it delivered a map" in found.counterexample.message
-        assert "; at the second try it delivered one" in found.counterexample.message
 
 
 @pytest.mark.usefixtures("folder")
