@@ -19,6 +19,8 @@ from topo_verify.proofs.first_order.terms import Function, Structure, Term, Valu
 from topo_verify.proofs.first_order.theory import RULES
 from topo_verify.robot.events import Augment, Confirm, Event, MapDart, Move, Pose, Reject, Start
 from topo_verify.robot.percept import Door, Percept
+from topo_verify.robot.simulator import exit_dart
+from topo_verify.world.rooted_map import World
 
 NO_DOOR = -1
 """`rot(b, i)` where it is not the root, 0."""
@@ -102,6 +104,25 @@ def unary(function: Callable[[int], Value]) -> Function:
 
 def binary(function: Callable[[int, int], Value]) -> Function:
     return function
+
+
+def wraps(degree: int, i: int, j: int) -> bool:
+    return (i - j) % degree == 0
+
+
+def of_world(world: World) -> dict[str, Function]:
+    """What the symbols of a world and of doors mean in this world."""
+    return {
+        "sigma": unary(lambda a: world.sigma[a]),
+        "alpha": unary(lambda a: world.alpha[a]),
+        "deg": unary(lambda a: world.degrees[world.vertex_of[a]]),
+        "inv0": unary(lambda a: world.vertex_of[a] == world.marker_vertex),
+        "rot": binary(lambda a, k: exit_dart(world, a, k)),
+        "root": nullary(world.root or 0),
+        "k0": nullary(0),
+        "succ": unary(lambda k: k + 1),
+        "wraps": wraps,
+    }
 
 
 @dataclass(frozen=True, slots=True)

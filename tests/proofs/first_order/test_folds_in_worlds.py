@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.helpers import any_world, trace_of, worlds
-from tests.proofs.first_order.conformance import binary, nullary, unary
+from tests.proofs.first_order.conformance import binary, of_world, unary
 from topo_verify import World
 from topo_verify.checkers import Fold
 from topo_verify.proofs.first_order.obligations.growth import CLOSED, FITS, PI_ROT, pi, same
@@ -40,9 +40,6 @@ def folded(world: World, doors: list[int]) -> tuple[Structure, Fold]:
     def degree(p: int) -> int:
         return percepts[places[p][0]].degree
 
-    def wraps(degree: int, i: int, j: int) -> bool:
-        return (i - j) % degree == 0
-
     def turned(p: int, door: int) -> int:
         visit, dart = places[p]
         return number[visit, (dart + door) % degree(p)]
@@ -65,15 +62,7 @@ def folded(world: World, doors: list[int]) -> tuple[Structure, Fold]:
         return any(found[r] == found[p] and found[s] == found[q] for r, s in edges)
 
     functions: dict[str, Function] = {
-        "sigma": unary(lambda a: world.sigma[a]),
-        "alpha": unary(lambda a: world.alpha[a]),
-        "deg": unary(lambda a: world.degrees[world.vertex_of[a]]),
-        "inv0": unary(lambda a: world.vertex_of[a] == world.marker_vertex),
-        "rot": binary(lambda a, k: exit_dart(world, a, k)),
-        "root": nullary(world.root or 0),
-        "k0": nullary(0),
-        "succ": unary(lambda k: k + 1),
-        "wraps": wraps,
+        **of_world(world),
         "pturn": unary(lambda p: turned(p, 1)),
         "prot": binary(turned),
         "pdeg": unary(degree),

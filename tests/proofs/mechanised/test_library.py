@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-import shutil
 from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 
-from tests.proofs.mechanised.conftest import LIMIT, nowhere
+from tests.proofs.mechanised.conftest import LIMIT
 from topo_verify.checkers import CLAIMS
 from topo_verify.proofs.mechanised import toolchain
 from topo_verify.proofs.mechanised.theorems import STATEMENTS
@@ -219,8 +218,3 @@ def test_a_call_that_takes_too_long_is_no_refusal(place: Path) -> None:
     (place / "Long.v").write_text("Goal True. do 100000000 idtac. Abort.\n")
     with pytest.raises(toolchain.Unfinished, match=r"coqc took longer than 0\.5 seconds"):
         toolchain.compile_one(place, "Long", timeout=0.5)
-
-
-def test_without_coq_the_way_to_get_it_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(shutil, "which", nowhere)
-    assert "apt-get install --no-install-recommends coq" in toolchain.missing()

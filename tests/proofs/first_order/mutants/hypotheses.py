@@ -35,6 +35,8 @@ def _history(name: str, of: str, words: str, rule: Term) -> RuleMutant:
     )
 
 
+_TRUE_HOMEWARD = {**TRUE, **AWAY, **HOMEWARD}
+_FALSE_HOMEWARD = {**FALSE, **AWAY, **HOMEWARD}
 _ABSOLUTE = t.mrot(mfirst(x), k)
 
 # Also where the own door differs from the one taken.
@@ -111,9 +113,7 @@ REJECTIONS: tuple[RuleMutant, ...] = (
         claims=KEPT,
         rule=_PREFIX,
         scene={
-            **TRUE,
-            **AWAY,
-            **HOMEWARD,
+            **_TRUE_HOMEWARD,
             "another-door": differ(t.mrot(H, D), t.mrot(H, OWN)),
             "rejects": at_h(_PREFIX, D, t.beyond(t.phi(H), D)),
         },
@@ -126,7 +126,7 @@ REJECTIONS: tuple[RuleMutant, ...] = (
         words="the motion expects behind a door what was expected before it",
         claims=KEPT,
         rule=_SHIFTED,
-        scene={**TRUE, **AWAY, **HOMEWARD, "rejects": at_h(_SHIFTED, OWN, t.beyond(t.phi(H), OWN))},
+        scene={**_TRUE_HOMEWARD, "rejects": at_h(_SHIFTED, OWN, t.beyond(t.phi(H), OWN))},
         plays=lambda replay, rule: _one(replay, rule, "own1"),
     ),
     RuleMutant(
@@ -136,12 +136,7 @@ REJECTIONS: tuple[RuleMutant, ...] = (
         words="after a way back, the next door is taken as if the robot were not turned",
         claims=KEPT,
         rule=t.MOTION,
-        scene={
-            **TRUE,
-            **AWAY,
-            **HOMEWARD,
-            "rejects": at_h(t.MOTION, OWN, t.beyond(t.rot(t.phi(H), D), OWN)),
-        },
+        scene={**_TRUE_HOMEWARD, "rejects": at_h(t.MOTION, OWN, t.beyond(t.rot(t.phi(H), D), OWN))},
         plays=_plays_unturned,
     ),
     RuleMutant(
@@ -171,18 +166,20 @@ def _plays_confirm(replay: SceneReplay, rule: Term, doors: tuple[str, ...] = ())
     return matches and whole and not replay.truth("e", "h")
 
 
+def _posed(replay: SceneReplay, rule: Term, vu: Percept) -> list[int]:
+    darts = range(len(replay.chart.alpha))
+    return [h for h in darts if replay.says(rule, vu, e=replay.dart("e"), h=h, b=0)]
+
+
 def _plays_taken(replay: SceneReplay, rule: Term) -> bool:
     vu = replay.behind("e")
-    darts = range(len(replay.chart.alpha))
-    posed = [h for h in darts if replay.says(t.POSED, vu, e=replay.dart("e"), h=h, b=0)]
     taken = replay.says(rule, vu, x=replay.dart("h"), b=0)
+    posed = _posed(replay, t.POSED, vu)
     return taken and replay.dart("h") in posed and not replay.truth("e", "h")
 
 
 def _plays_only(replay: SceneReplay, rule: Term) -> bool:
-    vu = replay.behind("e")
-    darts = range(len(replay.chart.alpha))
-    posed = [h for h in darts if replay.says(rule, vu, e=replay.dart("e"), h=h, b=0)]
+    posed = _posed(replay, rule, replay.behind("e"))
     return posed == [replay.dart("h")] and not replay.truth("e", "h")
 
 
@@ -213,9 +210,7 @@ CONFIRMATIONS: tuple[RuleMutant, ...] = (
         claims=CONFIRMED,
         rule=_DEGREES,
         scene={
-            **FALSE,
-            **AWAY,
-            **HOMEWARD,
+            **_FALSE_HOMEWARD,
             "matches": eq(t.mdeg(t.arrival(H, OWN)), t.deg(t.beyond(BEHIND, OWN))),
         },
         plays=lambda replay, rule: _plays_confirm(replay, rule, ("own1",)),
@@ -227,7 +222,7 @@ CONFIRMATIONS: tuple[RuleMutant, ...] = (
         words="the last percept of the way home is not waited for",
         claims=CONFIRMED,
         rule=t.ALIKE,
-        scene={**FALSE, **AWAY, **HOMEWARD},
+        scene=_FALSE_HOMEWARD,
         plays=_plays_taken,
     ),
     RuleMutant(
@@ -238,9 +233,7 @@ CONFIRMATIONS: tuple[RuleMutant, ...] = (
         claims=CONFIRMED,
         rule=t.ALIKE,
         scene={
-            **FALSE,
-            **AWAY,
-            **HOMEWARD,
+            **_FALSE_HOMEWARD,
             "matches": t.alike(t.arrival(H, OWN), t.beyond(t.rot(BEHIND, D), OWN)),
         },
         plays=_plays_confirm_unturned,
