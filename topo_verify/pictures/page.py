@@ -70,7 +70,8 @@ def page_shell(title: str = "A run, step by step") -> PageShell:
         "style": style,
         "script": script,
     }
-    before, after = (mark_up(half, values) for half in part("page.html").split("{recording}"))
+    whole = part("head.html") + part("page.html")
+    before, after = (mark_up(half, values) for half in whole.split("{recording}"))
     return PageShell(before, after, source_hash(style), source_hash(script))
 
 
@@ -122,9 +123,9 @@ def framed(world: World, run: PlayedRun) -> str:
 
 
 @cache
-def part(name: str) -> str:
-    """The squeezed text of a file in `page/`."""
-    path = resources.files("topo_verify.pictures") / "page" / name
+def part(name: str, room: str = "pictures") -> str:
+    """The squeezed text of a file in `page/` of a room."""
+    path = resources.files(f"topo_verify.{room}") / "page" / name
     return squeezed(path.read_text(encoding="utf-8"), name)
 
 

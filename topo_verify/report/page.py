@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
-from importlib import resources
 from itertools import count, repeat
 from typing import Any, cast
 
@@ -19,8 +18,8 @@ from topo_verify.pictures.page import (
     json_in_page,
     mark_up,
     page_shell,
+    part,
     source_hash,
-    squeezed,
 )
 from topo_verify.pictures.recording import recording
 from topo_verify.report.account import Account, Ending, Exhibit, JudgedCase, JudgedSuite
@@ -43,7 +42,7 @@ def report_page(account: Account, run: Ending) -> str:
     """The page of a run."""
     exhibits = account.exhibits + account.others
     shell = page_shell() if any(map(_is_played, exhibits)) else None
-    style, script = _style(), _part("report.js") if shell is not None else ""
+    style, script = _style(), part("report.js", "report") if shell is not None else ""
     values = {
         "policy": _policy(style, script, shell),
         "title": xml_text(f"topo-verify {run.command}: {clean(account.about)}"),
@@ -53,7 +52,7 @@ def report_page(account: Account, run: Ending) -> str:
         "data": "\n".join(_data(exhibits, shell)),
         "script": script,
     }
-    return mark_up(_part("report.html"), values)
+    return mark_up(part("head.html") + part("report.html", "report"), values)
 
 
 def _policy(style: str, script: str, shell: PageShell | None) -> str:
@@ -66,17 +65,11 @@ def _policy(style: str, script: str, shell: PageShell | None) -> str:
 
 
 @cache
-def _part(name: str) -> str:
-    path = resources.files("topo_verify.report") / "page" / name
-    return squeezed(path.read_text(encoding="utf-8"), name)
-
-
-@cache
 def _style() -> str:
     colours = "".join(
         f"--{name}:light-dark({colour.light},{colour.dark});" for name, colour in PALETTE.items()
     )
-    return f":root{{color-scheme:light dark;{colours}}}\n{_part('report.css')}"
+    return f":root{{color-scheme:light dark;{colours}}}\n{part('report.css', 'report')}"
 
 
 # ---------------------------------------------------------------- the parts
