@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 
 
@@ -10,9 +11,17 @@ def state(process: int) -> str:
     return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
 
 
-def gone(process: int) -> bool:
-    """Is there no such process, or only its remains?"""
+def alive(process: int) -> bool:
+    """Is there such a process, and is it more than its remains?"""
     try:
-        return state(process) == "Z"
+        return state(process) != "Z"
     except FileNotFoundError:
-        return True
+        return False
+
+
+def gone(process: int, *, within: float = 5.0) -> bool:
+    """Is it gone, perhaps after a moment?"""
+    until = time.monotonic() + within
+    while alive(process) and time.monotonic() < until:
+        time.sleep(0.01)
+    return not alive(process)

@@ -5,12 +5,11 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from pathlib import Path
 from typing import Any
 
 
 def python(
-    *words: str | Path,
+    *words: object,
     environment: dict[str, str] | None = None,
     check: bool = False,
     **options: Any,
@@ -22,7 +21,7 @@ def python(
         options: those of `subprocess.run`.
     """
     return subprocess.run(
-        [sys.executable, *words],
+        [sys.executable, *map(str, words)],
         env={**os.environ, **(environment or {})},
         capture_output=True,
         text=True,

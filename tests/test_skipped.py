@@ -1,8 +1,8 @@
 """The list of skipped tests that `.ci/run` ends with."""
 
-import subprocess
-import sys
 from pathlib import Path
+
+from tests.python import python
 
 PROGRAM = Path(__file__).resolve().parent.parent / ".ci" / "skipped.py"
 
@@ -12,8 +12,7 @@ def printed(folder: Path, *runs: str) -> str:
     files = [folder / f"{number}.xml" for number in range(len(runs))]
     for file, cases in zip(files, runs, strict=True):
         file.write_text(f"<testsuites><testsuite>{cases}</testsuite></testsuites>")
-    command = [sys.executable, str(PROGRAM), *map(str, files)]
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    return python(PROGRAM, *files, check=True).stdout
 
 
 def case(name: str, skipped: str | None = None) -> str:

@@ -13,7 +13,6 @@ from hypothesis.vendor.pretty import pretty
 import topo_verify
 import topo_verify.algorithms
 from tests.helpers import PAPER, trace_of
-from tests.python import python
 from topo_verify import CATALOGUE, Algorithm
 from topo_verify.algorithms import NAMED, REFERENCE, Policies, algorithm
 from topo_verify.algorithms.chart import Chart
@@ -77,11 +76,6 @@ def test_other_policies_leave_the_catalogue_as_it_is() -> None:
 @pytest.mark.parametrize("name", NAMED)
 def test_the_same_world_gives_the_same_run(name: str) -> None:
     assert trace_of("m7/20231", name) == trace_of("m7/20231", name)
-
-
-def test_the_package_refuses_to_be_imported_under_its_short_name() -> None:
-    done = python("-c", "import algorithms", cwd=ROOT)
-    assert "ImportError: this package is topo_verify.algorithms" in done.stderr
 
 
 def test_the_package_refuses_to_run_as_a_script() -> None:

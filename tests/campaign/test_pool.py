@@ -17,7 +17,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from tests.processes import gone
+from tests.processes import alive
 from tests.studies.search.searching import json, search_of, wait_for
 from topo_verify import InputError, InternalError, Limits
 from topo_verify.campaign import backend
@@ -368,10 +368,10 @@ def test_workers_end_with_their_parent_however_it_ends(
     pids: list[int] = []
     wait_for(lambda: len(pids_in(folder)) >= 2)
     pids = pids_in(folder)
-    assert not any(map(gone, pids))
+    assert all(map(alive, pids))
     parent.send_signal(how)
     parent.wait(timeout=30)
-    wait_for(lambda: all(map(gone, pids)))
+    wait_for(lambda: not any(map(alive, pids)))
 
 
 def pids_in(folder: Path) -> list[int]:

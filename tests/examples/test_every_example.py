@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+
+from tests.python import python
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -69,7 +69,7 @@ def test_the_quiet_mapper_is_the_declared_one_without_its_declarations() -> None
 @pytest.mark.long
 def test_the_pytest_file_beside_the_python_mapper_passes(tmp_path: Path) -> None:
     mapper_folder = shutil.copytree(ROOT / "examples" / "mapper_python", tmp_path / "a")
-    line = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test_mapper.py"]
-    done = subprocess.run(line, cwd=mapper_folder, capture_output=True, text=True, check=False)
+    line = ("-m", "pytest", "-q", "-p", "no:cacheprovider", "test_mapper.py")
+    done = python(*line, cwd=mapper_folder)
     assert done.returncode == 0, done.stdout
     assert "1 passed" in done.stdout

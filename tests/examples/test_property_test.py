@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
+from tests.python import python
+
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "property_test"
-PYTEST = [
-    *(sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"),
-    "--hypothesis-profile=brief",
-]
+PYTEST = ("-m", "pytest", "-q", "-p", "no:cacheprovider", "--hypothesis-profile=brief")
 PROFILE = """
 from hypothesis import Phase, settings
 
@@ -42,9 +39,7 @@ def test_it_fails_with_the_world_that_the_page_says(
     test = tmp_path / "test_my_mapper.py"
     test.write_text(test.read_text().replace("max_edges=30", f"max_edges=30{arguments}"))
     (tmp_path / "conftest.py").write_text(PROFILE)
-    done = subprocess.run(
-        [*PYTEST, test], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    done = python(*PYTEST, test, cwd=tmp_path)
     assert done.returncode == 1
     assert f"world=tv.World.from_id('{world}')" in done.stdout
     assert f"again: topo-verify replay {world} --target my_mapper:explore" in done.stdout
@@ -58,7 +53,5 @@ def test_the_other_tests_of_the_page_pass(tmp_path: Path) -> None:
     for number, block in enumerate(blocks):
         (tmp_path / f"test_{number}.py").write_text(block)
     (tmp_path / "conftest.py").write_text(PROFILE)
-    done = subprocess.run(
-        [*PYTEST, tmp_path], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    done = python(*PYTEST, tmp_path, cwd=tmp_path)
     assert f"{len(blocks)} passed" in done.stdout, done.stdout

@@ -21,12 +21,6 @@ ROOT = HERE.parents[1]
 EXAMPLES = ROOT / "examples"
 
 
-def ran(*words: object, **more: Any) -> subprocess.CompletedProcess[str]:
-    """What comes of this Python behind which these words stand."""
-    line = [sys.executable, *map(str, words)]
-    return subprocess.run(line, capture_output=True, text=True, check=False, **more)
-
-
 def python(*words: object) -> str:
     """A TARGET: these words behind this Python."""
     return "--cmd " + shlex.join([sys.executable, *map(str, words)])

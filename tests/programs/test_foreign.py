@@ -10,7 +10,7 @@ from typing import NoReturn
 import pytest
 
 from tests.helpers import worlds
-from tests.studies.conform.test_misbehaviour import alive, gone
+from tests.processes import alive, gone
 from tests.studies.search.searching import search_of
 from topo_verify import Limits, World, examine, explore
 from topo_verify.campaign.targets import one_target, targets

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.programs.programs import ran
+from tests.python import python as ran
 from topo_verify.programs.isolation import python_command
 
 HIDDEN = "m3/14 is the world"

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.programs.programs import ran
+from tests.python import python as ran
 from topo_verify.errors import HelperLost
 from topo_verify.programs import launcher
 from topo_verify.programs.launcher import launch, prepare

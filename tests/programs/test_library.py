@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from tests.marks import with_marks
 from tests.programs.natives import ROOT, built, hostile
+from tests.python import python
 from topo_verify import InputError, World, examine, explore
 from topo_verify.campaign.targets import one_target, target_arguments, target_text
 from topo_verify.programs.library import header_text, library_file
@@ -144,10 +144,7 @@ def test_the_wrong_sketch_in_rust_is_caught(tmp_path: Path) -> None:
 def test_the_example_for_a_debugger_runs_a_library_in_one_world(tmp_path: Path) -> None:
     library = built(tmp_path).removeprefix("--library ")
     script = ROOT / "examples" / "native_c" / "in_gdb.py"
-    done = subprocess.run(
-        [sys.executable, script, library, "m2/5"], capture_output=True, text=True, check=True
-    )
-    assert "m2/5" in done.stdout
+    assert "m2/5" in python(script, library, "m2/5", check=True).stdout
 
 
 def test_a_sanitizer_is_quoted_by_its_summary() -> None:

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.programs.programs import ran, served
+from tests.programs.programs import served
+from tests.python import python as ran
 
 SCRIPT = """
 import resource, sys

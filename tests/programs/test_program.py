@@ -20,8 +20,9 @@ import pytest
 
 from tests.faults.every import EVERY
 from tests.helpers import worlds
-from tests.programs.programs import ROOT, misbehaving, python, ran, served
-from tests.studies.conform.test_misbehaviour import alive, gone
+from tests.processes import alive, gone
+from tests.programs.programs import ROOT, misbehaving, python, served
+from tests.python import python as ran
 from topo_verify import World, examine, explore
 from topo_verify.campaign.run import HUNG
 from topo_verify.campaign.targets import target_arguments, target_text, targets
@@ -339,11 +340,6 @@ def test_a_program_that_cannot_be_started_is_bad_input(tmp_path: Path) -> None:
         player = Program([command])
         with pytest.raises(InputError, match="cannot start"):
             player.start()
-
-
-def test_a_program_has_no_policies_of_ours() -> None:
-    with pytest.raises(InputError, match="has no policies"):
-        targets("--cmd ./mapper", pick="last")
 
 
 def test_misbehaviour_is_an_exception_that_a_mapper_cannot_swallow() -> None:

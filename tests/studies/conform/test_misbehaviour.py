@@ -13,7 +13,6 @@ from tests.marks import with_marks
 from tests.processes import gone
 from tests.programs.misbehaving import WAYS
 from tests.programs.programs import kinds, messages, misbehaving, outcomes
-from tests.studies.search.searching import wait_for
 from topo_verify.programs.misbehaviour import MISBEHAVIOURS
 from topo_verify.robot.limits import Limits
 
@@ -153,4 +152,4 @@ def test_a_program_that_moves_on_when_its_time_is_over_is_undecided() -> None:
 def test_children_that_live_on_are_ended(way: str) -> None:
     outcomes(misbehaving(way), "m1/0", "m1/1", "m1/0", limits=LIMITS)
     (child,) = map(int, Path("lingers").read_text().split())
-    wait_for(lambda: gone(child))
+    assert gone(child)
