@@ -25,6 +25,7 @@ from topo_verify.robot.percept import Percept
 from topo_verify.world.enumeration import rank_order
 
 E = TypeVar("E", bound=Event)
+T = TypeVar("T")
 
 EMPTY = World((), (), None)
 """One vertex and nothing else: the legal world without a dart."""
@@ -32,6 +33,18 @@ EMPTY = World((), (), None)
 
 EIGHT = {*list(CLAIMS)[:8]}
 """The claims that ask whether the mapper was right in this world."""
+
+
+def some(value: T | None) -> T:
+    """The value, which must be there."""
+    assert value is not None
+    return value
+
+
+def typed(kind: type[T], value: object) -> T:
+    """The value, which must be of this type."""
+    assert isinstance(value, kind)
+    return value
 
 
 # ---------------------------------------------------------------- worlds

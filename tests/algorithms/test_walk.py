@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.helpers import EMPTY, PAPER, doors, of_type, sketch, trace_of
+from tests.helpers import EMPTY, PAPER, doors, of_type, sketch, trace_of, typed
 from topo_verify import World
 from topo_verify.algorithms import NAMED
 from topo_verify.algorithms.chart import Chart
@@ -107,7 +107,6 @@ def test_the_empty_world_is_its_own_map_and_costs_nothing(name: str) -> None:
 
 def test_the_map_is_the_world_in_the_numbers_of_s() -> None:
     world = World.from_id("m5/1694")
-    finish = trace_of(world)[-1]
-    assert isinstance(finish, Finish)
+    finish = typed(Finish, trace_of(world)[-1])
     assert World.from_map(finish.map).code == world.code
     assert finish.cost == len(doors(trace_of(world)))

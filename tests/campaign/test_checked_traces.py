@@ -7,7 +7,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from tests.helpers import trace_of
+from tests.helpers import trace_of, typed
 from topo_verify import World, explore
 from topo_verify.algorithms import NAMED
 from topo_verify.campaign import judge as judging
@@ -44,8 +44,7 @@ def test_reports_are_the_same_and_fewer_traces_are_checked(checked: list[object]
 
 
 def test_of_the_start_only_the_percept_is_compared(checked: list[object]) -> None:
-    start = TRACE[0]
-    assert isinstance(start, Start)
+    start = typed(Start, TRACE[0])
     known = CheckedTraces()
     for algorithm in ("basic", "another"):
         renamed = msgspec.structs.replace(start, algorithm=algorithm)
@@ -58,8 +57,7 @@ def test_of_the_start_only_the_percept_is_compared(checked: list[object]) -> Non
 
 
 def _with_another_end(trace: tuple[Event, ...]) -> tuple[Event, ...]:
-    finish = trace[-1]
-    assert isinstance(finish, Finish)
+    finish = typed(Finish, trace[-1])
     return (*trace[:-1], msgspec.structs.replace(finish, cost=1.0))
 
 
@@ -69,8 +67,7 @@ class NamedMove(Move, frozen=True, tag="move"):  # type: ignore[misc]  # pyright
 
 def _with_another_type(trace: tuple[Event, ...]) -> tuple[Event, ...]:
     place = next(place for place, event in enumerate(trace) if isinstance(event, Move))
-    move = trace[place]
-    assert isinstance(move, Move)
+    move = typed(Move, trace[place])
     other = NamedMove(move.door, move.percept, move.purpose)
     return (*trace[:place], other, *trace[place + 1 :])
 

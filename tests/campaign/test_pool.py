@@ -17,6 +17,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
+from tests.helpers import some
 from tests.processes import alive
 from tests.studies.search.searching import json, search_of, wait_for
 from topo_verify import InputError, InternalError, Limits
@@ -107,8 +108,7 @@ def test_progress_is_told_while_workers_work() -> None:
 @pytest.mark.parametrize("number", [1, 2])
 def test_a_world_that_kills_its_worker_twice_is_a_finding(name: str, how: str, number: int) -> None:
     found = search(f"mappers.py:{name}", edges=3, workers=number)
-    first = found.counterexample
-    assert first is not None
+    first = some(found.counterexample)
     assert (first.world, first.claim) == ("m3/21", "map-isomorphic")
     assert first.message == f"no map was delivered: it ended its process ({how})"
     assert first.replay == f"topo-verify replay m3/21 --target mappers.py:{name}"
@@ -200,8 +200,7 @@ def test_a_crash_is_a_finding_even_if_the_world_passes_when_tried_again(
     *, keep_going: bool
 ) -> None:
     found = search("mappers.py:segfaults_once", edges=3, workers=1, keep_going=keep_going)
-    first = found.counterexample
-    assert first is not None
+    first = some(found.counterexample)
     assert (found.verdict, first.world) == ("REFUTED", "m3/21")
     assert found.checked == (86 if keep_going else 12 + 40)
     assert first.message == (
@@ -252,8 +251,7 @@ def test_a_shard_that_strangers_kill_again_and_again_is_cut_down_to_worlds_and_d
 def test_a_mapper_that_cannot_be_interrupted_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(backend, "SILENCE_GRACE", 1.0 - Limits().world_timeout)
     found = search("mappers.py:holds", edges=3, workers=2, limits=SHORT)
-    first = found.counterexample
-    assert first is not None
+    first = some(found.counterexample)
     assert first.world == "m3/21"
     assert "its process was ended, for it gave no sign of life for" in first.message
 
@@ -489,10 +487,8 @@ def test_the_pieces_of_an_earlier_task_come_first_and_in_order() -> None:
     pieces = Pieces(toy_work())
     tasks = iter([[1, 2], [3, 4], [5]])
     earlier, later = pieces.next(tasks), pieces.next(tasks)
-    assert earlier is not None
-    assert later is not None
-    pieces.replace(earlier, [[1], [2]])
-    pieces.replace(later, [[3], [4]])
+    pieces.replace(some(earlier), [[1], [2]])
+    pieces.replace(some(later), [[3], [4]])
     handed_out = [pieces.next(tasks) for _ in range(4)]
     assert [piece and piece.task for piece in handed_out] == [[1], [3], [5], None]
     for piece in handed_out[1::-1]:

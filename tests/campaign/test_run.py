@@ -14,7 +14,7 @@ from typing import Any, cast
 
 import pytest
 
-from tests.helpers import path
+from tests.helpers import path, typed
 from topo_verify import CATALOGUE, InputError, Limits, Robot, World, examine, explore
 from topo_verify.algorithms import Policies
 from topo_verify.campaign.judge import judge, undecided
@@ -125,8 +125,7 @@ def test_an_algorithm_a_function_and_a_target_are_all_mappers() -> None:
 
 
 def test_a_large_world_has_no_id_in_its_trace() -> None:
-    start = explore(path(250, marker=0)).trace[0]
-    assert isinstance(start, Start)
+    start = typed(Start, explore(path(250, marker=0)).trace[0])
     assert start.world is None
 
 

@@ -19,6 +19,7 @@ from typing import Any
 import msgspec
 import pytest
 
+from tests.helpers import some
 from tests.python import python
 from tests.studies.search.searching import shards_in
 from topo_verify import InputError, Limits
@@ -277,8 +278,7 @@ def test_a_file_holds_several_campaigns_each_under_its_name() -> None:
         known = store.campaign(campaign.identity("hash"), Loaded(), name="other", all_rows=True)
         moved = msgspec.structs.replace(shard, start=7, stop=8)
         for place in (shard, moved):  # a world of a list is known wherever it stands
-            result = known.get(place)
-            assert result is not None
+            result = some(known.get(place))
             assert result.tally.worlds == 5
         with pytest.raises(InputError, match="holds another campaign of one: its seed is 3"):
             store.campaign(campaign.identity("hash"), Loaded(), name="one")
@@ -310,8 +310,7 @@ def test_a_campaign_of_a_changed_mapper_begins_anew_and_the_others_stay() -> Non
         one.put(shard, ShardResult(Tally(worlds=7)))
     with Store("runs.db") as store:
         one, other = campaigns_of(store, "now", "same", renew=changes.append)
-        result = one.get(shard)
-        assert result is not None
+        result = some(one.get(shard))
         assert result.tally.worlds == 7
         assert one.get(more) is None, "it was of the mapper before"
         assert other.get(more) is not None

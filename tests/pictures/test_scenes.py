@@ -7,7 +7,7 @@ from itertools import islice
 import msgspec
 import pytest
 
-from tests.helpers import trace_of, worlds
+from tests.helpers import some, trace_of, typed, worlds
 from topo_verify import World
 from topo_verify.algorithms import CATALOGUE
 from topo_verify.campaign.run import explore
@@ -83,8 +83,7 @@ def test_the_places_of_evidence_show_the_percepts_that_it_cites(name: str) -> No
         for moment in run.moments:
             if not isinstance(moment.event, ev.Reject):
                 continue
-            found = moment.mismatch
-            assert found is not None
+            found = some(moment.mismatch)
             if found.evidence.observed is not None:
                 assert run.map.seen_at(found.trail[-1]) == found.evidence.observed
                 if found.leaves is None:
@@ -106,8 +105,7 @@ def test_a_finding_stands_at_its_event() -> None:
     wrong = ev.Confirm(7, 4, "motion")
     run = playback("m4/41", "enhancement-ii", {14: wrong})
     assert "no-false-confirm" in {finding.claim for finding in run.moments[14].findings}
-    assert run.first_finding is not None
-    assert run.first_finding.event == 14
+    assert some(run.first_finding).event == 14
 
 
 def test_behind_an_illegal_move_nothing_is_known() -> None:
@@ -126,8 +124,7 @@ def test_a_false_map_is_told_from_a_true_one() -> None:
 
 def test_evidence_that_is_not_there_has_no_place() -> None:
     trace = trace_of("m4/41", "enhancement-ii")
-    reject = trace[10]
-    assert isinstance(reject, ev.Reject)
+    reject = typed(ev.Reject, trace[10])
     for evidence in (ev.Evidence(2), ev.Evidence(-1), ev.Evidence(1, sequence=3)):
         false = msgspec.structs.replace(reject, evidence=evidence)
         assert playback("m4/41", "enhancement-ii", {10: false}).moments[10].mismatch is None
@@ -140,8 +137,7 @@ def test_findings_about_the_run_come_after_those_of_an_event() -> None:
     run = playback("m4/41")
     assert run.first_finding is None
     cut = Playback(run.world, run.trace[:9], check(run.world, run.trace[:9]))
-    assert cut.first_finding is not None
-    assert cut.first_finding in cut.about_the_run
+    assert some(cut.first_finding) in cut.about_the_run
 
 
 def test_a_world_without_edges_has_one_moment_and_a_finish() -> None:

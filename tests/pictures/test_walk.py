@@ -8,7 +8,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from tests.helpers import trace_of, worlds
+from tests.helpers import some, trace_of, worlds
 from tests.pictures.played import confirms_at_once
 from tests.pictures.played import playback_of as played
 from topo_verify import CATALOGUE, Percept, Robot, World, examine
@@ -80,8 +80,7 @@ def test_a_mapper_that_no_command_line_finds_is_played_from_python() -> None:
 
 
 def test_the_view_ends_at_the_first_finding_and_all_shows_the_rest(unturned: Playback) -> None:
-    assert unturned.first_finding is not None
-    assert unturned.first_finding.event == 10
+    assert some(unturned.first_finding).event == 10
     brief, whole = text(unturned), text(unturned, extent=ALL)
     assert "48 more events" in brief
     assert "\n   11 " not in brief
@@ -144,8 +143,7 @@ def test_of_a_large_s_the_vertices_are_listed_that_the_moment_is_about() -> None
 
 def test_a_circle_is_shown_once() -> None:
     run = played("m3/8", walks)
-    found = circle(run)
-    assert found is not None
+    found = some(circle(run))
     assert (found.first, found.last, found.period, found.moves) == (1, 2, 2, 36)
     shown = text(run)
     assert "Events 1 to 2 repeat to the end of the run, 18 times in all." in shown

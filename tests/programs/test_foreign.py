@@ -9,7 +9,7 @@ from typing import NoReturn
 
 import pytest
 
-from tests.helpers import worlds
+from tests.helpers import some, worlds
 from tests.processes import alive, gone
 from tests.studies.search.searching import search_of
 from topo_verify import Limits, World, examine, explore
@@ -226,8 +226,7 @@ def test_the_line_of_a_hang_is_told(folder: Path, in_process: bool) -> None:
 @pytest.mark.parametrize("name", ["no_door", "no_purpose", "no_decision", "no_json"])
 def test_the_line_of_a_misuse_is_told(folder: Path, name: str, in_process: bool) -> None:
     line = (folder / "mine.py").read_text().splitlines().index(f"def {name}(robot):") + 2
-    told = why(name, in_process=in_process)
-    assert told is not None
+    told = some(why(name, in_process=in_process))
     assert told.endswith(f"; it was at mine.py, line {line}")
 
 
@@ -394,8 +393,7 @@ def test_an_exception_in_the_middle_of_a_move_ends_that_world_and_no_other(
         for _ in range(16):
             run = explore(WORLD, mapper.target, limits=Limits(budget=1000))
             assert str(run.stopped).startswith(why)
-            assert run.misbehaved is not None
-            assert run.misbehaved.kind == "no-map"
+            assert some(run.misbehaved).kind == "no-map"
             processes.add(mapper.process)
         assert len(processes) == 1
         if not fresh:
@@ -497,8 +495,7 @@ def test_its_process_ends_with_the_last_object_that_uses_it(folder: Path) -> Non
     target = one_target("tells.py:explore", in_process=False)
     study = search_of(target, edges=1, in_process=False)
     study.work()
-    failure = study.entry().counterexample
-    assert failure is not None
+    failure = some(study.entry().counterexample)
     process = int(failure.message.split("OSError: ")[1].split()[0])
     assert alive(process)
     del target, study

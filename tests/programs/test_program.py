@@ -19,7 +19,7 @@ from pathlib import Path
 import pytest
 
 from tests.faults.every import EVERY
-from tests.helpers import worlds
+from tests.helpers import some, worlds
 from tests.processes import alive, gone
 from tests.programs.programs import ROOT, misbehaving, python, served
 from tests.python import python as ran
@@ -155,8 +155,7 @@ def test_a_fresh_process_plays_after_a_failed_world(tells: str) -> None:
         first = said(player)
         Path("extra").write_text("garbage")
         explore(EDGE, player.target)
-        assert player.misbehaved is not None
-        assert player.misbehaved.kind == "not-json"
+        assert some(player.misbehaved).kind == "not-json"
         Path("extra").unlink()
         assert said(player) != first
 
@@ -165,8 +164,7 @@ def test_what_was_written_between_two_worlds_is_out_of_turn(tells: str) -> None:
     with program(tells) as player:
         Path("extra").write_text('{"type": "error"}\n{"type": "move", "door": 0}')
         explore(EDGE, player.target)
-        assert player.misbehaved is not None
-        assert player.misbehaved.kind == "out-of-turn"
+        assert some(player.misbehaved).kind == "out-of-turn"
 
 
 def test_at_the_end_the_program_is_told_to_stop(tells: str) -> None:
@@ -207,8 +205,7 @@ def test_a_map_that_was_not_flushed_is_among_the_causes() -> None:
     )
     with program(python("-c", "\n".join(lines))) as player:
         stopped = explore(EDGE, player.target, limits=Limits(move_timeout=0.5)).stopped
-    assert stopped is not None
-    assert "not flushed" in stopped
+    assert "not flushed" in some(stopped)
 
 
 KILLED = """
@@ -255,8 +252,7 @@ def test_a_process_that_was_reaped_elsewhere_is_closed_in_silence(tells: str, by
     """In a circle of references `Popen.__del__` may run first, and reaps a process that crashed."""
     player = program(tells)
     player.start()
-    child = player._child
-    assert child is not None
+    child = some(player._child)
     os.kill(child.process, signal.SIGSEGV)
     os.waitid(os.P_PID, child.process, os.WEXITED | os.WNOWAIT)
     if by == "Popen":

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.helpers import some
 from tests.helpers import worlds as every_world
 from tests.strategies import features
 from topo_verify import World
@@ -112,8 +113,7 @@ def test_the_tightest_bounds_seldom_lead_into_a_dead_end(
 @given(steps=st.binary(max_size=40), further=st.binary(min_size=1, max_size=40))
 def test_a_grown_map_is_a_world_with_an_edge_a_byte(steps: bytes, further: bytes) -> None:
     for kinds in (BALANCED, CROWDED):
-        it = grow(Shape(), kinds, steps, further)
-        assert it is not None
+        it = some(grow(Shape(), kinds, steps, further))
         world = World(it.alpha, it.sigma, 0 if steps else None)  # connected, or it is refused
         assert len(world.edges) == len(steps)
         assert len(it.closings) == len(steps) - len(world.vertices) + 1
@@ -144,7 +144,6 @@ def test_large_worlds_grow_too(world: World) -> None:
 def test_far_corners_of_large_worlds_are_reached() -> None:
     """A leaf at the oldest of 78 corners, the vertex of dart 0: out of reach for one byte."""
     steps, further = bytes([1] * 39 + [77 % 64]), bytes([0] * 39 + [77 // 64])
-    it = grow(Shape(), BALANCED, steps, further)
-    assert it is not None
+    it = some(grow(Shape(), BALANCED, steps, further))
     assert it.vertex[-2] in (0, 1)
     assert grow(Shape(), BALANCED, steps) != it

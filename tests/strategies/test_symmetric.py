@@ -8,6 +8,7 @@ import pytest
 from hypothesis import find, given, settings
 from hypothesis import strategies as st
 
+from tests.helpers import some
 from tests.strategies import features
 from topo_verify import families
 from topo_verify.strategies import symmetric_worlds
@@ -100,8 +101,7 @@ def test_all_vertices_of_a_rosette_look_alike(
 @settings(max_examples=60)
 @given(sheets=st.integers(2, 6), steps=st.binary(min_size=1, max_size=7), drawn=st.binary())
 def test_all_beads_of_a_necklace_look_alike(sheets: int, steps: bytes, drawn: bytes) -> None:
-    bead = grow(Shape(min_cycles=1), BALANCED, steps)
-    assert bead is not None
+    bead = some(grow(Shape(min_cycles=1), BALANCED, steps))
     world = cover(necklace(Shape(), sheets, bead, cycle(drawn or b"\0")), sheets, 0)
     assert len(world.edges) == sheets * len(steps)
     for sheet in range(sheets):
@@ -112,8 +112,7 @@ def test_all_beads_of_a_necklace_look_alike(sheets: int, steps: bytes, drawn: by
 @given(sheets=st.integers(2, 6), steps=st.binary(min_size=4, max_size=9), drawn=st.binary())
 def test_the_cover_of_a_fitting_bead_is_simple(sheets: int, steps: bytes, drawn: bytes) -> None:
     fitting = Shape(min_cycles=1, max_parallel=sheets, max_loops=(sheets - 1) // 2)
-    bead = grow(fitting, BALANCED, steps)
-    assert bead is not None
+    bead = some(grow(fitting, BALANCED, steps))
     small = necklace(Shape(max_parallel=1, max_loops=0), sheets, bead, cycle(drawn or b"\0"))
     assert cover(small, sheets, 0).is_simple
 

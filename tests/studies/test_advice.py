@@ -7,6 +7,7 @@ from random import Random
 import pytest
 
 import topo_verify as tv
+from tests.helpers import some
 from topo_verify.robot.events import Event, Start
 from topo_verify.robot.percept import Door
 from topo_verify.robot.simulator import exit_dart, first_percept
@@ -53,8 +54,7 @@ def test_who_follows_it_proves_the_map_of_100_random_worlds() -> None:
         strolled = number % 2
         walker.stray(strolled * random.randrange(1, 20), random)
         cost = walker.follow()
-        known = certify(walker.log).map
-        assert known is not None
+        known = some(certify(walker.log).map)
         assert known.is_isomorphic(world)
         assert strolled or world.least_cost() <= cost <= tv.explore(world, "homing").cost
 
@@ -65,8 +65,7 @@ def test_the_way_home_leads_to_the_marker() -> None:
     walker = Walker(world)
     for _ in range(20):
         walker.stray(3, random)
-        way = certify(walker.log).advice
-        assert way is not None
+        way = some(certify(walker.log).advice)
         walker.go(way.home)
         assert world.vertex_of[walker.at] == world.vertex_of[world.root or 0]
 
@@ -90,6 +89,5 @@ def test_where_thinking_takes_too_long_the_way_home_remains(
     monkeypatch.setattr(adviser, "MOST_THOUGHTS", 2)
     walker = Walker(tv.families.lattice(3, 3))
     walker.go((0, 1, 1))
-    way = certify(walker.log).advice
-    assert way is not None
+    way = some(certify(walker.log).advice)
     assert (way.walk, len(way.home)) == ((), 3)

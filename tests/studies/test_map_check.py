@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.helpers import EMPTY, any_world, path, trace_of, worlds
+from tests.helpers import EMPTY, any_world, path, some, trace_of, typed, worlds
 from tests.world.test_least_cost import shape, walked
 from topo_verify import World, families
 from topo_verify.errors import InputError
@@ -60,8 +60,7 @@ def excess(world: World, longest: int) -> Iterator[int]:
     for doors in walks(world, longest):
         found = check_map(world, log_of(world, doors))
         if found.verdict == "UNKNOWN":
-            cheapest = cheapest_way_on(world, doors, len(found.doors))
-            assert cheapest is not None
+            cheapest = some(cheapest_way_on(world, doors, len(found.doors)))
             yield len(found.doors) - cheapest
 
 
@@ -80,8 +79,7 @@ def test_the_way_on_proves_the_map_behind_every_log(edges: int) -> None:
             log = log_of(world, doors)
             found = check_map(world, log)
             proof = certify((*log, *found.onward))
-            assert proof.map is not None
-            assert proof.map.code == world.code
+            assert some(proof.map).code == world.code
             assert (found.verdict == "PROVED") == (not found.onward) == (not found.unproved)
             assert (found.verdict == "PROVED") == (certify(log).map is not None)
 
@@ -95,8 +93,7 @@ def test_the_way_on_proves_larger_maps_behind_any_log(world: World, data: st.Dat
         at = walked(world, tuple(doors))[1]
     log = log_of(world, tuple(doors))
     proof = certify((*log, *check_map(world, log).onward))
-    assert proof.map is not None
-    assert proof.map.code == world.code
+    assert some(proof.map).code == world.code
 
 
 @pytest.mark.parametrize(
@@ -137,8 +134,7 @@ def test_the_first_event_that_the_map_does_not_show_refutes_it() -> None:
     world = World.from_id("m4/300")
     log = list(tour_log(world))
     for when in range(1, len(log)):
-        event = log[when]
-        assert isinstance(event, Move)
+        event = typed(Move, log[when])
         wrong = msgspec.structs.replace(event, percept=Percept(event.percept.degree + 1, None))
         found = check_map(world, [*log[:when], wrong, *log[when + 1 :], Move(0, Percept(9, None))])
         assert (found.verdict, found.event) == ("REFUTED", when)

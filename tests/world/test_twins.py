@@ -8,6 +8,7 @@ from itertools import combinations
 import pytest
 
 import topo_verify as tv
+from tests.helpers import some
 from topo_verify.errors import InputError, InternalError
 from topo_verify.world import twins
 from topo_verify.world.rooted_map import World
@@ -66,8 +67,7 @@ def test_without_a_marker_trees_alone_are_determined() -> None:
     ("world", "twin"), [("m2/7", "m2/8"), ("m3/30", "m3/31"), ("m6/18704", "m6/18705")]
 )
 def test_the_smallest_pairs_of_all_loopless_and_simple_worlds(world: str, twin: str) -> None:
-    other = World.from_id(world).twin()
-    assert other is not None
+    other = some(World.from_id(world).twin())
     assert other.id == twin
 
 
@@ -88,8 +88,7 @@ def test_why_there_is_none(world: str, why: str) -> None:
 
 
 def test_a_platonic_solid_has_a_twin_on_the_torus() -> None:
-    other = tv.families.cube().twin()
-    assert other is not None
+    other = some(tv.families.cube().twin())
     assert other.genus == 1
 
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.helpers import any_world, of_type, trace_of, worlds
+from tests.helpers import any_world, of_type, some, trace_of, worlds
 from topo_verify import World, examine, explore, families
 from topo_verify.algorithms.beyond.folding import PartialFold
 from topo_verify.checkers import Fold, decision_conclusions
@@ -45,8 +45,7 @@ def seats(trace: Trace, until: int) -> tuple[Fold, dict[int, tuple[int, int]]]:
         if isinstance(event, Move):
             fold.move(event.door, event.percept)
         elif isinstance(event, Augment) and event.kind == "new":
-            entry = fold.partner(place[event.edge])
-            assert entry is not None
+            entry = some(fold.partner(place[event.edge]))
             place |= {event.dart + k: (entry[0], entry[1] + k) for k in range(event.degree)}
     return fold, place
 

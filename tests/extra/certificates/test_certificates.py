@@ -12,7 +12,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from tests.helpers import edited, of_type, trace_of, with_darts, worlds
+from tests.helpers import edited, of_type, some, trace_of, typed, with_darts, worlds
 from tests.proofs.mechanised.conftest import LIMIT, nowhere
 from topo_verify import World, families
 from topo_verify.errors import InputError
@@ -192,19 +192,17 @@ def delivering(delivered: MapData) -> tuple[Event, ...]:
 
 
 def right_map() -> MapData:
-    end = RUN[-1]
-    assert isinstance(end, Finish)
+    end = typed(Finish, RUN[-1])
     return end.map
 
 
 def relabelled() -> MapData:
     """The right map with other numbers for its darts, vertices, edges and ends in another order."""
     right = right_map()
-    assert right.marker is not None
     return MapData(
         tuple(tuple(9 + 7 * dart for dart in (*r[1:], r[0])) for r in right.vertices[::-1]),
         tuple((9 + 7 * y, 9 + 7 * x) for x, y in right.edges[::-1]),
-        9 + 7 * right.marker,
+        9 + 7 * some(right.marker),
     )
 
 
@@ -256,8 +254,7 @@ def test_a_wrong_delivered_map_is_refused_whatever_the_numbering(place: Path) ->
 @needs_ocaml
 def test_a_wrong_numbering_of_the_right_map_is_refused(place: Path) -> None:
     certificate = certificates.certificate_of(RUN)
-    assert certificate.numbering is not None
-    one, two, *rest = certificate.numbering
+    one, two, *rest = some(certificate.numbering)
     for wrong in [(two, one, *rest), (one, two, *rest[:-1]), (one, one, *rest), ()]:
         assert by_program(place, replace(certificate, numbering=wrong)).accepted is False
     nothing = replace(certificate, log=certificate.log[:-1])

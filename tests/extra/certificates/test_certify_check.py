@@ -16,7 +16,7 @@ import msgspec
 import pytest
 
 from tests.cli.conftest import Call, Refused, Results
-from tests.helpers import edited, place, trace_of, with_darts
+from tests.helpers import edited, place, trace_of, typed, with_darts
 from tests.proofs.mechanised.conftest import nowhere
 from topo_verify import families
 from topo_verify.extra.certificates import certificates
@@ -124,8 +124,7 @@ def test_what_a_certificate_cannot_state_of_a_log_counts_as_not_proved(
 def test_the_numbers_of_a_delivered_map_do_not_matter(
     results: Results, name: Callable[[int], int]
 ) -> None:
-    end = RUN[-1]
-    assert isinstance(end, Finish)
+    end = typed(Finish, RUN[-1])
     renamed = (*RUN[:-1], msgspec.structs.replace(end, map=with_darts(end.map, name)))
     Path("named.jsonl").write_bytes(write_trace(renamed))
     (entry,) = results("certify named.jsonl --kernel")["results"]

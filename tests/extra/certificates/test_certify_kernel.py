@@ -12,7 +12,7 @@ import pytest
 
 from tests.cli.conftest import Call, Results
 from tests.cli.test_certify import RING
-from tests.helpers import of_type, place, trace_of
+from tests.helpers import of_type, place, trace_of, typed
 from tests.proofs.mechanised.conftest import nowhere
 from topo_verify.extra.certificates import certificates
 from topo_verify.proofs.mechanised import toolchain
@@ -135,8 +135,7 @@ def test_a_log_without_decisions_has_no_sentence_about_them(
 def test_a_decision_that_does_not_follow_is_not_certified(results: Results) -> None:
     trace = trace_of("m3/50")
     wrong = place(trace, Reject)
-    rejected = trace[wrong]
-    assert isinstance(rejected, Reject)
+    rejected = typed(Reject, trace[wrong])
     elsewhere = Confirm(rejected.edge, rejected.hypothesis, "motion")
     Path("run.jsonl").write_bytes(write_trace((*trace[:wrong], elsewhere, *trace[wrong + 1 :])))
     (entry,) = results("certify run.jsonl --kernel", code=1)["results"]

@@ -12,7 +12,7 @@ from msgspec.structs import replace as replace_struct
 
 from tests.extra.certificates.test_certificates import by_coqc, by_program, needs_ocaml, numbers_of
 from tests.extra.certificates.test_evidence import BACKWARDS
-from tests.helpers import edited, fits, of_type, trace_of, worlds
+from tests.helpers import edited, fits, of_type, trace_of, typed, worlds
 from tests.helpers import place as place_of
 from tests.proofs.mechanised.conftest import LIMIT
 from topo_verify import World, families
@@ -292,8 +292,7 @@ def test_a_false_rejection_that_python_mistranslates_is_refused(
 def test_decisions_that_do_not_follow_have_no_reasons(place: Path) -> None:
     log = trace_of(families.lattice(3, 3))
     when = place_of(log, Reject)
-    rejected = log[when]
-    assert isinstance(rejected, Reject)
+    rejected = typed(Reject, log[when])
     wrong = (*log[:when], Confirm(rejected.edge, rejected.hypothesis, "motion"), *log[when + 1 :])
     found = by_coqc(place, certificates.certificate_of(wrong))
     assert found.accepted

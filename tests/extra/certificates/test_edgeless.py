@@ -10,7 +10,7 @@ import msgspec
 import pytest
 
 from tests.extra.certificates.test_certificates import LATTICE, by_coqc, by_program, needs_ocaml
-from tests.helpers import EMPTY, edited, trace_of
+from tests.helpers import EMPTY, edited, trace_of, typed
 from topo_verify.extra.certificates import certificates, evidence
 from topo_verify.extra.certificates.certificate_format import CoqCertificate
 from topo_verify.robot.events import Finish, Reject
@@ -21,8 +21,7 @@ POINT = trace_of(EMPTY)
 
 def of_point(**other_map: Any) -> CoqCertificate:
     """The certificate of the run in the world without an edge; with `other_map` delivered."""
-    right = POINT[-1]
-    assert isinstance(right, Finish)
+    right = typed(Finish, POINT[-1])
     delivered = msgspec.structs.replace(right.map, **other_map)
     return certificates.certificate_of(edited(POINT, 1, map=delivered))
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from tests.helpers import EMPTY, PAPER, edited, of_type, place, trace_of, worlds
+from tests.helpers import EMPTY, PAPER, edited, of_type, place, trace_of, typed, worlds
 from topo_verify import families
 from topo_verify.checkers import Fold
 from topo_verify.checkers.replayed_trace import ReplayedTrace
@@ -146,8 +146,7 @@ def test_a_new_vertex_may_be_where_the_robot_came_from() -> None:
 def test_a_dart_is_not_its_own_partner_and_that_may_be_the_only_conflict() -> None:
     trace = trace_of("m3/5")
     when = place(trace, Reject)
-    rejected = trace[when]
-    assert isinstance(rejected, Reject)
+    rejected = typed(Reject, trace[when])
     changed = evidence.evidence_for_decisions(edited(trace, when, hypothesis=rejected.edge))
     (fact,) = next(one.facts for one in changed.stated if one.when == when)
     assert fact.one == fact.other

@@ -13,6 +13,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from tests.faults.every import EVERY
+from tests.helpers import some
 from tests.pictures.played import playback_of
 from tests.pictures.test_narrator import WORLDS
 from topo_verify import CATALOGUE, World, explore, families
@@ -106,8 +107,7 @@ def test_the_robot_stands_at_its_vertex_at_the_end_of_every_moment() -> None:
     playback, layout, film = played()
     group = film.parent_of("robot")
     for moment, at in frames(playback):
-        assert moment.position is not None
-        centre = layout.centres[WORLD.vertex_of[moment.position]]
+        centre = layout.centres[WORLD.vertex_of[some(moment.position)]]
         assert dist(film.place(group, at), centre) < 0.05
 
 
@@ -119,8 +119,7 @@ def test_on_a_torus_the_robot_leaves_on_one_side_and_comes_back_on_the_other() -
     assert layout.kind == "cell"
     group = film.parent_of("robot")
     for moment, at in frames(playback):
-        assert moment.position is not None
-        centre = layout.centres[world.vertex_of[moment.position]]
+        centre = layout.centres[world.vertex_of[some(moment.position)]]
         assert dist(film.place(group, at), centre) < 0.05
     places = [film.place(group, film.seconds * p / 100) for p, _ in film.keys_of(group)]
     times_ = [p for p, _ in film.keys_of(group)]
@@ -157,11 +156,10 @@ def test_rings_are_where_the_evidence_was_seen_and_where_it_was_expected() -> No
             continue
         rejections += 1
         evidence = moment.event.evidence
-        assert evidence.observed is not None
         assert evidence.expected is not None
         vertices = [min(range(7), key=lambda v: dist(layout.centres[v], ring)) for ring in shown]
         signatures = {percepts(WORLD)[WORLD.vertices[v][0]].signature for v in vertices}
-        assert signatures == {evidence.observed.signature, evidence.expected.signature}
+        assert signatures == {some(evidence.observed).signature, evidence.expected.signature}
         (dashed,) = [
             min(range(7), key=lambda v: dist(layout.centres[v], centre))
             for group, ring in film.groups("ring")
@@ -218,8 +216,7 @@ def test_a_wrong_decision_is_shown_where_it_is_made() -> None:
     wrong = [
         m.number for m, at in frames(playback) if film.words(at) == "Here the mapper goes wrong"
     ]
-    assert playback.first_finding is not None
-    assert wrong[0] == playback.first_finding.event
+    assert wrong[0] == some(playback.first_finding).event
     assert wrong[-1] == len(playback.moments) - 1
 
 
@@ -227,8 +224,7 @@ def test_of_a_mapper_that_declares_nothing_solid_is_where_it_has_been() -> None:
     playback, _, film = played("declares-nothing")
     been = {WORLD.marker_vertex}
     for moment, at in frames(playback):
-        assert moment.position is not None
-        been.add(WORLD.vertex_of[moment.position])
+        been.add(WORLD.vertex_of[some(moment.position)])
         assert solid(film, "place", at) == been
 
 

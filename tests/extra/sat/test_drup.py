@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import pytest
 
+from tests.helpers import typed
 from topo_verify.errors import InputError
 from topo_verify.extra.sat import drup
 from topo_verify.extra.sat.drup import DrupRefutation, certify, objection, refute
@@ -32,9 +33,7 @@ def named(name: str) -> BoundedStatement:
 
 
 def refuted(formula: Formula) -> DrupRefutation:
-    refutation = refute(formula)
-    assert isinstance(refutation, DrupRefutation)
-    return refutation
+    return typed(DrupRefutation, refute(formula))
 
 
 @pytest.mark.parametrize("name", [one.name for one in ONE_DOOR_STATEMENTS])
@@ -101,8 +100,7 @@ def test_a_refused_certificate_is_no_pass(monkeypatch: pytest.MonkeyPatch) -> No
 
 def test_what_is_too_long_for_the_checker_has_no_certificate_and_says_so() -> None:
     formula = statements.confirm(3, 3).world
-    told = certify(formula, seconds=0.1)
-    assert isinstance(told, str)
+    told = typed(str, certify(formula, seconds=0.1))
     assert "--timeout" in told
     one = theorem(named("words-confirm"), range(1, 4))
     outcome = one.prove(Budget(certify=certify, timeout=10))

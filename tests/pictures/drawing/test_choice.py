@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import pytest
 
+from tests.helpers import some
 from tests.pictures.drawing.pictures import drawn
 from tests.python import python
 from topo_verify.pictures.drawing import choice, curves, lay_out, read_back, to_svg
@@ -106,8 +107,7 @@ def test_the_seam_of_a_torus_leaves_room_for_the_marker_and_for_the_numbers(worl
     layout = drawn(world)
     lengths = {dart: curves.length(line) for dart, line in leaving(world, layout).items()}
     assert layout.kind == "cell"
-    assert world.root is not None
-    assert lengths[world.root] > 2.5 * layout.radius
+    assert lengths[some(world.root)] > 2.5 * layout.radius
     assert min(lengths.values()) > 0.75 * layout.radius
 
 
@@ -140,8 +140,7 @@ def test_a_sketch_whose_vertices_coincide_is_given_up_after_one_look(
     monkeypatch.setattr(choice, "fitted", looked)
     heap = replace(world, positions=((0.0, 0.0), (1e-6, 0.0), (1.0, 0.0), (1.0, 1.0)))
     sketch = given(heap)
-    assert sketch is not None
-    assert choice._true(heap, sketch) is None  # pyright: ignore[reportPrivateUsage]
+    assert choice._true(heap, some(sketch)) is None  # pyright: ignore[reportPrivateUsage]
     assert looks == [0.0]
 
 

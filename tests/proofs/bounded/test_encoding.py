@@ -7,7 +7,7 @@ from random import Random
 
 import pytest
 
-from tests.helpers import worlds
+from tests.helpers import some, worlds
 from topo_verify import World
 from topo_verify.proofs.bounded.cnf import models, solve
 from topo_verify.proofs.bounded.encoding import MarkerDetail, Worlds, doors, walk
@@ -25,9 +25,8 @@ Drawn = tuple[tuple[int, ...], tuple[Dart, ...], int, frozenset[Dart]]
 
 def reachable_maps(world: World) -> Iterator[Drawn]:
     """All maps of a world that an exploration can draw, found by drawing them, with no solver."""
-    assert world.root is not None
     todo, seen = (
-        [(_rotation(world, world.root), frozenset[Dart]())],
+        [(_rotation(world, some(world.root)), frozenset[Dart]())],
         set[tuple[tuple[Dart, ...], frozenset[Dart]]](),
     )
     while todo:
@@ -145,6 +144,5 @@ def test_percepts_are_alike_as_far_as_the_marker_is_looked_at(marker: MarkerDeta
                 encoded.add("at", places[1][other])
                 senses = [encoded.sense("at", at, f"sense.{i}") for i, at in enumerate(places)]
                 alike = encoded.alike("at", senses[0], senses[1], "same", marker)
-                model = solve(encoded, BUDGET).model
-                assert model is not None
+                model = some(solve(encoded, BUDGET).model)
                 assert model.holds(alike) == (looked(seen[one]) == looked(seen[other]))

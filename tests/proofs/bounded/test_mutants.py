@@ -10,7 +10,7 @@ from itertools import islice
 import pytest
 
 from examples.undirected import undirected, unmarked
-from tests.helpers import failing, worlds
+from tests.helpers import failing, some, worlds
 from tests.proofs.bounded import mutants
 from tests.proofs.bounded.rejections import replay_rejection
 from tests.proofs.first_order.test_rule_mutants import require_refuted
@@ -102,8 +102,7 @@ def test_many_models_of_a_faulty_rule_replay(
 
 def _story(case: confirmations.Negative) -> BoundedCounterexample:
     encoded = confirmations.false_confirmation(case.edges, case.world_class, case.marker)
-    model = first_model(encoded.world, decoded_booleans(encoded), BUDGET).model
-    assert model is not None
+    model = some(first_model(encoded.world, decoded_booleans(encoded), BUDGET).model)
     return decode(encoded, model)
 
 
@@ -119,8 +118,7 @@ def test_a_story_that_is_not_true_does_not_replay() -> None:
 
 def test_a_rule_without_its_fault_rejects_nothing() -> None:
     encoded = statements.history(2, 2, fault="absolute-doors")
-    model = first_model(encoded.world, decoded_booleans(encoded), BUDGET).model
-    assert model is not None
+    model = some(first_model(encoded.world, decoded_booleans(encoded), BUDGET).model)
     with pytest.raises(Disagreement, match="rejects nothing"):
         replay_rejection(decode(encoded, model), "history", "")
 

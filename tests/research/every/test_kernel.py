@@ -13,7 +13,7 @@ import msgspec
 import pytest
 
 from research.every import kernel, table
-from tests.helpers import worlds
+from tests.helpers import typed, worlds
 from tests.studies.search.states.test_graph import searched
 from topo_verify import CATALOGUE, World
 from topo_verify.algorithms.motion import Executed, Hypothesis, overlap
@@ -65,8 +65,7 @@ def coarse(moment: ChoicePoint, world: World) -> object:
     if moment.e is None:
         at: int = variables["at"]
         return *drawn, world.vertex_of[darts[at]]
-    script = variables["motion"].__self__
-    assert isinstance(script, ScriptedPolicies)
+    script = typed(ScriptedPolicies, variables["motion"].__self__)
     hypotheses: list[Hypothesis] = variables["remaining"]
     remaining = frozenset(darts[h.dart] for h in hypotheses)
     executed: list[Executed] = variables["sequences"]

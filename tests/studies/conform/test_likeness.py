@@ -7,7 +7,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from tests.helpers import edited, place, trace_of, worlds
+from tests.helpers import edited, place, some, trace_of, typed, worlds
 from topo_verify import CATALOGUE
 from topo_verify.robot import events as ev
 from topo_verify.robot.event_words import event_words
@@ -65,19 +65,16 @@ def test_the_smallest_world_in_which_two_algorithms_part() -> None:
 def test_every_event_that_is_left_out_is_seen(kind: type[ev.Event]) -> None:
     trace = trace_of("m4/41", "enhancement-ii")
     at = place(trace, kind)
-    parted = first_difference(trace, (*trace[:at], *trace[at + 1 :]))
-    assert parted is not None
+    parted = some(first_difference(trace, (*trace[:at], *trace[at + 1 :])))
     assert parted.event == at
 
 
 def test_other_evidence_is_another_event() -> None:
     trace = trace_of("m4/41")
     at = place(trace, ev.Reject)
-    rejection = trace[at]
-    assert isinstance(rejection, ev.Reject)
+    rejection = typed(ev.Reject, trace[at])
     evidence = msgspec.structs.replace(rejection.evidence, step=2)
-    parted = first_difference(trace, edited(trace, at, evidence=evidence))
-    assert parted is not None
+    parted = some(first_difference(trace, edited(trace, at, evidence=evidence)))
     assert parted.event == at
 
 
@@ -85,8 +82,7 @@ def test_what_is_no_promise_is_not_compared() -> None:
     runs = (trace_of(world, "folding") for world in worlds([4]))
     trace = next(run for run in runs if any(map(by_folding, run)))
     at = next(when for when, event in enumerate(trace) if by_folding(event))
-    rejection = trace[at]
-    assert isinstance(rejection, ev.Reject)
+    rejection = typed(ev.Reject, trace[at])
     assert rejection.evidence.contradiction is not None
     evidence = msgspec.structs.replace(rejection.evidence, contradiction="in my words")
     assert first_difference(trace, edited(trace, at, evidence=evidence)) is None
@@ -110,10 +106,8 @@ def test_of_a_mapper_that_declares_nothing_the_moves_are_compared() -> None:
     basic, other = trace_of("m4/41"), trace_of("m4/41", "enhancement-ii")
     assert not declares(moves_alone(basic))
     assert first_difference(basic, moves_alone(basic)) is None
-    parted = first_difference(other, moves_alone(basic))
-    assert parted is not None
-    assert parted.expected is not None
-    assert parted.expected.startswith("takes door")
+    parted = some(first_difference(other, moves_alone(basic)))
+    assert some(parted.expected).startswith("takes door")
 
 
 def test_what_differs_can_be_read() -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from tests.helpers import worlds
+from tests.helpers import some, worlds
 from tests.programs.programs import served
 from topo_verify.campaign.backend import here
 from topo_verify.campaign.campaign import Ranks
@@ -48,8 +48,7 @@ def exit_code(line: str) -> int:
 @pytest.mark.usefixtures("folder")
 def test_a_world_that_fails_after_others_only_is_shown_after_others() -> None:
     found = searched("remembers")
-    first = found.counterexample
-    assert first is not None
+    first = some(found.counterexample)
     assert (found.verdict, first.world, first.claim) == ("REFUTED", "m3/8", "not-deterministic")
     assert first.message.startswith("a claim fails here only after other worlds, and alone none ")
     assert first.replay.startswith("topo-verify explore m1/0 m1/1 ")
@@ -62,8 +61,7 @@ def test_a_world_that_fails_after_others_only_is_shown_after_others() -> None:
 @pytest.mark.usefixtures("folder")
 def test_a_world_that_passes_after_others_only_is_a_finding() -> None:
     found = searched("learns", edges=2)
-    first = found.counterexample
-    assert first is not None
+    first = some(found.counterexample)
     assert (found.verdict, first.world, first.claim) == ("REFUTED", "m2/0", "not-deterministic")
     assert first.message.startswith("it passed after other worlds, and alone it fails: map-isom")
     assert first.replay == "topo-verify replay m2/0 --target mappers.py:learns"
@@ -75,16 +73,14 @@ def test_a_world_that_passes_after_others_only_is_a_finding() -> None:
 @pytest.mark.usefixtures("folder")
 def test_a_mapper_that_is_right_alone_and_in_the_order_of_the_search_is_tried_in_another() -> None:
     found = searched("shrinks")
-    first = found.counterexample
-    assert first is not None
+    first = some(found.counterexample)
     assert (found.verdict, found.checked, first.claim) == ("REFUTED", 86, "not-deterministic")
     assert first.message.startswith("it passed in the search, and fails as number ")
     words = shlex.split(first.replay)
     assert words[:2] == ["topo-verify", "explore"]
     assert len(words) == 2 + 2 + 2  # one world before it is enough
     assert exit_code(first.replay) == 1
-    assert found.run_again is not None
-    assert found.run_again.row < 86
+    assert some(found.run_again).row < 86
 
 
 @pytest.mark.parametrize("toss", range(2))
@@ -158,8 +154,7 @@ def test_no_run_that_was_made_again_is_passed_over(deed: str, outcome: str) -> N
     """The mapper is right in the order of the search, and not in that of the row."""
     found = search(f"misdeeds.py:unsorted_{deed}", edges=3, limits=Limits(move_timeout=0.3))
     assert (found.verdict, found.checked, found.counterexample) == ("UNKNOWN", 86, None)
-    numbers = found.run_again
-    assert numbers is not None
+    numbers = some(found.run_again)
     assert (numbers.row, numbers.same + getattr(numbers, outcome)) == (86, 86)
     assert getattr(numbers, outcome) > 0
 
@@ -208,8 +203,7 @@ def test_where_no_row_of_worlds_makes_it_fail_the_search_is_named(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(again, "LONGEST", 4)
-    first = searched("remembers").counterexample
-    assert first is not None
+    first = some(searched("remembers").counterexample)
     assert "No row of up to 4 worlds before it made it fail again" in first.message
     assert first.replay == (
         "topo-verify search mappers.py:remembers --edges 3 --class any --workers 0"
@@ -237,8 +231,7 @@ def test_what_ends_a_fork_ends_its_process_likewise(name: str, words: str) -> No
 
     with Foreign(f"mappers.py:{name}", fresh=True) as mapper:
         run = explore(World.from_id("m3/21"), mapper.target)
-        assert run.stopped is not None
-        assert words in run.stopped
+        assert words in some(run.stopped)
         assert explore(World.from_id("m3/20"), mapper.target).map is not None
 
 

@@ -6,6 +6,7 @@ from itertools import product
 
 import pytest
 
+from tests.helpers import some
 from topo_verify import CATALOGUE, World
 from topo_verify.algorithms.policies import ORDERS, PICKS
 from topo_verify.campaign.attempt import Attempt, attempt
@@ -62,11 +63,9 @@ def test_the_algorithm_is_right_whatever_it_chooses() -> None:
 @pytest.mark.long
 def test_a_finding_names_the_fewest_choices_and_the_run_that_shows_it_again() -> None:
     found = search("folding+planar", edges=2, policies="every")
-    first = found.counterexample
-    assert first is not None
+    first = some(found.counterexample)
     assert first.world == "m2/8"
     assert first.message.endswith(" (choices: 0)")
     assert first.replay == "topo-verify explore m2/8 --target folding+planar --choices 0"
-    named = search("folding+planar", edges=2, policies="all").counterexample
-    assert named is not None
+    named = some(search("folding+planar", edges=2, policies="all").counterexample)
     assert named.replay == "topo-verify replay m2/8 --target folding+planar"
