@@ -193,13 +193,6 @@ def test_a_mapper_that_walks_for_ever_ends_with_its_budget() -> None:
     assert explore(WORLD, walk, limits=Limits(budget=5)).cost == 5
 
 
-def test_a_mapper_that_takes_a_door_that_is_not_there_is_a_finding() -> None:
-    def astray(robot: Robot) -> object:
-        return robot.move(9)
-
-    assert why(astray) == NO_DOOR.format(line(astray))
-
-
 def test_a_mapper_that_declares_nonsense_is_a_finding() -> None:
     def boast(robot: Robot) -> object:
         robot.declare(cast("Any", {"type": "boast"}))

@@ -160,13 +160,6 @@ def test_a_fresh_process_plays_after_a_failed_world(tells: str) -> None:
         assert said(player) != first
 
 
-def test_what_was_written_between_two_worlds_is_out_of_turn(tells: str) -> None:
-    with program(tells) as player:
-        Path("extra").write_text('{"type": "error"}\n{"type": "move", "door": 0}')
-        explore(EDGE, player.target)
-        assert some(player.misbehaved).kind == "out-of-turn"
-
-
 def test_at_the_end_the_program_is_told_to_stop(tells: str) -> None:
     with program(tells) as player:
         process = said(player).split()[-1]

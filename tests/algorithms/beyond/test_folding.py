@@ -64,14 +64,9 @@ def assert_complete(world: World) -> None:
         assert all(isinstance(x, Move) and robot.move(x.door) == x.percept for x in history)
 
 
-def test_what_is_kept_has_a_witness_in_every_small_world() -> None:
-    for world in worlds(range(1, 4)):
-        assert_complete(world)
-
-
-@pytest.mark.nightly
-def test_what_is_kept_has_a_witness_in_every_world_with_four_edges() -> None:
-    for world in worlds([4]):
+@pytest.mark.parametrize("edges", [1, 2, 3, pytest.param(4, marks=pytest.mark.nightly)])
+def test_what_is_kept_has_a_witness_in_every_small_world(edges: int) -> None:
+    for world in worlds([edges]):
         assert_complete(world)
 
 

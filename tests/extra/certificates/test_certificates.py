@@ -345,16 +345,9 @@ def test_the_extracted_program_certifies_ten_thousand_moves(place: Path) -> None
 # ---------------------------------------------------------------- which of them
 
 
-def test_long_certificates_go_to_the_extracted_program(
-    monkeypatch: pytest.MonkeyPatch, library: Path
-) -> None:
-    def linked(folder: Path, *, timeout: float) -> None:
-        del timeout
-        for path in library.glob("*.v*"):
-            (folder / path.name).symlink_to(path)
-
+@pytest.mark.usefixtures("compiled")
+def test_long_certificates_go_to_the_extracted_program(monkeypatch: pytest.MonkeyPatch) -> None:
     told: list[str] = []
-    monkeypatch.setattr(certificates, "build", linked)
     numbers = numbers_of(certificates.certificate_of(LATTICE))
     with certificates.checking(timeout=LIMIT, progress=told.append) as check:
         assert check(numbers).by == toolchain.version()

@@ -64,18 +64,6 @@ def put_coqc(monkeypatch: pytest.MonkeyPatch, ends: str, file: str) -> None:
     monkeypatch.setenv("PATH", f"{Path('bin').absolute()}{os.pathsep}{os.environ['PATH']}")
 
 
-@pytest.fixture
-def compiled(library: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The library is not compiled again."""
-
-    def link(folder: Path, *, timeout: float) -> None:
-        del timeout
-        for path in library.glob("*.v*"):
-            (folder / path.name).symlink_to(path)
-
-    monkeypatch.setattr(certificates, "build", link)
-
-
 # ---------------------------------------------------------------- accepted
 
 

@@ -65,24 +65,15 @@ def test_every_decision_in_every_world_of_five_edges(name: str) -> None:
         assert not differences(trace_of(world, name), name), world.id
 
 
-@pytest.mark.nightly
-@pytest.mark.parametrize("name", DESCRIBED)
-def test_every_decision_in_500_generated_worlds(name: str) -> None:
-    _in_generated_worlds(name, 500)
-
-
 @pytest.mark.parametrize("name", DESCRIBED)
 def test_every_decision_in_some_lattices(name: str) -> None:
     for world in alike_places():
         assert not differences(trace_of(world, name), name)
 
 
+@pytest.mark.parametrize("number", [12, pytest.param(500, marks=pytest.mark.nightly)])
 @pytest.mark.parametrize("name", DESCRIBED)
-def test_every_decision_in_some_generated_worlds(name: str) -> None:
-    _in_generated_worlds(name, 12)
-
-
-def _in_generated_worlds(name: str, number: int) -> None:
+def test_every_decision_in_generated_worlds(name: str, number: int) -> None:
     random = Random(0)
     for _ in range(number):
         world = World.from_code(rank_order.sample(random.randint(6, 20), random))

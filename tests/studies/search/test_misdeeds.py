@@ -32,7 +32,10 @@ WAYS = [*product(("child", "program", "library"), (0, 1, 2), (False, True))]
 
 PAIRS = [*product(DEEDS, DEEDS)]
 
-EVERY = [(*pair, *way) for pair, way in zip(PAIRS, islice(cycle(WAYS), 7, None), strict=False)]
+EVERY = [
+    pytest.param(*pair, *way, marks=pytest.mark.nightly)
+    for pair, way in zip(PAIRS, islice(cycle(WAYS), 7, None), strict=False)
+]
 
 SELECTED = [
     ("map", "skip", "child", 0, False),
@@ -92,22 +95,8 @@ def search_with(study: Search) -> Verdict:
     return study.entry().verdict
 
 
-@pytest.mark.parametrize(("once", "later", "way", "workers", "is_resumed"), SELECTED)
-def test_a_selection_of_misdeeds_is_never_exhausted(
-    once: str, later: str, way: str, workers: int, is_resumed: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    require_open(once, later, way, workers, is_resumed, monkeypatch)
-
-
-@pytest.mark.nightly
-@pytest.mark.parametrize(("once", "later", "way", "workers", "is_resumed"), EVERY)
-def test_every_pair_of_misdeeds_is_never_exhausted(
-    once: str, later: str, way: str, workers: int, is_resumed: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    require_open(once, later, way, workers, is_resumed, monkeypatch)
-
-
-def require_open(
+@pytest.mark.parametrize(("once", "later", "way", "workers", "is_resumed"), [*SELECTED, *EVERY])
+def test_a_pair_of_misdeeds_is_never_exhausted(
     once: str, later: str, way: str, workers: int, is_resumed: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     text = target(way, f"at_20_{once}_from_70_{later}", monkeypatch)
