@@ -90,16 +90,6 @@ def test_verify_has_a_suite_a_part_and_a_case_a_claim(call: Call) -> None:
 
 
 @pytest.mark.long
-def test_two_runs_have_one_page_but_for_the_timing(call: Call) -> None:
-    cut = re.compile(r'<section id="timing">.*?</section>', re.DOTALL)
-    pages: list[str] = []
-    for _ in range(2):
-        call(f"search mappers.py:guesses --edges 2 --workers 0 {FILES}")
-        pages.append(cut.sub("", Path("r.html").read_text()))
-    assert pages[0] == pages[1]
-
-
-@pytest.mark.long
 def test_what_is_printed_is_the_same_with_a_report_and_without(call: Call) -> None:
     line = "search mappers.py:guesses --edges 2 --workers 0"
     assert call(line).stdout == call(f"{line} --report r.html").stdout

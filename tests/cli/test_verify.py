@@ -68,42 +68,6 @@ def test_the_word_verified_is_never_printed(call: Call, target: str, style: str)
     assert "verified" not in done.output.lower()
 
 
-@pytest.mark.nightly
-def test_a_silent_mapper_passes_with_four_claims_not_declared(results: Results, call: Call) -> None:
-    parts = results("verify mappers.py:silent --quick")["results"]
-    assert parts[0]["summary"] == (
-        "86 of 86 worlds of 1 to 3 edges: 5 of 10 claims hold, 5 not declared"
-    )
-    assert parts[0]["claims"]["no-false-confirm"]["not-declared"] == 86
-    rows = parts[-1]["costs"]
-    assert [row["reference"] for row in rows] == [False] + [True] * len(CATALOGUE)
-    text = " ".join(call("verify mappers.py:silent --quick").stdout.split())
-    assert "Not judged, because the mapper declares nothing about it: true-hypothesis-posed" in text
-
-
-@pytest.mark.nightly
-@pytest.mark.parametrize(
-    ("mapper", "smallest"),
-    [
-        ("ignores_direction", "m1/1"),
-        ("guesses", "m1/1"),
-        ("nonsense", "m1/0"),
-        ("raises", "m1/0"),
-        ("loops --move-timeout 0.2", "m1/0"),
-        ("walks --budget 500", "m1/0"),
-    ],
-)
-def test_a_faulty_mapper_is_refuted_and_the_line_shows_it_again(
-    results: Results, call: Call, mapper: str, smallest: str
-) -> None:
-    part = results(f"verify mappers.py:{mapper} --quick", code=1)["results"][0]
-    assert (part["verdict"], part["ok"]) == ("REFUTED", False)
-    first = part["findings"][0]
-    assert first["world"] == smallest
-    assert call(first["replay"].removeprefix("topo-verify ")).exit_code == 1
-    assert len({finding["world"] for finding in part["findings"]}) <= 3
-
-
 @pytest.mark.long
 def test_a_refuted_part_shows_its_smallest_counterexample(call: Call) -> None:
     text = call("verify mappers.py:guesses --quick").stdout

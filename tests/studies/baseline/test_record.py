@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-import time
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -139,17 +138,6 @@ def test_a_mapper_that_hangs_is_given_up_after_a_few_time_outs() -> None:
     made = recording(one_target(hang), "edges<=2", limits=limits)
     assert len(made.entries) == MAX_TIMEOUTS < made.header.total == 12
     assert {entry.failed for entry in made.entries} == {("map-isomorphic",)}
-
-
-def test_a_run_that_is_out_of_time_though_it_moves_is_undecided() -> None:
-    def stroll(robot: Robot) -> object:
-        while True:
-            time.sleep(0.02)
-            robot.move(0)
-
-    limits = Limits(world_timeout=0.06)
-    (entry,) = recording(one_target(stroll), "m3/13", limits=limits).entries
-    assert (entry.undecided, entry.failed, entry.right) == (True, (), False)
 
 
 # ---------------------------------------------------------------- programs

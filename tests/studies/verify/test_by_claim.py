@@ -59,7 +59,10 @@ def test_the_first_world_is_kept_even_if_many_have_failed_before() -> None:
 
 
 def test_what_is_not_declared_is_neither_holding_nor_failing() -> None:
-    found = statuses(of("silent"))
+    outcome = of("silent")
+    found = statuses(outcome)
+    assert outcome.part.ok
+    assert outcome.part.summary.endswith("5 of 10 claims hold, 5 not declared")
     assert len(found["not-declared"]) == 5
     assert found.keys() == {"holds", "not-declared"}
 
@@ -86,6 +89,7 @@ def test_the_line_at_which_a_mapper_raised_is_told() -> None:
 def test_a_mapper_out_of_time_is_undecided() -> None:
     outcome = of("strolls", limits=Limits(world_timeout=0.02))
     assert statuses(outcome) == {"undecided": set(CLAIMS)}
+    assert (outcome.part.verdict, outcome.part.ok, outcome.part.findings) == ("UNKNOWN", False, ())
     assert "3 runs out of time" in outcome.text("map-isomorphic")
     assert not outcome.first
 

@@ -177,19 +177,6 @@ def test_a_part_stops_after_a_few_time_outs() -> None:
     assert part.summary.endswith("stopped after 3 time-outs")
 
 
-def test_a_mapper_that_ran_out_of_time_is_neither_right_nor_wrong() -> None:
-    def slow(robot: Robot) -> object:
-        time.sleep(0.2 if robot.percept.degree > 3 else 0)
-        return basic(robot)
-
-    job = trials(slow)
-    job.limits = Limits(world_timeout=0.1)
-    job.work(silence)
-    part = job.part()
-    assert (part.verdict, part.ok, part.findings) == ("UNKNOWN", False, ())
-    assert "3 runs out of time" in part.summary
-
-
 def test_a_claim_that_is_declared_now_and_then_is_told_as_such() -> None:
     class Sometimes:
         def __init__(self, robot: Robot) -> None:
@@ -222,6 +209,7 @@ def test_the_costs_of_a_mapper_that_fails_have_no_ratio() -> None:
     *_, street = verify([Target("mine", lambda _robot: None)], quick=True)
     assert (street.costs[0].algorithm, street.costs[0].ratio) == ("mine", None)
     assert [cost.algorithm for cost in street.costs[1:]] == list(CATALOGUE)
+    assert [cost.reference for cost in street.costs] == [False] + [True] * len(CATALOGUE)
     assert street.costs[1].ratio == 1
 
 
