@@ -547,6 +547,34 @@ def test_tracebacks_show_the_users_code_and_none_of_ours(session: Session) -> No
     assert not re.findall(r"topo_verify/\S+\.py:\d+: ", text)
 
 
+FAILING = """
+import sys
+import topo_verify as tv
+
+def test_claim() -> None:
+    tv.assert_maps(lambda robot: 7, "m2/4")
+
+def test_modules() -> None:
+    ours = [vars(module) for name, module in sys.modules.items() if name.startswith("topo_verify")]
+    assert not any("__tracebackhide__" in names for names in ours)
+
+def test_other() -> None:
+    tv.World.from_rotations((1 // 0 for _ in "v"), [], marker=0)
+"""
+
+
+@pytest.mark.parametrize(("option", "is_whole"), [("--tb=short", False), ("--full-trace", True)])
+def test_only_the_report_of_a_failed_test_leaves_frames_of_ours_out(
+    option: str, is_whole: bool, session: Session
+) -> None:
+    """The modules stay as they are, and so does the traceback of an exception that is not ours."""
+    result = session(option, test=FAILING)
+    result.assert_outcomes(passed=1, failed=2)
+    claim, other = re.split(r"(?m)^_+ test_other _+$", result.stdout.str())
+    assert bool(re.findall(r"topo_verify/\S+\.py:\d+: ", claim)) is is_whole
+    assert re.findall(r"topo_verify/\S+\.py:\d+: ", other)
+
+
 @pytest.mark.long
 def test_the_traceback_of_a_bug_of_ours_is_shown_whole(session: Session) -> None:
     result = session(

@@ -21,17 +21,17 @@ import argparse
 import inspect
 import itertools
 import re
-import sys
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from datetime import timedelta
 from importlib import import_module
+from types import TracebackType
 from typing import TYPE_CHECKING, Any, cast
 
 import pytest
 
-from topo_verify.errors import shown
+from topo_verify.errors import InternalError, TopoVerifyError, shown
 
 if TYPE_CHECKING:
     from topo_verify.campaign.judge import Report
@@ -344,23 +344,33 @@ def _judge(item: pytest.Item, case: ClaimTest) -> None:
 
 
 @pytest.hookimpl(tryfirst=True)
-def pytest_runtest_makereport(call: pytest.CallInfo[None]) -> None:
-    """Let the tracebacks of a failed test end at the user's code; --full-trace shows all."""
-    if call.excinfo is not None:
-        # pytest looks this name up in each frame's globals. Only now are all modules loaded.
-        for name, module in sys.modules.copy().items():
-            if name.startswith("topo_verify."):
-                vars(module).setdefault("__tracebackhide__", _is_no_bug_of_ours)
+def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> None:
+    """Report an exception of ours with the user's frames alone; --full-trace shows all."""
+    error = call.excinfo
+    if error and not item.config.getoption("fulltrace", default=False) and _says_all(error.value):
+        users = _copy_without_ours(error.tb)
+        if users is not None:
+            shorter = (error.type, error.value, users)
+            call.excinfo = pytest.ExceptionInfo[BaseException].from_exc_info(shorter)
 
 
-def _is_no_bug_of_ours(excinfo: pytest.ExceptionInfo[BaseException]) -> bool:
-    from topo_verify.errors import InternalError, TopoVerifyError
+def _says_all(error: BaseException) -> bool:
     from topo_verify.robot.limits import MapperStopped
 
-    if isinstance(excinfo.value, TopoVerifyError | MapperStopped):
-        return not isinstance(excinfo.value, InternalError)
-    module = excinfo.traceback[-1].frame.f_globals.get("__name__", "")
-    return not module.startswith("topo_verify.")
+    ours = isinstance(error, TopoVerifyError | MapperStopped)
+    return ours and not isinstance(error, InternalError)
+
+
+def _copy_without_ours(traceback: TracebackType | None) -> TracebackType | None:
+    entries: list[TracebackType] = []
+    while traceback is not None:
+        if not str(traceback.tb_frame.f_globals.get("__name__")).startswith("topo_verify."):
+            entries.append(traceback)
+        traceback = traceback.tb_next
+    copy = None
+    for entry in reversed(entries):
+        copy = TracebackType(copy, entry.tb_frame, entry.tb_lasti, entry.tb_lineno)
+    return copy
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -74,6 +74,7 @@ def _deliver(
     robot: R,
     alone: bool,  # noqa: FBT001  as in `deliver`
 ) -> Finish | Undelivered:
+    __tracebackhide__ = True  # by pytest: the mapper's exception begins in the mapper
     try:
         result = mapper(robot)
     except BaseException as raised:
