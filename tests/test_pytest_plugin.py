@@ -329,7 +329,9 @@ def test_the_fixtures_give_a_robot_and_a_report(session: Session) -> None:
     result = session(
         test="""
         import topo_verify as tv
-        from hypothesis import given
+        from hypothesis import given, settings
+
+        settings.load_profile("topo")
 
         def test_robot(topo_robot) -> None:
             robot = topo_robot("m2/9")
@@ -352,153 +354,69 @@ def test_the_fixtures_give_a_robot_and_a_report(session: Session) -> None:
     assert "topo-verify =" not in result.stdout.str()  # nothing to sum up
 
 
-@pytest.mark.parametrize(
-    ("takes", "loaded"),
-    [
-        ("from topo_verify.strategies import worlds", True),
-        ("from hypothesis.strategies import none as worlds", False),
-    ],
-)
-def test_the_first_example_of_a_property_test_imports_nothing(
-    takes: str, loaded: bool, session: Session
-) -> None:
-    """Hypothesis bounds the time of an example. Other people's tests load nothing of ours."""
+def test_the_fixtures_import_what_they_run_before_the_first_example(session: Session) -> None:
+    """Hypothesis bounds the time of an example. Tests without them load nothing of ours."""
     result = session(
-        test=f"""
+        test="""
         import sys
-        from hypothesis import given, settings
-        {takes}
+        from hypothesis import given, settings, strategies as st
 
         @settings(max_examples=1)
-        @given(world=worlds())
-        def test_it(world) -> None:
-            assert ("topo_verify.campaign.judge" in sys.modules) is {loaded}
-        """
-    )
-    result.assert_outcomes(passed=1)
-
-
-# ---------------------------------------------------------------- tracebacks
-
-
-def test_where_a_build_server_runs_a_property_of_a_mapper_nothing_is_explained(
-    session: Session, pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("CI", "true")  # so Hypothesis loads its profile `ci`
-    pytester.makepyfile(
-        test_a="""
-        from hypothesis import Phase, given, settings, strategies as st
-        import topo_verify
-
         @given(st.just(0))
-        def test_one(_number):
-            pass
+        def test_other(_number):
+            assert "topo_verify.campaign.judge" not in sys.modules
 
-        def test_its_settings():
-            own = test_one._hypothesis_internal_use_settings
-            assert own.deadline is None and own.derandomize
-            assert Phase.explain not in own.phases
-        """,
-        test_b="""
-        from hypothesis import settings
-
-        def test_others():
-            assert settings.get_current_profile_name() == "ci"
-        """,
-    )
-    session("-p", "no:cacheprovider").assert_outcomes(passed=3)
-
-
-@pytest.mark.parametrize(
-    ("of_the_user", "phases"), [("", "generate shrink"), ("load_profile('mine')", "explain")]
-)
-def test_what_a_test_runs_itself_has_the_settings_of_a_property_of_a_mapper(
-    session: Session, of_the_user: str, phases: str
-) -> None:
-    load = of_the_user and f"settings.{of_the_user}"
-    result = session(
-        test=f"""
-        import unittest
-        from hypothesis import Phase, given, settings, strategies as st
-        from hypothesis.stateful import RuleBasedStateMachine, rule, run_state_machine_as_test
-
-        phases = [Phase.generate, Phase.explain]
-        settings.register_profile("mine", deadline=3000, phases=phases)
-        {load}
-
-        def machine():
-            class Walk(RuleBasedStateMachine):
-                @rule()
-                def look(self):
-                    phases = {{phase.name for phase in settings().phases}}
-                    assert phases >= set("{phases}".split())
-                    assert ("explain" in phases) is ("explain" in "{phases}")
-
-            Walk.TestCase.settings = settings(Walk.TestCase.settings, max_examples=2)
-            run_state_machine_as_test(Walk)
-
-        def test_robot(topo_robot):
-            machine()
-
-        class TestOld(unittest.TestCase):
-            def test_method(self):
-                machine()
-
-        def test_inner():
-            @given(st.just(0))
-            def inner(_number):
-                assert (settings().deadline is None) is {not of_the_user}
-
-            inner()
+        @settings(max_examples=1)
+        @given(st.just(0))
+        def test_examine(topo_robot, topo_examine, _number):
+            before = set(sys.modules)
+            topo_robot("m1/0").move(0)
+            topo_examine("basic", "m1/0")
+            assert not [name for name in set(sys.modules) - before if "topo_verify" in name]
         """
     )
-    result.assert_outcomes(passed=3)
+    result.assert_outcomes(passed=2)
+
+
+# ---------------------------------------------------------------- Hypothesis's settings
 
 
 @pytest.mark.parametrize(
-    ("of_the_user", "ours", "others"),
-    [("", "None", "0:00:00.200000"), ('settings.load_profile("mine")', "0:00:03", "0:00:03")],
+    ("conftest", "profile", "deadline"),
+    [
+        ("", "default", "0:00:00.200000"),
+        ("from hypothesis import settings\nsettings.load_profile('topo')", "topo", "None"),
+    ],
 )
-def test_a_property_of_a_mapper_has_no_deadline_unless_the_user_has_set_one(
+def test_a_property_of_a_mapper_has_the_settings_that_its_user_loads(
+    conftest: str,
+    profile: str,
+    deadline: str,
     session: Session,
     pytester: pytest.Pytester,
     monkeypatch: pytest.MonkeyPatch,
-    of_the_user: str,
-    ours: str,
-    others: str,
 ) -> None:
     for name in ("CI", "GITHUB_ACTIONS", "GITLAB_CI"):  # where Hypothesis loads its profile `ci`
         monkeypatch.delenv(name, raising=False)
-    pytester.makeconftest(
-        f"""
-        from hypothesis import settings
-        settings.register_profile("mine", deadline=3000)
-        {of_the_user}
-        """
-    )
-    test = """
+    pytester.makeconftest(conftest)
+    result = session(
+        test=f"""
         from hypothesis import given, settings, strategies as st
-        import {module}
+        import topo_verify
 
         @given(st.just(0))
-        def test_deadline(_number):
-            pass
+        def test_example(_number):
+            assert settings.get_current_profile_name() == "{profile}"
 
-        @settings(max_examples=1)
-        @given(st.just(0))
-        def test_own(_number):
-            pass
-
-        def test_both():
-            for test in (test_deadline, test_own):
-                own = test._hypothesis_internal_use_settings
-                assert str(own.deadline) == "{deadline}"
+        def test_deadline():
+            own = test_example._hypothesis_internal_use_settings
+            assert str(own.deadline) == str(settings().deadline) == "{deadline}"
         """
-    pytester.makepyfile(
-        test_a=test.format(module="topo_verify", deadline=ours),
-        test_b=test.format(module="json", deadline=others),
     )
-    session().assert_outcomes(passed=6)
+    result.assert_outcomes(passed=2)
+
+
+# ---------------------------------------------------------------- tracebacks
 
 
 @pytest.mark.nightly

@@ -69,7 +69,7 @@ def test_the_quiet_mapper_is_the_declared_one_without_its_declarations() -> None
 @pytest.mark.long
 def test_the_pytest_file_beside_the_python_mapper_passes(tmp_path: Path) -> None:
     mapper_folder = shutil.copytree(ROOT / "examples" / "mapper_python", tmp_path / "a")
-    line = ("-m", "pytest", "-q", "-p", "no:cacheprovider", "test_mapper.py")
-    done = python(*line, cwd=mapper_folder)
+    line = ("-m", "pytest", "-q", "-p", "no:cacheprovider", "--hypothesis-profile=topo")
+    done = python(*line, "test_mapper.py", cwd=mapper_folder)
     assert done.returncode == 0, done.stdout
     assert "1 passed" in done.stdout

@@ -12,16 +12,7 @@ from tests.python import python
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "property_test"
-PYTEST = ("-m", "pytest", "-q", "-p", "no:cacheprovider", "--hypothesis-profile=brief")
-PROFILE = """
-from hypothesis import Phase, settings
-
-settings.register_profile(
-    "brief", settings.get_profile("topo-ci"), phases=set(Phase) - {Phase.explain}
-)
-"""
-"""topo-ci has no deadline: a busy machine is no finding. To explain a failure, Hypothesis traces
-each line, which takes three times as long as to find and to shrink it; no test here asks why."""
+PYTEST = ("-m", "pytest", "-q", "-p", "no:cacheprovider", "--hypothesis-profile=topo-ci")
 PAGE = (ROOT / "docs" / "property-tests.md").read_text()
 
 
@@ -38,7 +29,6 @@ def test_it_fails_with_the_world_that_the_page_says(
     shutil.copytree(EXAMPLE, tmp_path, dirs_exist_ok=True)
     test = tmp_path / "test_my_mapper.py"
     test.write_text(test.read_text().replace("max_edges=30", f"max_edges=30{arguments}"))
-    (tmp_path / "conftest.py").write_text(PROFILE)
     done = python(*PYTEST, test, cwd=tmp_path)
     assert done.returncode == 1
     assert f"world=tv.World.from_id('{world}')" in done.stdout
@@ -50,8 +40,10 @@ def test_it_fails_with_the_world_that_the_page_says(
 @pytest.mark.long
 def test_the_other_tests_of_the_page_pass(tmp_path: Path) -> None:
     blocks = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)[1:]
+    (conftest,) = (block for block in blocks if "load_profile" in block)
+    (tmp_path / "conftest.py").write_text(conftest)
+    blocks.remove(conftest)
     for number, block in enumerate(blocks):
         (tmp_path / f"test_{number}.py").write_text(block)
-    (tmp_path / "conftest.py").write_text(PROFILE)
     done = python(*PYTEST, tmp_path, cwd=tmp_path)
     assert f"{len(blocks)} passed" in done.stdout, done.stdout

@@ -46,14 +46,22 @@ print(find(st.builds(runs), lambda names: names[1] != "nearest"))
     assert printed(code) == "('basic', 'last')"
 
 
-def test_the_profiles_are_there_as_soon_as_hypothesis_is_imported() -> None:
+@pytest.mark.parametrize(("ci", "topo"), [("", "100 False None"), ("true", "100 True None")])
+def test_the_profiles_are_there_as_soon_as_hypothesis_is_imported(
+    ci: str, topo: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On a build server `topo` tries the same examples every time, as Hypothesis does there."""
+    for name in ("CI", "GITHUB_ACTIONS", "GITLAB_CI"):  # where Hypothesis loads its profile `ci`
+        monkeypatch.delenv(name, raising=False)
+    if ci:
+        monkeypatch.setenv("CI", ci)
     code = """
 from hypothesis import settings
-for name in ("topo-ci", "topo-nightly"):
+for name in ("topo", "topo-ci", "topo-nightly"):
     profile = settings.get_profile(name)
     print(profile.max_examples, profile.derandomize, profile.deadline)
 """
-    assert printed(code).splitlines() == ["100 True None", "5000 False None"]
+    assert printed(code).splitlines() == [topo, "100 True None", "5000 False None"]
 
 
 def test_whoever_imports_hypothesis_gets_nothing_heavy_with_it() -> None:
