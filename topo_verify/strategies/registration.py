@@ -5,7 +5,8 @@
     topo-ci               the same examples everywhere, no deadline
     topo-nightly          new examples every time, fifty times as many
 
-They leave out the phase that explains: it traces the mapper, which makes long runs much slower.
+They leave out the phase that explains: it traces the mapper, which makes long runs much slower, and
+names lines of this package.
 
 Hypothesis calls `register` at import, in every program, so it imports nothing that `import
 topo_verify` does not.
@@ -13,12 +14,10 @@ topo_verify` does not.
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 from hypothesis import HealthCheck, Phase, settings
 from hypothesis import strategies as st
-from hypothesis.internal import scrutineer
 
 # the package: its import of Hypothesis may have called this
 from topo_verify import strategies
@@ -26,18 +25,12 @@ from topo_verify.algorithms import Algorithm
 from topo_verify.robot.events import Policies
 from topo_verify.world.rooted_map import World
 
-PACKAGE = Path(__file__).parent.parent
-
 
 def register() -> None:
     """Register the types and the profiles; repeatable."""
     st.register_type_strategy(World, lambda _: strategies.worlds())
     st.register_type_strategy(Algorithm, lambda _: strategies.mappers())
     st.register_type_strategy(Policies, lambda _: strategies.policies())
-    # in explanations, lines of this package say nothing of the user's mapper
-    ours = [f"/topo_verify/{path.name}{'/**' * path.is_dir()}" for path in PACKAGE.iterdir()]
-    known = scrutineer.UNHELPFUL_LOCATIONS
-    scrutineer.__dict__["UNHELPFUL_LOCATIONS"] = (*known, *(n for n in ours if n not in known))
     # speed depends on the machine and the world
     calm: dict[str, Any] = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
     calm["phases"] = [phase for phase in Phase if phase != Phase.explain]
