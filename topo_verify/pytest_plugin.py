@@ -18,20 +18,15 @@ mapper to test.
 from __future__ import annotations
 
 import argparse
-import inspect
 import itertools
-import re
-from collections.abc import Callable, Generator, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Generator, Iterator
 from dataclasses import dataclass, field
-from datetime import timedelta
-from importlib import import_module
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from topo_verify.errors import InternalError, TopoVerifyError, shown
+from topo_verify.errors import InputError, InternalError, TopoVerifyError, shown
 
 if TYPE_CHECKING:
     from topo_verify.campaign.judge import Report
@@ -54,13 +49,15 @@ class ClaimTest:
 
 
 @dataclass
-class _Session:
+class _Cache:
+    """What one session has loaded and run."""
+
     targets: dict[str, tuple[Target, ...]] = field(default_factory=dict[str, Any])
     results: dict[tuple[int, int], ClaimResults] = field(default_factory=dict[Any, Any])
     """By the mapper's `id`, stable while the tests hold the mapper, and by edges."""
 
 
-_SESSION = pytest.StashKey[_Session]()
+_CACHE = pytest.StashKey[_Cache]()
 
 
 # ---------------------------------------------------------------- options
@@ -78,7 +75,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption(
         "--topo-edges",
         metavar="N",
-        type=_number,
+        type=_parse_edges,
         default=EDGES,
         help=f"Run the mapper in every world of 1 to N edges.  [default: {EDGES}]",
     )
@@ -86,19 +83,19 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         group.addoption(
             f"--topo-{name}-timeout",
             metavar="SECONDS",
-            type=_seconds,
+            type=_parse_seconds,
             default=float(seconds),
             help=f"The most time of a mapper {extent}.  [default: {seconds}]",
         )
 
 
-def _number(text: str) -> int:
+def _parse_edges(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"expected a number of edges, 1 or more, got {text!r}")
     return int(text)
 
 
-def _seconds(text: str) -> float:
+def _parse_seconds(text: str) -> float:
     try:
         seconds = float(text)
     except ValueError:
@@ -111,7 +108,7 @@ def _seconds(text: str) -> float:
 def pytest_configure(config: pytest.Config) -> None:
     """Refuse options given twice, and register the mark."""
     _require_once(config)
-    config.stash[_SESSION] = _Session()
+    config.stash[_CACHE] = _Cache()
     config.addinivalue_line(
         "markers",
         "topo(target=--topo-target, edges=--topo-edges): one test a claim of the mapper `target`"
@@ -124,8 +121,8 @@ def _require_once(config: pytest.Config) -> None:
     parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
     for name in ("target", "edges", "move-timeout", "world-timeout"):
         parser.add_argument(f"--topo-{name}", dest=f"--topo-{name}", action="append", default=[])
-    given, _ = parser.parse_known_args(list(map(str, config.invocation_params.args)))
-    for name, values in vars(given).items():
+    options, _ = parser.parse_known_args(list(map(str, config.invocation_params.args)))
+    for name, values in vars(options).items():
         if len(values) > 1:
             got = " and ".join(repr(shown(value)) for value in values)
             raise pytest.UsageError(f"expected {name} at most once, got {got}: leave one out")
@@ -136,11 +133,10 @@ def _require_once(config: pytest.Config) -> None:
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """Make one test for each claim from a marked function."""
-    _import_for(metafunc)
     mark = metafunc.definition.get_closest_marker("topo")
     if mark is not None:
         try:
-            cases = _cases(metafunc.config, mark)
+            cases = _read_mark(metafunc.config, mark)
         except pytest.Collector.CollectError as error:
             raise pytest.Collector.CollectError(f"{metafunc.definition.nodeid}: {error}") from error
         several = len({case.target.text for case in cases}) > 1
@@ -149,27 +145,16 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
         metafunc.parametrize(_CASE, cases, ids=names)
 
 
-def _import_for(metafunc: pytest.Metafunc) -> None:
-    """Import what judges a mapper before a property test, whose first example has a deadline."""
-    if getattr(metafunc.function, "is_hypothesis_test", False):
-        module = cast("object", metafunc.module)  # pyright: ignore[reportUnknownMemberType]  untyped
-        for value in vars(module).values():
-            home = getattr(value, "__name__" if inspect.ismodule(value) else "__module__", None)
-            if str(home).startswith("topo_verify"):
-                import_module("topo_verify.campaign.judge")
-                break
-
-
-def _cases(config: pytest.Config, mark: pytest.Mark) -> list[ClaimTest]:
+def _read_mark(config: pytest.Config, mark: pytest.Mark) -> list[ClaimTest]:
     """The tests that a mark asks for; CollectError if it is wrong."""
-    wanted = dict(mark.kwargs)
-    target = wanted.pop("target", config.option.topo_target)
-    edges = wanted.pop("edges", config.option.topo_edges)
+    others = dict(mark.kwargs)
+    target = others.pop("target", config.option.topo_target)
+    edges = others.pop("edges", config.option.topo_edges)
     usage = '@pytest.mark.topo(target="package.module:attribute", edges=4)'
-    if mark.args or wanted:
-        strange = [*map(repr, mark.args)] + [f"{name}=…" for name in wanted]
+    if mark.args or others:
+        unknown = [*map(repr, mark.args)] + [f"{name}=…" for name in others]
         raise pytest.Collector.CollectError(
-            f"the mark topo does not take {', '.join(strange)}: write {usage}"
+            f"the mark topo does not take {', '.join(unknown)}: write {usage}"
         )
     if target is None:
         raise pytest.Collector.CollectError(
@@ -179,33 +164,30 @@ def _cases(config: pytest.Config, mark: pytest.Mark) -> list[ClaimTest]:
         raise pytest.Collector.CollectError(
             f"the mark topo: expected a number of edges, 1 or more, got edges={edges!r}"
         )
-    return list(_of_targets(config, target, edges))
+    return _list_tests(config, target, edges)
 
 
-def _of_targets(config: pytest.Config, named: str | Mapper, edges: int) -> Iterator[ClaimTest]:
+def _list_tests(config: pytest.Config, target: str | Mapper, edges: int) -> list[ClaimTest]:
     """One test for each mapper and claim; CollectError if that is impossible."""
     from topo_verify.campaign.targets import one_target, targets
     from topo_verify.checkers import CLAIMS
-    from topo_verify.errors import InputError
     from topo_verify.studies.corpus import MOST_ENUMERATED
 
     if edges > MOST_ENUMERATED:
         raise pytest.Collector.CollectError(
             f"expected at most {MOST_ENUMERATED} edges, got {edges}: there are too many worlds"
         )
-    known = config.stash[_SESSION].targets
+    loaded = config.stash[_CACHE].targets
     try:
-        if not isinstance(named, str):
-            mappers: tuple[Target, ...] = (one_target(named),)
-        elif named in known:
-            mappers = known[named]
+        if not isinstance(target, str):
+            mappers: tuple[Target, ...] = (one_target(target),)
+        elif target in loaded:
+            mappers = loaded[target]
         else:
-            mappers = known[named] = targets(named)
+            mappers = loaded[target] = targets(target)
     except InputError as error:
         raise pytest.Collector.CollectError(str(error)) from error
-    for target in mappers:
-        for claim in CLAIMS:
-            yield ClaimTest(target, edges, claim)
+    return [ClaimTest(mapper, edges, claim) for mapper in mappers for claim in CLAIMS]
 
 
 @pytest.hookimpl(wrapper=True)
@@ -213,56 +195,22 @@ def pytest_make_collect_report(
     collector: pytest.Collector,
 ) -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
     """Let the session collect the tests of --topo-target, besides those of files."""
-    with _profile(collector):
-        report = yield
+    report = yield
     text = collector.config.option.topo_target
     if isinstance(collector, pytest.Session) and text is not None:
         name = shown(text)
-        collected = MapperCollector.from_parent(collector, name=name, nodeid=name)  # pyright: ignore[reportUnknownMemberType]  untyped
-        report.result.append(collected)
+        mappers = MapperCollector.from_parent(collector, name=name, nodeid=name)  # pyright: ignore[reportUnknownMemberType]  untyped
+        report.result.append(mappers)
     return report
-
-
-@contextmanager
-def _profile(module: pytest.Collector | None) -> Generator[None]:
-    """Let property tests of mappers have no deadline, unless the user has loaded a profile.
-
-    A busy machine exceeds Hypothesis's 200 ms an example. A property test takes its settings when
-    its module is imported, a state machine in a test when the test runs. So the profile `topo` is
-    active at both times, for a module that mentions Hypothesis and topo_verify or its fixtures.
-    """
-    text = module.path.read_bytes() if isinstance(module, pytest.Module) else b""
-    if b"hypothesis" not in text or not re.search(rb"topo_(verify|robot|examine)", text):
-        yield
-        return
-    from hypothesis import Phase, settings
-
-    # Hypothesis itself chooses `ci` where a build server runs it.
-    instead = {"default": "topo", "ci": "topo-ci"}.get(settings.get_current_profile_name())
-    usual = settings()
-    untouched = Phase.explain in usual.phases and usual.max_examples == 100
-    if instead is None or not untouched or usual.deadline not in {None, HYPOTHESIS_DEADLINE}:
-        yield
-        return
-    before = settings.get_current_profile_name()
-    settings.load_profile(instead)
-    try:
-        yield
-    finally:
-        if settings.default == settings.get_profile(instead):
-            settings.load_profile(before)
-
-
-HYPOTHESIS_DEADLINE = timedelta(milliseconds=200)
 
 
 class MapperCollector(pytest.Collector):
     """The tests of --topo-target, named by the option's text."""
 
-    def collect(self) -> Iterable[ClaimItem]:
+    def collect(self) -> Iterator[ClaimItem]:
         """One test for each mapper and claim."""
         options = self.config.option
-        cases = list(_of_targets(self.config, options.topo_target, options.topo_edges))
+        cases = _list_tests(self.config, options.topo_target, options.topo_edges)
         several = len({case.target.text for case in cases}) > 1
         for case in cases:
             name = f"{shown(case.target.text)}::{case.claim}" if several else case.claim
@@ -289,14 +237,16 @@ class ClaimItem(pytest.Item):
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Refuse a mark on a test that was not parametrized."""
     for item in items:
-        if item.get_closest_marker("topo") and not isinstance(item, ClaimItem) and not _case(item):
+        if item.get_closest_marker("topo") and _find_case(item) is None:
             raise pytest.UsageError(
                 f"{item.nodeid}: the mark topo is for functions and for methods of plain classes,"
                 " not for those of unittest.TestCase: move it"
             )
 
 
-def _case(item: pytest.Item) -> ClaimTest | None:
+def _find_case(item: pytest.Item) -> ClaimTest | None:
+    if isinstance(item, ClaimItem):
+        return item.case
     callspec = getattr(item, "callspec", None)
     return None if callspec is None else callspec.params.get(_CASE)
 
@@ -305,16 +255,9 @@ def _case(item: pytest.Item) -> ClaimTest | None:
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_runtest_call(item: pytest.Item) -> Generator[None]:
-    """Give what a test runs, such as a state machine, the settings of a property test."""
-    with _profile(item.getparent(pytest.Module)):
-        yield
-
-
-@pytest.hookimpl(wrapper=True)
 def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Generator[None, object, object]:
     """Judge the claim of a marked function, then run its body."""
-    case = _case(pyfuncitem)
+    case = _find_case(pyfuncitem)
     if case is not None:
         _judge(pyfuncitem, case)
     return (yield)
@@ -324,18 +267,19 @@ def _judge(item: pytest.Item, case: ClaimTest) -> None:
     from topo_verify.robot.limits import Limits
     from topo_verify.studies.verify.by_claim import by_claim
 
-    known = item.config.stash[_SESSION].results
+    cached = item.config.stash[_CACHE].results
     key = (id(case.target.mapper), case.edges)
-    if key not in known:
+    if key not in cached:
         options: argparse.Namespace = item.config.option
         limits = Limits(None, options.topo_move_timeout, options.topo_world_timeout)
-        known[key] = by_claim(case.target, case.edges, limits)
-    item.user_properties += known[key].properties(case.target.text)
-    match known[key].verdict(case.claim):
+        cached[key] = by_claim(case.target, case.edges, limits)
+    results = cached[key]
+    item.user_properties += results.properties(case.target.text)
+    match results.verdict(case.claim):
         case "fails" | "undecided":
-            pytest.fail(known[key].text(case.claim), pytrace=False)
+            pytest.fail(results.text(case.claim), pytrace=False)
         case "not-declared":
-            pytest.skip(known[key].text(case.claim))
+            pytest.skip(results.text(case.claim))
         case "holds":
             pass
 
@@ -347,14 +291,16 @@ def _judge(item: pytest.Item, case: ClaimTest) -> None:
 def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> None:
     """Report an exception of ours with the user's frames alone; --full-trace shows all."""
     error = call.excinfo
-    if error and not item.config.getoption("fulltrace", default=False) and _says_all(error.value):
-        users = _copy_without_ours(error.tb)
-        if users is not None:
-            shorter = (error.type, error.value, users)
-            call.excinfo = pytest.ExceptionInfo[BaseException].from_exc_info(shorter)
+    if error is None or item.config.getoption("fulltrace", default=False):
+        return
+    users = _copy_without_ours(error.tb) if _is_deliberate(error.value) else None
+    if users is not None:
+        shorter = (error.type, error.value, users)
+        call.excinfo = pytest.ExceptionInfo[BaseException].from_exc_info(shorter)
 
 
-def _says_all(error: BaseException) -> bool:
+def _is_deliberate(error: BaseException) -> bool:
+    """Whether we raise it on purpose, so that its message says all; a bug of ours is not."""
     from topo_verify.robot.limits import MapperStopped
 
     ours = isinstance(error, TopoVerifyError | MapperStopped)
@@ -390,7 +336,8 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
 
 
 # ---------------------------------------------------------------- fixtures
-# Session scope: Hypothesis refuses function scope.
+# Session scope: Hypothesis refuses function scope. They import what they run before the first
+# example of a property test, which has a deadline.
 
 
 @pytest.fixture(scope="session")
@@ -400,14 +347,14 @@ def topo_robot() -> Callable[..., SimulatedRobot]:
     The world is a `World` or a command-line argument ("m5/17", "nyc"); the default budget, in
     moves, is the bound of claim 7. The robot has `percept`, `move`, `declare`, `cost` and `events`.
     """
+    from topo_verify.robot.simulator import SimulatedRobot
+    from topo_verify.world.resolve import resolve_world
 
-    def robot(world: World | str, budget: int | None = None) -> SimulatedRobot:
-        from topo_verify.robot.simulator import SimulatedRobot
+    def place_robot(world: World | str, budget: int | None = None) -> SimulatedRobot:
+        resolved = resolve_world(world) if isinstance(world, str) else world
+        return SimulatedRobot(resolved, resolved.cost_bound if budget is None else budget)
 
-        there = _world(world)
-        return SimulatedRobot(there, there.cost_bound if budget is None else budget)
-
-    return robot
+    return place_robot
 
 
 @pytest.fixture(scope="session")
@@ -418,18 +365,11 @@ def topo_examine() -> Callable[..., Report]:
     `claims`, `findings`; its text lists violations and the replay command: `assert report.ok and
     not report.undecided, str(report)`.
     """
+    from topo_verify.campaign.judge import examine
 
-    def examine(mapper: Mapper | str, world: World | str, **options: Any) -> Report:
-        from topo_verify.campaign.judge import examine
-
+    def examine_named(mapper: Mapper | str, world: World | str, **options: Any) -> Report:
         if isinstance(world, str):
             options.setdefault("where", world)
-        return examine(mapper, _world(world), **options)
+        return examine(mapper, world, **options)
 
-    return examine
-
-
-def _world(world: World | str) -> World:
-    from topo_verify.world.resolve import resolve_world
-
-    return resolve_world(world) if isinstance(world, str) else world
+    return examine_named
