@@ -11,7 +11,7 @@ import msgspec
 
 from topo_verify.campaign.loss import Loss
 from topo_verify.checkers import CLAIMS, Finding, Judgement, Status
-from topo_verify.programs.misbehaviour import Ending
+from topo_verify.programs.misbehaviour import RunEnd
 from topo_verify.robot import events as ev
 
 SECOND_TRY = "; at the second try it delivered one"
@@ -109,7 +109,7 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     claims: tuple[Judged, ...] = ()
     findings: tuple[Finding, ...] = ()
     undecided: str | None = None
-    ended: Ending = "map"
+    ended: RunEnd = "map"
     stopped: str | None = None
     loss: Loss | None = None
     lost: str | None = None

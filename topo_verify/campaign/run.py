@@ -32,7 +32,7 @@ from topo_verify.checkers.map_in_world import MapInWorld
 from topo_verify.errors import ExaminationInterrupted, InputError, InternalError, plural, shown
 from topo_verify.programs.delivery import Undelivered, deliver, stop_text
 from topo_verify.programs.loader import Mapper, Target, is_library
-from topo_verify.programs.misbehaviour import Ending, Misbehaved
+from topo_verify.programs.misbehaviour import Misbehaved, RunEnd
 from topo_verify.programs.program import PREFIX, Program
 from topo_verify.robot.events import (
     Augment,
@@ -105,7 +105,7 @@ class Exploration:
         return (msgspec.structs.replace(start, stopped=self.stopped), *rest)
 
     @property
-    def ended(self) -> Ending:
+    def ended(self) -> RunEnd:
         """How the run ended, as data; `stopped` says it in words."""
         if self.map is not None:
             return "map"

@@ -45,7 +45,7 @@ Misbehaviour = Literal[
     "error",
 ]
 
-Ending = Literal["map", "worker-lost"] | Limit | Misbehaviour
+RunEnd = Literal["map", "worker-lost"] | Limit | Misbehaviour
 """How a run ended: it delivered a map, lost its worker, met a limit, or the mapper did this."""
 
 MISBEHAVIOURS: tuple[Misbehaviour, ...] = get_args(Misbehaviour)

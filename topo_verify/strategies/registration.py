@@ -1,7 +1,7 @@
 """Registers three types and three profiles with Hypothesis.
 
     st.from_type          World, Algorithm and Policies draw from the strategies of their names
-    topo                  Hypothesis's own profile without a deadline, the pytest plugin's default
+    topo                  the profile in force (on a build server `ci`) without a deadline
     topo-ci               the same examples everywhere, no deadline
     topo-nightly          new examples every time, fifty times as many
 
