@@ -54,7 +54,7 @@ def check(
 
 def _judgement(run: ReplayedTrace, name: str, judged: int, of: int, *, strict: bool) -> Judgement:
     claim, speaks_of = CLAIMS[name]
-    if speaks_of and run.world.alpha and run.kinds.keys().isdisjoint(speaks_of):
+    if speaks_of and run.world.alpha and run.kinds.isdisjoint(speaks_of):
         return Judgement(name, "not-declared", 0, of)
     if claim is decisions_entailed and len(run.world.edges) > LARGE and not strict:
         return Judgement(name, "not-asked", 0, of)

@@ -27,7 +27,7 @@ def coverage(run: ReplayedTrace) -> dict[str, tuple[int, int]]:
     grown = [edge for edge in run.crossings if run.map.number.get(edge) in run.map.alpha]
     decisions = rejections + confirmations + declared.count(Augment)
     unfollowed = [*map(type, run.trace[len(run.positions) :])].count(Move)
-    maps = run.kinds[Finish]
+    maps = int(Finish in run.kinds)
     costs = int(getattr(run.trace[-1], "cost", None) is not None)
     return {
         "percepts-true": (1 + run.cost - unfollowed, 1 + run.cost),

@@ -6,7 +6,6 @@ they are true. Decisions after `illegal` or `spoiled` are not judged.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from functools import cached_property
 
@@ -52,7 +51,8 @@ class ReplayedTrace:
         stopped: why the mapper ended without a map, if it did.
     Attributes:
         fold: as far as it was read; claim 9 reads on where claim 10 ends.
-        kinds: the number of events of each type.
+        kinds: the types of the events.
+        cost: the number of moves.
         map: S, drawn on the world.
         positions: the reference dart in the world after each event, up to an illegal move.
         illegal: the first move through a door that is not there.
@@ -72,8 +72,8 @@ class ReplayedTrace:
         trace = ev.require_order(trace)
         self.world, self.trace, self.stopped = world, trace, stopped
         self.fold = ent.FoldedTrace(trace)
-        self.kinds = Counter(map(type, trace))
-        self.cost = self.kinds[ev.Move]
+        kinds = [*map(type, trace)]
+        self.kinds, self.cost = frozenset(kinds), kinds.count(ev.Move)
         self.map = MapInWorld(world)
         self.records = Records(self.map)
         self.illegal: int | None = None
@@ -100,7 +100,7 @@ class ReplayedTrace:
                 left, seen = seen, self.map.seen_at(at)
                 self._behind.move(event.door, left.degree, seen)
                 self.crossings.setdefault(self.crossing(at), when)
-            elif self.spoiled is None and isinstance(event, ev.DECISIONS):
+            elif self.spoiled is None and ev.is_decision(event):
                 self._decide(when, event, at)
             if (told := getattr(event, "percept", seen)) != seen:
                 self.false_percepts.append((when, told, seen))

@@ -17,7 +17,7 @@ from codecs import BOM_UTF8
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from io import BytesIO
-from typing import Any, Literal, Protocol, final, get_args
+from typing import Any, Literal, Protocol, TypeGuard, final, get_args
 
 import msgspec
 
@@ -169,6 +169,11 @@ Event = Start | Move | Pose | Reject | Confirm | Augment | Finish
 Trace = tuple[Event, ...]
 KINDS = frozenset(get_args(Event))
 DECISIONS = Pose, Reject, Confirm, Augment
+
+
+def is_decision(event: Event) -> TypeGuard[Decision]:
+    """Whether an event that is exactly of its kind is a decision; faster than `isinstance`."""
+    return type(event) in DECISIONS
 
 
 class Robot(Protocol):
