@@ -10,6 +10,7 @@ from tests.helpers import any_world, cited, doors, of_type, sketch, trace_of, va
 from topo_verify import World, examine
 from topo_verify.algorithms import motion
 from topo_verify.algorithms.chart import Chart
+from topo_verify.algorithms.exploration import localise
 from topo_verify.algorithms.rules import NoRule
 from topo_verify.robot.events import Confirm, Reject
 from topo_verify.robot.percept import Percept
@@ -150,3 +151,17 @@ def fresh_walk(robot: SimulatedRobot, word: list[int]) -> list[int]:
         taken.append(door % robot.percept.degree)
         robot.move(taken[-1])
     return taken
+
+
+def test_at_the_marker_the_robot_is_localised_by_its_direction_after_a_retrace() -> None:
+    """The marker's door was another one at the entry: a retrace turns the reference dart."""
+    robot = SimulatedRobot(
+        World.from_rotations([[0, 1, 2], [3, 4, 5]], [[0, 3], [1, 4], [2, 5]], 0), 9
+    )
+    chart, pilot = Chart(robot.percept), motion.Pilot(robot)
+    pilot.cross(chart, 0, 0)
+    pilot.forward(1)
+    pilot.forward(1)
+    pilot.back(1)
+    assert pilot.percepts[-1].marker != robot.percept.marker is not None
+    assert localise(pilot, chart, 0) == chart.turn(0, -robot.percept.marker)
