@@ -460,19 +460,28 @@ def explained(path: str) -> Generator[None]:
     except (UnicodeError, ValueError, OverflowError, MemoryError) as error:
         raise changed(path, f"the database ({shown(str(error))})") from error
     except sqlite3.Error as error:
-        message = shown(str(error))
-        refusal = InputError
-        if "locked" in message:
-            message = "another process has it open: wait for its end, or name another file"
-        elif "not a database" in message:
-            message = "it is no store of topo-verify: name another file"
-        elif "readonly" in message or "read-only" in message:
-            message, refusal = "it cannot be written: name a file that can", WriteError
-        elif "unable to open" in message:
-            message = "it cannot be opened: name a file in a folder that can be written"
-        elif "full" in message or "I/O" in message:
-            message += "; what was recorded before is kept: make room and start again"
-            refusal = WriteError
-        else:
-            message += "; name another file or folder, or remove this one"
-        raise refusal(f"store {path}: {message}") from error
+        refusal, message = _REFUSALS.get(
+            getattr(error, "sqlite_errorcode", 0) & 0xFF,
+            (InputError, "{}; name another file or folder, or remove this one"),
+        )
+        raise refusal(f"store {path}: {message.format(shown(str(error)))}") from error
+
+
+_KEPT = "{}; what was recorded before is kept: make room and start again"
+
+_REFUSALS: dict[int, tuple[type[InputError | WriteError], str]] = {
+    sqlite3.SQLITE_BUSY: (
+        InputError,
+        "another process has it open: wait for its end, or name another file",
+    ),
+    sqlite3.SQLITE_LOCKED: (InputError, "a table is locked by another process: wait for its end"),
+    sqlite3.SQLITE_NOTADB: (InputError, "it is no store of topo-verify: name another file"),
+    sqlite3.SQLITE_READONLY: (WriteError, "it cannot be written: name a file that can"),
+    sqlite3.SQLITE_CANTOPEN: (
+        InputError,
+        "it cannot be opened: name a file in a folder that can be written",
+    ),
+    sqlite3.SQLITE_FULL: (WriteError, _KEPT),
+    sqlite3.SQLITE_IOERR: (WriteError, _KEPT),
+}
+"""What is said of an error of SQLite, by its primary code."""

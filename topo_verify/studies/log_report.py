@@ -22,7 +22,7 @@ import msgspec
 from topo_verify.checkers.certificate import judge_log, showing
 from topo_verify.checkers.entailment import CONCLUDED
 from topo_verify.checkers.findings import Finding
-from topo_verify.checkers.folding import UNLIKE, Contradiction, Fold
+from topo_verify.checkers.folding import Contradiction, Fold
 from topo_verify.errors import LINE, InputError, map_size, plural, shown
 from topo_verify.robot.events import Event, Move, Start, read_events
 from topo_verify.robot.percept import Door, Percept
@@ -243,9 +243,9 @@ def readings_apart(log: Sequence[Event]) -> tuple[int, int] | None:
             events.setdefault(id(event.percept), when)
             try:
                 fold.move(event.door, event.percept)
-            except Contradiction as why:
-                if not str(why).startswith(UNLIKE) or fold.compared is None:
-                    return None
+            except Contradiction:
+                if fold.compared is None or fold.compared[0].is_like(fold.compared[1]):
+                    return None  # of another kind
                 first, second = sorted(events[id(percept)] for percept in fold.compared)
                 return first, second
     return None
