@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.helpers import any_world, cited, doors, of_type, sketch, trace_of, variant, worlds
+from tests.helpers import any_world, cited, doors, of_type, sketch, some, trace_of, variant, worlds
 from topo_verify import World, examine
 from topo_verify.algorithms import motion
 from topo_verify.algorithms.chart import Chart
@@ -164,4 +164,4 @@ def test_at_the_marker_the_robot_is_localised_by_its_direction_after_a_retrace()
     pilot.forward(1)
     pilot.back(1)
     assert pilot.percepts[-1].marker != robot.percept.marker is not None
-    assert localise(pilot, chart, 0) == chart.turn(0, -robot.percept.marker)
+    assert localise(pilot, chart, 0) == chart.turn(0, -some(robot.percept.marker))

@@ -59,7 +59,7 @@ def leaves(value: Any, place: str = "$") -> Iterator[tuple[str, object]]:
             if name not in ("timing", "digest"):
                 yield from leaves(one, f"{place}.{name}")
     elif isinstance(value, list):
-        entries: list[Any] = value
+        entries: list[Any] = [*value]
         for number, one in enumerate(entries):
             yield from leaves(one, f"{place}[{number}]")
     else:

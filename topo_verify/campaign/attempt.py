@@ -39,7 +39,7 @@ class Attempt:
     """A run and its judgement.
 
     Attributes:
-        seconds: processor time of mapper and robot.
+        seconds: processor time of mapper and robot, if it was measured.
         lines: the transcript of a program that records one.
         loss: of a first try that lost its process or stood still.
         lost: the same in words, if it leaves the world undecided.
@@ -78,6 +78,7 @@ def attempt(  # noqa: PLR0913  an argument an option
     strict: bool = False,
     witness: bool = True,
     known: Checks | None = None,
+    timed: bool = False,
     beat: Callable[[], None] = lambda: None,
     before_judging: Callable[[Exploration], Exploration] = lambda run: run,
 ) -> Attempt:
@@ -87,6 +88,7 @@ def attempt(  # noqa: PLR0913  an argument an option
         where: the world's name on the command line.
         witness: also run the mapper in the witness world of a wrong map.
         known: replaces `check`.
+        timed: measure the processor time of mapper and robot, which takes a tenth of a run.
         beat: called before each run and each judgement.
         before_judging: returns the run that is judged.
     """
@@ -95,9 +97,9 @@ def attempt(  # noqa: PLR0913  an argument an option
         beat()
         if program is not None:
             program.start()
-        begin = _processor_seconds(program)
+        begin = _processor_seconds(program) if timed else 0.0
         run = before_judging(explore(world, target, limits=limits))
-        seconds = max(0.0, _processor_seconds(program) - begin)
+        seconds = max(0.0, _processor_seconds(program) - begin) if timed else 0.0
         lines = tuple(program.lines) if program is not None and program.record else None
         beat()
         asked = run if witness else replace(run, mapper=None)

@@ -219,6 +219,7 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
         ways: `module:function` of `Ways`; None: one run of each mapper in each world.
         seed: of the sample, and of the order of a list.
         drawn: shuffle the list.
+        timed: measure the processor time of each run.
     """
 
     worlds: Ranks | ListedWorlds
@@ -238,6 +239,7 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
     ways: str | None = None
     seed: int = 0
     drawn: bool = False
+    timed: bool = False
 
     def load(self) -> tuple[Target, ...]:
         """The mappers, loaded in this process. InputError if the engine cannot run them."""
@@ -261,7 +263,7 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
         chosen = {"target": ",".join(known.pop("mappers")), "hash": sources}
         if isinstance(self.worlds, Ranks):
             chosen["class"] = worlds["kind"]
-        for name in ("drawn", "keep", "record"):  # they change which rows come when, not the rows
+        for name in ("drawn", "keep", "record", "timed"):  # no row depends on them
             del known[name]
         if not any(":" in text and not text.startswith(OPTIONS) for text in self.mappers):
             del known["in_process"]  # it is about a user's mapper in Python alone
@@ -387,6 +389,7 @@ def _attempt(
         strict=campaign.strict,
         witness=witness,
         known=known,
+        timed=campaign.timed,
         beat=beat,
     )
 

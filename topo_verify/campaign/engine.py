@@ -38,18 +38,21 @@ class Engine:
     """The reference engine; another one replaces what it does otherwise.
 
     Attributes:
-        shard: average number of worlds in a shard of a search; None: as its policies need.
         examiner: `module:function` that makes the `Examiner` of a campaign; None: the reference's.
     """
 
     name = "reference"
-    shard: int | None = None
     examiner: str | None = None
 
-    def is_usual(self, mappers: Sequence[Target]) -> bool:
-        """Whether a search of these mappers uses this engine unless another is named."""
-        del mappers
+    def is_usual(self, mappers: Sequence[Target], edges: int) -> bool:
+        """Whether a search to this size uses this engine unless another is named."""
+        del mappers, edges
         return False
+
+    def shard(self, mappers: Sequence[Target]) -> int | None:
+        """Average number of worlds in a shard of a search; None: as its policies need."""
+        del mappers
+        return None
 
     def require(self, mappers: Sequence[Target], limits: Limits) -> None:
         """Raise an InputError unless it runs these mappers in single worlds under these limits."""
@@ -82,12 +85,12 @@ def engine_of(name: str) -> Engine:
     return engine
 
 
-def usual_engine(mappers: Sequence[Target]) -> str:
-    """The engine of a search of these mappers if none is named: one whose packages are here."""
-    usable = extras.usable_engines()
-    return next(
-        (name for name in usable if engine_of(name).is_usual(mappers)), REFERENCE_ENGINE.name
-    )
+def usual_engine(mappers: Sequence[Target], edges: int) -> str:
+    """The engine of a search to this size if none is named: one whose packages are here."""
+    for name in extras.usable_engines():
+        if engine_of(name).is_usual(mappers, edges):
+            return name
+    return REFERENCE_ENGINE.name
 
 
 def on_engine(name: str, targets: Iterable[Target], limits: Limits) -> tuple[Target, ...]:

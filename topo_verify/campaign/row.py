@@ -89,7 +89,7 @@ class Row(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
         lost: the same in words, if the mapper is perhaps not at fault; or None.
         moves, decisions, map: digests of doors, declared decisions and a valid map.
         timed_out: a time limit struck, however the run ended.
-        seconds: processor time of mapper and robot, for `timing` only.
+        seconds: processor time of mapper and robot, if it was measured; for `timing` only.
         note: what the study's `Look` returned.
         choices: in the last of the runs that try all choices.
     """

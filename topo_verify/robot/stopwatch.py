@@ -23,7 +23,6 @@ import threading
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import contextmanager
 from math import inf
-from pathlib import Path
 from time import monotonic
 from typing import NamedTuple
 
@@ -164,7 +163,7 @@ def _is_ready(task: str) -> bool:
 
 def _entries(folder: str) -> list[str]:
     try:
-        return [path.name for path in Path(folder).iterdir()]
+        return os.listdir(folder)  # noqa: PTH208  a Path an entry takes three times as long
     except OSError:
         return []
 

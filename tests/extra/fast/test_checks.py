@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 from msgspec.structs import replace
@@ -12,13 +13,14 @@ pytest.importorskip("numba", reason="the compiled engine needs numba")
 from tests.extra.fast.kernels.judged import as_judged, sampled
 from tests.extra.fast.kernels.mutations import mutated_traces
 from tests.marks import with_marks
-from topo_verify import CATALOGUE, World, explore, families
+from topo_verify import CATALOGUE, World, examine, explore, families, worlds
 from topo_verify.campaign import judge as judging
 from topo_verify.campaign.judge import judge
 from topo_verify.checkers import check, claims
+from topo_verify.errors import InternalError
 from topo_verify.extra.fast import checks as compiled_checks
 from topo_verify.extra.fast import engine as compiled_engine
-from topo_verify.extra.fast.checks import CompiledChecks
+from topo_verify.extra.fast.checks import CompiledChecks, SampledChecks
 from topo_verify.extra.fast.kernels.faults import PLANTED
 from topo_verify.faults import FAULTS
 from topo_verify.programs.loader import Mapper
@@ -199,3 +201,50 @@ def test_what_it_convicts_the_checkers_judge() -> None:
     assert list(checked) == check(world, convicted)
     assert report.findings
     assert judge(run).ok
+
+
+# ---------------------------------------------------------------- a sample for the checkers
+
+
+@pytest.fixture(scope="module")
+def small() -> CompiledChecks:
+    return CompiledChecks()
+
+
+def judged_by_checkers(small: CompiledChecks, mapper: Mapper | str, seed: int = 0) -> int:
+    """The number of worlds with 3 edges in which the checkers judge; all judgements are theirs."""
+    sampled_checks = SampledChecks(small, seed)
+    for world in worlds(edges=3):
+        run = explore(world, mapper)
+        judged = sampled_checks(world, run.trace, run.stopped, strict=False)
+        assert as_judged(judged) == as_judged(check(world, run.trace, run.stopped))
+    return sampled_checks.worlds
+
+
+def test_the_checkers_judge_what_costs_most_so_far_and_a_sample(
+    small: CompiledChecks, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    few = judged_by_checkers(small, "basic")
+    assert 0 < few < 40
+    monkeypatch.setattr(compiled_checks, "SAMPLE", 1)
+    assert judged_by_checkers(small, "basic") == 74
+
+
+def test_the_checkers_judge_every_run_that_fails(small: CompiledChecks) -> None:
+    wrong = FAULTS["sets-out-unturned"].mapper
+    failing = sum(not examine(wrong, world).ok for world in worlds(edges=3))
+    assert failing <= judged_by_checkers(small, wrong)
+
+
+def test_a_judge_that_acquits_a_failing_run_is_seen_where_the_sample_falls(
+    small: CompiledChecks, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(compiled_checks, "SAMPLE", 1)
+    wrong = FAULTS["sets-out-unturned"].mapper
+    world = next(world for world in worlds(edges=3) if not examine(wrong, world).ok)
+    acquitted = small.unchecked(world, explore(world, "basic").trace)
+    assert acquitted is not None
+    monkeypatch.setattr(CompiledChecks, "unchecked", Mock(return_value=acquitted))
+    run = explore(world, wrong)
+    with pytest.raises(InternalError, match="the compiled judge says"):
+        SampledChecks(small, 0)(run.world, run.trace, run.stopped, strict=False)

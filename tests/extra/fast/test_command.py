@@ -51,12 +51,24 @@ def test_a_local_cluster_gives_the_entry_of_workers_here(results: Results) -> No
     assert results(f"{line} --dask local")["results"] == results(f"{line} --workers 1")["results"]
 
 
-def test_a_mapper_of_the_users_is_not_for_the_compiled_engine(refused: Refused) -> None:
+OWN = {"engine", "judged_by", "by_checkers"}
+
+
+@pytest.mark.parametrize(
+    ("mapper", "code"), [("guesses", 1), ("ignores_direction", 1), ("right", 0), ("raises", 1)]
+)
+def test_the_compiled_judge_judges_a_mapper_of_the_users_as_the_checkers_do(
+    results: Results, mapper: str, code: int
+) -> None:
     pytest.importorskip("numba")
-    refused(
-        "search mappers.py:guesses --edges 2 --engine compiled",
-        "mappers.py:guesses is none of them: leave --engine out",
-    )
+    line = f"search mappers.py:{mapper} --edges 3 --workers 1 --worst --keep-going --in-process"
+    (ours,) = results(line, code=code)["results"]
+    (theirs,) = results(f"{line} --engine compiled", code=code)["results"]
+    assert {k: v for k, v in theirs.items() if k not in OWN} == {
+        k: v for k, v in ours.items() if k not in OWN
+    }
+    assert theirs["judged_by"].startswith("the compiled judge; every finding, the most expensive")
+    assert 0 < theirs["by_checkers"] <= ours["by_checkers"]
 
 
 def test_without_numba_the_extra_is_named(

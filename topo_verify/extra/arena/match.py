@@ -63,6 +63,7 @@ def matches(league: League, store: Store | None, tell: Tell = _silent) -> list[M
             limits=league.limits,
             in_process=runs_here(mapper),
             stop=c.Stop(failing=1, timeouts=c.MAX_TIMEOUTS),
+            timed=True,
         )
         kept = _kept(league, store, campaign, mapper, tell)
         campaigns.append(MapperCampaign(campaign, [(name, worlds[name]) for name in names], kept))

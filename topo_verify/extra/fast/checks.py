@@ -9,9 +9,12 @@ compare them.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from zlib import crc32
 
+from topo_verify.campaign.tally import KEPT_WORST
 from topo_verify.checkers import CLAIMS, Judgement, Status, check
 from topo_verify.checkers.claims import LARGE
+from topo_verify.errors import InternalError
 from topo_verify.extra.fast.kernels.events import ABSENT, words
 from topo_verify.extra.fast.kernels.explore import place_map, place_world, workspace, write, zeros
 from topo_verify.extra.fast.kernels.judging.layout import JUDGE_SIZE, LONG, LONG_SIZE, CaseWords
@@ -31,6 +34,62 @@ ALL_CLAIMS = len(CLAIMS)
 _DECISIONS = {Reject, Confirm, Augment}
 _KINDS = {Move, Pose, *_DECISIONS}
 _CITING = {"folding": 1, "planar": 2}
+
+
+SAMPLE = 1000
+"""Average number of worlds between two that the checkers judge as well."""
+
+
+class SampledChecks:
+    """Judges runs by the compiled judge, and some of them by the checkers.
+
+    The checkers judge what it leaves open or convicts, a sample drawn by the seed, and each run
+    that costs at least as much as all before it, since a search names the most expensive worlds.
+
+    Attributes:
+        worlds: number of worlds that the checkers judged.
+    Raises (by a call):
+        InternalError: the two disagree.
+    """
+
+    def __init__(self, judge: CompiledChecks, seed: int) -> None:
+        self._judge, self._seed = judge, seed
+        self._most = self._equal = self.worlds = 0
+        self._last: World | None = None
+
+    def __call__(
+        self, world: World, trace: Sequence[Event], stopped: str | None = None, *, strict: bool
+    ) -> Sequence[Judgement]:
+        """The judgements of `check`."""
+        passed = None if stopped is not None else self._judge.unchecked(world, trace, strict=strict)
+        is_open = passed is None or any(j.status == "failed" for j in passed)
+        if passed is not None and not (
+            is_open or self._may_be_named(trace) or self._is_drawn(world)
+        ):
+            return passed
+        self.worlds += world is not self._last
+        self._last = world
+        judgements = check(world, trace, stopped, strict=strict)
+        if passed is not None and _statuses(passed) != _statuses(judgements):
+            raise InternalError(
+                f"{world.known_id}: the compiled judge says {_statuses(passed)}, the checkers say"
+                f" {_statuses(judgements)}"
+            )
+        return judgements
+
+    def _may_be_named(self, trace: Sequence[Event]) -> bool:
+        cost = sum(type(event) is Move for event in trace)
+        if cost > self._most:
+            self._most, self._equal = cost, 0
+        self._equal += cost == self._most
+        return cost == self._most and self._equal <= KEPT_WORST
+
+    def _is_drawn(self, world: World) -> bool:
+        return crc32(f"{self._seed} {world.known_id}".encode()) % SAMPLE == 0
+
+
+def _statuses(judgements: Sequence[Judgement]) -> list[Status]:
+    return [judgement.status for judgement in judgements]
 
 
 class CompiledChecks:

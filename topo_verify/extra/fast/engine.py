@@ -8,13 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import msgspec
 
 from topo_verify import extras
-from topo_verify.algorithms import CATALOGUE, REFERENCE, Algorithm
+from topo_verify.algorithms import CATALOGUE, REFERENCE, Algorithm, Steered
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import Look
+from topo_verify.campaign.drawn_row import drawn_row, is_run_again
 from topo_verify.campaign.engine import Checks, Engine
 from topo_verify.campaign.examiner import Examiner, once_in_words, split
 from topo_verify.campaign.loss import Loss
@@ -27,9 +30,13 @@ from topo_verify.checkers.claims import LARGE
 from topo_verify.errors import InputError
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loader import Target, is_library
+from topo_verify.programs.program import Program
 from topo_verify.robot.events import Policies, Start
 from topo_verify.robot.limits import Limits
 from topo_verify.world.rooted_map import World
+
+if TYPE_CHECKING:
+    from topo_verify.extra.fast.checks import CompiledChecks
 
 SHARD = 100_000
 """Worlds in a shard, about half a second of work."""
@@ -44,6 +51,14 @@ JUDGED_BY = (
     "the compiled engine; every counterexample, the worst worlds and a seeded sample of 1 in 1,000"
     " by the checkers"
 )
+
+JUDGED_BY_JUDGE = (
+    "the compiled judge; every finding, the most expensive worlds and a seeded sample of 1 in 1,000"
+    " by the checkers"
+)
+
+FROM_EDGES = 6
+"""Edges from which on a search of a Python mapper has enough worlds to load the judge for."""
 
 
 # ---------------------------------------------------------------- single worlds
@@ -93,12 +108,17 @@ class CompiledEngine(Engine):
     """Runs catalogue algorithms with the reference policies, and searches for native mappers."""
 
     name = "compiled"
-    shard = SHARD
     examiner = f"{__name__}:examiner"
 
-    def is_usual(self, mappers: Sequence[Target]) -> bool:
-        """Whether one is a native mapper."""
-        return any(map(is_library, mappers))
+    def is_usual(self, mappers: Sequence[Target], edges: int) -> bool:
+        """Whether it is a native mapper, or one in Python and enough worlds."""
+        (first, *others) = mappers
+        in_python = not others and _is_in_python(first) and edges >= FROM_EDGES
+        return any(map(is_library, mappers)) or in_python
+
+    def shard(self, mappers: Sequence[Target]) -> int | None:
+        """Average number of worlds in a shard of a search; None: as its policies need."""
+        return None if _is_judged(mappers) else SHARD
 
     def require(self, mappers: Sequence[Target], limits: Limits) -> None:
         """Raise an InputError unless it runs these mappers in single worlds under these limits."""
@@ -111,6 +131,9 @@ class CompiledEngine(Engine):
                 f"--engine compiled with --policies {choices}: it knows the reference policies"
                 " only; leave one of the two out"
             )
+        if _is_judged(mappers):
+            extras.require("fast", instead="--engine reference")
+            return
         _require(mappers, limits, libraries=True)
         if limits.budget is not None:
             raise InputError(
@@ -132,10 +155,23 @@ class CompiledEngine(Engine):
 COMPILED = CompiledEngine()
 
 
-def examiner(campaign: c.Campaign) -> CompiledExaminer:
-    """What examines a campaign: kernels, or calls of a native mapper."""
-    native = any(text.startswith(LIBRARY) for text in campaign.mappers)
-    return NativeExaminer(campaign) if native else CompiledExaminer(campaign)
+def examiner(campaign: c.Campaign) -> Examiner:
+    """What examines a campaign: kernels, calls of a native mapper, or the compiled judge."""
+    if any(text.startswith(LIBRARY) for text in campaign.mappers):
+        return NativeExaminer(campaign)
+    if all(text in CATALOGUE for text in campaign.mappers):
+        return CompiledExaminer(campaign)
+    return JudgedExaminer(campaign)
+
+
+def _is_judged(mappers: Sequence[Target]) -> bool:
+    """Whether the mapper runs as by the reference, and the compiled judge judges its traces."""
+    return len(mappers) == 1 and not (is_library(mappers[0]) or mappers[0].text in CATALOGUE)
+
+
+def _is_in_python(target: Target) -> bool:
+    is_ours = isinstance(target.mapper, Algorithm | Steered)
+    return not is_ours and not (isinstance(target.mapper, Program) and target.text[:2] == "--")
 
 
 def _require(mappers: Sequence[Target], limits: Limits, *, libraries: bool = False) -> None:
@@ -203,6 +239,45 @@ class CompiledExaminer(Examiner):
 
         del look
         return examine_compiled(self.campaign, mappers, shard, beat)
+
+
+class JudgedExaminer(Examiner):
+    """Runs any mapper as the reference does; the compiled judge judges what it can."""
+
+    loading = COMPILING
+    judged_by = JUDGED_BY_JUDGE
+
+    def judged_by_checkers(self, tally: Tally) -> int:
+        """The number of worlds that the checkers judged."""
+        return tally.by_checkers
+
+    def prepare(self) -> None:
+        """Compile the judge, or load it from the cache."""
+        _ = self._judge
+
+    @cached_property
+    def _judge(self) -> CompiledChecks:
+        from topo_verify.extra.fast.checks import CompiledChecks
+
+        return CompiledChecks()
+
+    def examine(
+        self, mappers: Sequence[Target], shard: c.Shard, beat: Beat, look: Look | None = None
+    ) -> c.ShardResult:
+        """The result of a shard; `look` replaces the campaign's."""
+        from topo_verify.extra.fast.checks import SampledChecks
+
+        checks = SampledChecks(self._judge, self.campaign.seed)
+        drawn = drawn_row(self.campaign) if is_run_again(self.campaign, mappers) else ()
+
+        def counted(result: c.ShardResult) -> c.ShardResult:
+            tally = msgspec.structs.replace(result.tally, by_checkers=checks.worlds)
+            return msgspec.structs.replace(result, tally=tally)
+
+        try:
+            return counted(c.examine(self.campaign, mappers, shard, beat, look, checks, drawn))
+        except c.Interrupted as cut:
+            raise c.Interrupted(shard, counted(cut.result)) from None
 
 
 class NativeExaminer(CompiledExaminer):

@@ -17,5 +17,6 @@ engine = click.option(
 search_engine = click.option(
     "--engine",
     type=_NAMES,
-    help="compiled is faster and needs numba.  [default: reference; compiled with --library]",
+    help="compiled is faster and needs numba.  [default: reference; compiled with --library, and"
+    " for a mapper in Python from 6 edges on]",
 )

@@ -204,12 +204,12 @@ def search_campaign(  # noqa: PLR0913  an argument an option
     """
     limits = given_limits(limits)
     if engine is None:
-        engine = usual_engine(mappers)
+        engine = usual_engine(mappers, edges)
     engine_of(engine).require_search(mappers, limits, choices)
     if choices != "reference":
         require_choices(mappers, choices, edges)
     return c.Campaign(
-        worlds=c.Ranks(edges, kind, engine_of(engine).shard or SHARD[choices]),
+        worlds=c.Ranks(edges, kind, engine_of(engine).shard(mappers) or SHARD[choices]),
         mappers=tuple(mapper.text for mapper in mappers),
         limits=limits,
         in_process=in_process,

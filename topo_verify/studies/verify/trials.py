@@ -235,7 +235,7 @@ class EngineCounts(msgspec.Struct, frozen=True):
 def engine_counts(engine: str, edges: int, targets: Sequence[Target]) -> EngineCounts:
     """An engine's counts in every world of 1 to `edges` edges."""
     worlds = c.Ranks(edges)
-    worlds = msgspec.structs.replace(worlds, shard=engine_of(engine).shard or worlds.shard)
+    worlds = msgspec.structs.replace(worlds, shard=engine_of(engine).shard(targets) or worlds.shard)
     campaign = _campaign(worlds, targets, Limits())
     campaign = msgspec.structs.replace(campaign, engine=engine, keep="notable")
     tallies: dict[int, Tally] = {}
