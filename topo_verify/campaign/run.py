@@ -308,11 +308,9 @@ def _objection(world: World) -> Callable[[int, Decision], str]:
     true_map = MapInWorld(world)
 
     def objection(when: int, event: Decision) -> str:
-        is_false = isinstance(event, Augment) and not true_map.grow(when, event)
-        return (
-            f"its 'augment' at event {when} is false: the run ended there (a replay goes on)"
-            * is_false
-        )
+        if not isinstance(event, Augment) or true_map.grow(when, event):
+            return ""
+        return f"its 'augment' at event {when} is false: the run ended there (a replay goes on)"
 
     return objection
 

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from bisect import insort
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from hashlib import sha256
-from operator import attrgetter, itemgetter
-from typing import Any
+from operator import add, attrgetter, itemgetter
+from typing import TypeVar
 
 import msgspec
 
@@ -83,7 +83,23 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
     first_runs: dict[str, str] = {}
 
     def __add__(self, other: Tally) -> Tally:
-        return Tally(*map(added, msgspec.structs.astuple(self), msgspec.structs.astuple(other)))
+        return Tally(
+            worlds=self.worlds + other.worlds,
+            failing=self.failing + other.failing,
+            undecided=self.undecided + other.undecided,
+            timeouts=self.timeouts + other.timeouts,
+            late=self.late + other.late,
+            lost=self.lost + other.lost,
+            statuses=_merge(self.statuses, other.statuses, _add_counts),
+            shares=_merge(self.shares, other.shares, _add_shares),
+            claims=_add_counts(self.claims, other.claims),
+            costs=_merge(self.costs, other.costs, add),
+            pairs=self.pairs + other.pairs,
+            digest=_add_digests(self.digest, other.digest),
+            by_checkers=self.by_checkers + other.by_checkers,
+            choices=self.choices + other.choices,
+            first_runs={**self.first_runs, **other.first_runs},
+        )
 
     def amended(self, row: Row) -> Tally:
         """The tally once one of its runs turned out to have lost its worker."""
@@ -105,17 +121,27 @@ class Tally(msgspec.Struct, frozen=True, omit_defaults=True):
         )
 
 
-def added(a: Any, b: Any) -> Any:
-    """The sum of one field of two tallies; texts are digests."""
-    # isinstance would leave pyright without the types of the parts.
-    if issubclass(a.__class__, dict):
-        return {**a, **b, **{key: added(a[key], b[key]) for key in a if key in b}}
-    if issubclass(a.__class__, tuple):
-        return tuple(map(added, a, b))
-    if issubclass(a.__class__, str):
-        total = int(a or "0", 16) + int(b or "0", 16)
-        return f"{total % (1 << 256):064x}" if a or b else ""
-    return a + b
+V = TypeVar("V")
+
+
+def _merge(a: Mapping[str, V], b: Mapping[str, V], add_two: Callable[[V, V], V]) -> dict[str, V]:
+    """The entries of both, added where both have one."""
+    return {**a, **b, **{key: add_two(a[key], b[key]) for key in a if key in b}}
+
+
+def _add_counts(a: Mapping[str, int], b: Mapping[str, int]) -> dict[str, int]:
+    return _merge(a, b, add)
+
+
+def _add_shares(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
+    return a[0] + b[0], a[1] + b[1]
+
+
+def _add_digests(a: str, b: str) -> str:
+    """The sum of two digests, as hexadecimal digits: JSON has no integers of 256 bits."""
+    if not (a and b):
+        return a or b
+    return f"{(int(a, 16) + int(b, 16)) % (1 << 256):064x}"
 
 
 def joint_status(runs: Mapping[str, int]) -> Status:

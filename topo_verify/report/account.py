@@ -185,7 +185,8 @@ def claim_cases(judgements: Iterable[Judgement]) -> Iterator[JudgedCase]:
 
 def _reason(judgement: Judgement) -> str:
     if judgement.claim == "map-entailed" and judgement.status in ("partial", "not-declared"):
-        return "the mapper delivers no map" + " in some worlds" * (judgement.status == "partial")
+        where = " in some worlds" if judgement.status == "partial" else ""
+        return f"the mapper delivers no map{where}"
     return _REASONS.get(judgement.status, "")
 
 

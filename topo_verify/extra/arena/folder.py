@@ -112,7 +112,7 @@ def suite_blocks(suite: Suite, table: Sequence[lg.LeagueEntry]) -> Iterator[Bloc
     for entry in table:
         if entry.suite == suite.name and entry.place is None and entry.counterexample is None:
             missing = entry.total - entry.worlds - entry.undecided
-            late = " after three time-outs" * (entry.undecided >= MAX_TIMEOUTS)
+            late = " after three time-outs" if entry.undecided >= MAX_TIMEOUTS else ""
             worlds = plural(entry.undecided, "world")
             why = [
                 *([f"{missing} of {entry.total} worlds not played{late}"] if missing else ()),

@@ -110,7 +110,9 @@ def _parse(text: str | bytes, name: str) -> WorldFile:
     except msgspec.DecodeError as error:
         why = _lower(str(error).removeprefix("JSON is malformed: "))
         is_log = '"start"' in text[:200] or "degree" in text[:200].lower()
-        log = " (a log is judged by certify LOG, and watched by replay LOG --world MAP)" * is_log
+        log = ""
+        if is_log:
+            log = " (a log is judged by certify LOG, and watched by replay LOG --world MAP)"
         raise InputError(
             f"{name} is not valid JSON: {why}; a world is one JSON object{log}"
         ) from error
