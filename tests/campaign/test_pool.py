@@ -29,6 +29,7 @@ from topo_verify.campaign.store import Store
 from topo_verify.campaign.targets import targets
 from topo_verify.campaign.work import Division, Pieces, Work, WorkerLoss
 from topo_verify.campaign.worker import WorkerProcess
+from topo_verify.errors import HelperLost
 from topo_verify.programs.launcher import prepare
 from topo_verify.programs.loaded import Loaded
 from topo_verify.robot.stopwatch import tasks_of
@@ -391,6 +392,7 @@ def test_no_worker_is_left_when_a_search_is_over() -> None:
 TOY = """
 import contextlib, os, signal, time
 import msgspec
+from topo_verify import errors
 
 @contextlib.contextmanager
 def serve(job):
@@ -402,6 +404,8 @@ def serve(job):
         os.kill(os.getpid(), 9)
     if job == "fails":
         raise ZeroDivisionError
+    if job == "needs":
+        raise errors.HelperLost("it was ended")
     def handle(task, beat):
         numbers = msgspec.json.decode(task)
         for done, number in enumerate(numbers):
@@ -504,9 +508,32 @@ def test_a_worker_that_dies_while_it_loads_is_lost_with_its_whole_task() -> None
 
 
 @pytest.mark.usefixtures("toy")
+def test_a_second_worker_is_started_after_the_first_result(monkeypatch: pytest.MonkeyPatch) -> None:
+    started: list[WorkerProcess] = []
+
+    def counted(serve: str, job: object, folder: str | None) -> WorkerProcess:
+        started.append(WorkerProcess(serve, job, folder))
+        return started[-1]
+
+    monkeypatch.setattr("topo_verify.campaign.pool.WorkerProcess", counted)
+    with Pool(toy_work(), 2) as pool:
+        done = pool.run([1] for _ in range(9))
+        next(done)
+        assert len(started) == 1
+        next(done)
+        assert len(started) == 2
+
+
+@pytest.mark.usefixtures("toy")
 def test_our_bug_in_a_worker_is_told_as_such() -> None:
     with pytest.raises(InternalError, match=r"(?s)in a worker: Traceback.*ZeroDivisionError"):
         results(toy_work(job="fails"), [1])
+
+
+@pytest.mark.usefixtures("toy")
+def test_a_process_that_a_worker_needs_and_that_was_ended_is_told_as_such() -> None:
+    with pytest.raises(HelperLost, match="it was ended"):
+        results(toy_work(job="needs"), [1])
 
 
 def test_an_idle_worker_leaves_its_context_before_it_ends(toy: Path) -> None:

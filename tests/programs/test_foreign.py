@@ -13,7 +13,7 @@ from tests.helpers import some, worlds
 from tests.processes import alive, gone
 from tests.studies.search.searching import search_of
 from topo_verify import Limits, World, examine, explore
-from topo_verify.campaign.targets import one_target, targets
+from topo_verify.campaign.targets import one_target, start, targets
 from topo_verify.errors import InputError
 from topo_verify.programs.foreign import Foreign, Unlisted
 from topo_verify.programs.loader import Target
@@ -290,14 +290,14 @@ def test_loaded_names_the_files_that_it_imported_and_read(folder: Path) -> None:
 )
 def test_a_text_that_names_no_mapper_is_refused_at_once(text: str, words: str) -> None:
     with pytest.raises(InputError, match="target ") as refused:
-        targets(text, in_process=False)
+        start(targets(text, in_process=False))
     assert words in str(refused.value)
 
 
 def test_a_mapper_that_ends_its_process_while_it_is_loaded_is_bad_input(folder: Path) -> None:
     (folder / "ends.py").write_text("import os\nos._exit(4)\n")
     with pytest.raises(InputError, match="its process ended with exit code 4 before it was loaded"):
-        targets("ends.py:explore", in_process=False)
+        start(targets("ends.py:explore", in_process=False))
 
 
 def test_a_mapper_that_cannot_be_loaded_again_fails_in_that_world(folder: Path) -> None:

@@ -21,13 +21,15 @@ from topo_verify.campaign.pool import Pool
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.tally import Tally, notable
+from topo_verify.campaign.targets import start
 from topo_verify.campaign.work import Division, Remote, Work
 from topo_verify.campaign.worker import Beat, Handler, WorkerProcess
 from topo_verify.errors import InputError
-from topo_verify.programs import interruption
+from topo_verify.programs import interruption, launcher
 from topo_verify.programs.foreign import Unlisted
 from topo_verify.programs.loaded import Loaded, watch
 from topo_verify.programs.loader import Target
+from topo_verify.programs.program import Program
 from topo_verify.robot.limits import Limits
 
 SILENCE_GRACE = 10.0
@@ -91,6 +93,7 @@ def pooled(
         if not (workers or examiner.needs_worker):
             yield from here(depends=depends)(campaign, shards, in_flight)
             return
+        launcher.warm_up(__name__)
         work = work_of(job_of(campaign, depends))
         examiner.prepare()
         watched = None
@@ -139,12 +142,11 @@ def _examined(
 
 
 def job_of(campaign: c.Campaign, depends: Depends) -> CampaignJob:
-    """The job of each worker; the mappers are loaded here for a moment."""
+    """The job of each worker."""
     mappers = campaign.load()
-    try:
-        sources = source_hash(mappers)
-    finally:
-        c.close(mappers)
+    if any(isinstance(target.mapper, Program) for target in mappers):
+        launcher.prepare()  # a worker starts foreign programs, so no later launcher can be shielded
+    sources = source_hash(mappers)
     return CampaignJob(campaign, sources, None if depends is None else tuple(depends))
 
 
@@ -229,6 +231,7 @@ def serve(job: bytes) -> Generator[Handler]:
         watch()
     mappers = given.campaign.load()
     try:
+        start(mappers)
         if source_hash(mappers) != given.sources:
             raise InputError(
                 f"target {given.campaign.mappers[0]!r}: its source, or topo-verify's, has changed"

@@ -242,7 +242,7 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
     timed: bool = False
 
     def load(self) -> tuple[Target, ...]:
-        """The mappers, loaded in this process. InputError if the engine cannot run them."""
+        """The mappers, as `targets` has them. InputError if the engine cannot run them."""
         find = partial(targets, pick=self.pick, order=self.order, in_process=self.in_process)
         mappers = tuple(target for text in self.mappers for target in find(text))
         for mapper in (target.mapper for target in mappers):

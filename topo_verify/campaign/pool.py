@@ -33,7 +33,7 @@ from topo_verify.campaign.worker import (
     WorkerProcess,
     WorkerReady,
 )
-from topo_verify.errors import InputError, InternalError
+from topo_verify.errors import HelperLost, InputError, InternalError
 from topo_verify.programs.launcher import require_launcher
 
 TURN = 0.2
@@ -42,6 +42,9 @@ TURN = 0.2
 
 class Pool(Generic[TaskT, ResultT]):
     """At most `size` workers on this machine, each started when there is a task for it.
+
+    The second is started after the first result, or if that takes a while: many a search ends with
+    its first task.
 
     On leaving, idle workers end by themselves; busy ones get SIGTERM, then SIGKILL.
 
@@ -54,7 +57,7 @@ class Pool(Generic[TaskT, ResultT]):
     Raises (by `run`):
         InputError: a worker refuses its input, or another process speaks for it.
         InternalError: there is a bug of ours in a worker.
-        HelperLost: a signal ended the process that starts workers.
+        HelperLost: a signal ended the process that starts workers, or one that a worker needs.
     """
 
     def __init__(
@@ -71,6 +74,7 @@ class Pool(Generic[TaskT, ResultT]):
         self._workers: list[WorkerProcess] = []
         self._at: dict[WorkerProcess, Piece[TaskT, ResultT]] = {}
         self._pieces = Pieces(work)
+        self._goes_on = False
 
     def __enter__(self) -> Self:
         return self
@@ -94,14 +98,16 @@ class Pool(Generic[TaskT, ResultT]):
     def _results(self, todo: Iterator[TaskT]) -> Generator[tuple[TaskT, ResultT]]:
         while self._at:
             self._listen()
-            self._hand_out(todo)  # first: keeps workers busy while the caller reads a result
+            if self._goes_on:
+                self._hand_out(todo)  # first: keeps workers busy while the caller reads a result
             while self._pieces.finished:
                 yield self._pieces.finished.popleft()
+                self._goes_on = True
             self._hand_out(todo)
 
     def _hand_out(self, todo: Iterator[TaskT]) -> None:
         idle = [worker for worker in self._workers if worker not in self._at]
-        while len(self._at) < self._size:
+        while len(self._at) < (self._size if self._goes_on else 1):
             piece = self._pieces.next(todo)
             if piece is None:
                 return
@@ -117,8 +123,10 @@ class Pool(Generic[TaskT, ResultT]):
         with selectors.DefaultSelector() as selector:
             for worker in self._workers:
                 selector.register(worker.out, selectors.EVENT_READ, worker)
-            for key, _ in selector.select(TURN):
+            heard = selector.select(TURN)
+            for key, _ in heard:
                 self._hear(key.data)
+        self._goes_on |= not heard and any(worker.ready for worker in self._workers)
         for worker in tuple(self._at):
             silence = worker.silence()
             if self._watched is not None:
@@ -151,8 +159,10 @@ class Pool(Generic[TaskT, ResultT]):
                 case WorkerDamaged(text):
                     self._lose(worker, None, text)
                     return
-                case WorkerFailed(text, bug):
-                    raise InternalError(f"in a worker: {text}") if bug else InputError(text)
+                case WorkerFailed(text, bug, lost):
+                    if bug:
+                        raise InternalError(f"in a worker: {text}")
+                    raise HelperLost(text) if lost else InputError(text)
 
     def _lose(self, worker: WorkerProcess, silence: float | None, said: str = "") -> None:
         """The worker died or hung: retry its piece, then cut it, then give it up.

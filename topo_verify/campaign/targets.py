@@ -23,6 +23,7 @@ import inspect
 import os
 import shlex
 import sys
+from collections.abc import Iterable
 from dataclasses import replace
 from operator import attrgetter
 from pathlib import Path
@@ -43,7 +44,7 @@ def targets(
 ) -> tuple[Target, ...]:
     """The mappers that a TARGET names, in its order; InputError if it names none.
 
-    A program starts in its first world, a mapper in its own process now. If `in_process`,
+    Programs, and mappers in their own processes, start in their first world. If `in_process`,
     mappers outside the catalogue share this process. `pick` and `order` are for those
     that have policies, which must be one at least.
     """
@@ -55,6 +56,13 @@ def targets(
         else _with_policies(target, pick, order)
         for target in mappers
     )
+
+
+def start(mappers: Iterable[Target]) -> None:
+    """Start mappers in their own processes now; InputError if one cannot be loaded."""
+    for target in mappers:
+        if isinstance(target.mapper, Foreign):
+            target.mapper.start()
 
 
 def each_text(text: str) -> tuple[str, ...]:
@@ -111,9 +119,7 @@ def _target(text: str, *, in_process: bool) -> Target:
     if native or ":" in text:
         if in_process and not native:  # native code shares no process with a checker
             return Target(text, load(text))
-        foreign = Foreign(text)
-        foreign.start()  # now, so that a text that names no mapper is refused before all else
-        return foreign.target
+        return Foreign(text).target
     if text not in NAMED:
         if (hint := missing_attribute(text)) is not None:
             raise InputError(f"target {text!r}: {hint}")

@@ -13,6 +13,7 @@ from itertools import chain
 from typing import Any, Generic, TypeVar
 
 from topo_verify.campaign.loss import How
+from topo_verify.programs.foreign import LOADING
 from topo_verify.programs.interruption import FROM_OUTSIDE
 
 TaskT = TypeVar("TaskT")
@@ -125,7 +126,7 @@ class Work(Generic[TaskT, ResultT]):
         lambda result, _losses, _given_up: result
     )
     silence: float
-    loading: float = 120.0
+    loading: float = LOADING + 10.0  # whoever loads a mapper says first that it takes too long
     attempts: int = 2
     division: Division[TaskT, ResultT] | None = None
     remote: Remote[TaskT, ResultT] | None = None

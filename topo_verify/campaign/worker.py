@@ -39,7 +39,7 @@ from typing import Any, BinaryIO, Protocol
 
 import msgspec
 
-from topo_verify.errors import InputError
+from topo_verify.errors import HelperLost, InputError
 from topo_verify.programs import interruption
 from topo_verify.programs.launcher import launch
 from topo_verify.robot.stopwatch import Stopwatch, tasks_of
@@ -92,10 +92,11 @@ class TaskDone(msgspec.Struct, frozen=True, tag=True):
 
 
 class WorkerFailed(msgspec.Struct, frozen=True, tag=True):
-    """The worker cannot go on: the input is bad, or there is a bug of ours (`bug`)."""
+    """The worker cannot go on: bad input, a `bug` of ours, or a process that it needs is `lost`."""
 
     text: str
     bug: bool
+    lost: bool = False
 
 
 class WorkerDamaged(msgspec.Struct, frozen=True, tag=True):
@@ -298,6 +299,8 @@ def main(commands: BinaryIO, out: BinaryIO, heartbeat: int) -> None:
         signal.raise_signal(signal.SIGTERM)  # the status says what ended it
     except InputError as error:
         send(WorkerFailed(str(error), bug=False))
+    except HelperLost as error:
+        send(WorkerFailed(str(error), bug=False, lost=True))
     except Exception:  # noqa: BLE001  the parent gets it
         send(WorkerFailed(traceback.format_exc(), bug=True))
 

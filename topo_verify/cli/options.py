@@ -26,7 +26,7 @@ from topo_verify.campaign.campaign import close
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import policies_of
 from topo_verify.campaign.store import Store
-from topo_verify.campaign.targets import one_target, target_text, targets
+from topo_verify.campaign.targets import one_target, start, target_text, targets
 from topo_verify.checkers.claims import LARGE
 from topo_verify.cli import epilog
 from topo_verify.cli.output import Output
@@ -290,20 +290,24 @@ class Mappers:
     pick: str | None = None
     order: str | None = None
 
-    def load(self) -> tuple[Target, ...]:
-        """All of these mappers."""
-        return tuple(
+    def load(self, *, at_once: bool = True) -> tuple[Target, ...]:
+        """All of these mappers; unless `at_once`, a single one starts in its first world."""
+        found = tuple(
             target
             for text in self.texts
             for target in targets(
                 text, pick=self.pick, order=self.order, in_process=self.in_process
             )
         )
+        if at_once or len(found) > 1:
+            start(found)
+        return found
 
     def load_one(self, usual: Policies | None = None) -> Target:
         """The only mapper, with the `usual` policies unless others are given."""
         how: dict[str, Any] = {"pick": self.pick, "order": self.order}
         target = one_target(self.texts[0], in_process=self.in_process, **how)
+        start((target,))
         if usual is None or policies_of(target) is None:
             return target
         return one_target(target, pick=self.pick or usual.pick, order=self.order or usual.order)

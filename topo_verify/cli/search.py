@@ -160,7 +160,7 @@ def _searches(
                 f"--compare {compare}: expected two different algorithms of the catalogue, as A,B"
             )
         return [pair]
-    separate: list[tuple[Target, ...]] = [(mapper,) for mapper in mappers.load()]
+    separate: list[tuple[Target, ...]] = [(mapper,) for mapper in mappers.load(at_once=False)]
     if ledger is not None and len(separate) != 1:
         raise InputError(
             f"--ledger {ledger}: expected one TARGET, got {len(separate)}; search them one by one"

@@ -4,7 +4,7 @@
 (/proc/PID/mem, /proc/PID/fd, ptrace, pidfd_getfd). Files opened by then stay open, and a process
 traced by then obeys its tracer, so no key closes this gap. But a *fork inherits* undumpability. So
 the launcher is started and shielded before any foreign program, and workers are its forks. It has
-one thread and few modules, so it can always fork.
+one thread, so it can always fork. It imports what workers need once for all of them.
 
 **Why not a library?** `multiprocessing.forkserver` listens on a named socket, to which any process
 of the user can connect, and it shields nothing.
@@ -68,6 +68,11 @@ def prepare() -> None:
         _launcher().foreign = True
 
 
+def warm_up(module: str) -> None:
+    """Start the launcher, if there is none, and have it import a module of ours meanwhile."""
+    _launcher(module)
+
+
 def launch(place: str, *files: int, folder: str | None = None) -> Launched:
     """Start a process that calls `module:function`, with a channel and these files.
 
@@ -126,14 +131,14 @@ class _Launcher:
         foreign: a foreign program was started since.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, module: str) -> None:
         isolation.shield()
         self.owner, self.foreign = os.getpid(), False
         self._orders, self._lock = 0, threading.Lock()
         self._control, theirs = socket.socketpair()
         with theirs:
             self._process = subprocess.Popen(  # noqa: S603  this very Python
-                isolation.python_command(f"{__name__}:main"),
+                isolation.python_command(f"{__name__}:main", module),
                 stdin=theirs.fileno(),
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
@@ -175,13 +180,13 @@ _forked: list[bool] = []
 """Not empty in a fork of a launcher, which starts no forks itself."""
 
 
-def _launcher() -> _Launcher:
+def _launcher(module: str = __name__) -> _Launcher:
     with _starting:
         if _launchers and _launchers[-1].owner == os.getpid():
             require_launcher()
             if not _launchers[-1].lost:
                 return _launchers[-1]
-        launcher = _Launcher()
+        launcher = _Launcher(module)
         _launchers.append(launcher)
         atexit.register(launcher.close)
         return launcher
@@ -199,14 +204,18 @@ def require_launcher() -> None:
 # ---------------------------------------------------------------- in the launcher
 
 
-def main() -> None:
-    """Start forks and wait for them, until the parent is gone; a fork goes on to its task."""
+def main(module: str) -> None:
+    """Start forks and wait for them, until the parent is gone; a fork goes on to its task.
+
+    Imports the module first: a fork has it then.
+    """
     isolation.shield()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     control = socket.socket(fileno=os.dup(0))
     with open(os.devnull, "rb") as nothing:  # noqa: PTH123  as raw as the others
         os.dup2(nothing.fileno(), 0)
     control.sendall(_READY)
+    importlib.import_module(module)
     here = os.getpid()
     while True:
         order, files, _, _ = socket.recv_fds(control, _ORDER.size, _MOST_FILES)

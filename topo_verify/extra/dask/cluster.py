@@ -249,7 +249,7 @@ class ClusterPool(Generic[TaskT, ResultT]):
                 result = msgspec.json.decode(encoded, type=self._work.result)
                 self._remote.require_ours(result, place)
                 self._pieces.finish(piece, result)
-            case WorkerFailed(text, bug):
+            case WorkerFailed(text, bug, _):
                 raise InternalError(text) if bug else InputError(text)
 
     def _lose(self, piece: Piece[TaskT, ResultT], error: BaseException, *, alone: bool) -> None:
