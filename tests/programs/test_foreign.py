@@ -489,6 +489,30 @@ def test_each_world_has_a_process_of_its_own_though_the_robot_stops(
     assert (len(own), len(parents)) == (3, 1)
 
 
+@pytest.mark.parametrize(
+    ("begin", "once", "loadings"), [("0", False, 1), ("thread.start()", False, 3), ("0", True, 3)]
+)
+def test_a_fresh_process_has_loaded_the_mapper_and_run_no_world(
+    folder: Path, begin: str, loadings: int, *, once: bool
+) -> None:
+    """A mapper with threads, which no fork would have, is loaded anew for each world."""
+    (folder / "loads.py").write_text(
+        "import threading, time\n"
+        "with open('loadings', 'a') as file: file.write('.')\n"
+        "thread = threading.Thread(target=time.sleep, args=(60,), daemon=True)\n"
+        f"{begin}\n"
+        "worlds = []\n"
+        "def explore(robot):\n"
+        "    worlds.append(1)\n"
+        f"    assert thread.is_alive() == {begin != '0'}\n"
+        "    raise OSError(len(worlds))\n"
+    )
+    with Foreign("loads.py:explore", fresh=True, once=once) as mapper:
+        stopped = [str(explore(WORLD, mapper.target).stopped) for _ in range(3)]
+    assert [text.partition(" (")[0] for text in stopped] == ["the mapper raised OSError: 1"] * 3
+    assert len((folder / "loadings").read_text()) == loadings
+
+
 def test_its_process_ends_with_the_last_object_that_uses_it(folder: Path) -> None:
     text = "import os\ndef explore(robot):\n    raise OSError(os.getpid())\n"
     (folder / "tells.py").write_text(text)

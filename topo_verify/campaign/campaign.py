@@ -319,7 +319,7 @@ class Interrupted(KeyboardInterrupt):
 # ---------------------------------------------------------------- the loop
 
 
-def examine(
+def examine(  # noqa: PLR0913  an argument an option
     campaign: Campaign,
     mappers: Sequence[Target],
     shard: Shard,
@@ -327,10 +327,13 @@ def examine(
     look: Look | None = None,
     known: Checks | None = None,
     drawn: Container[str] = (),
+    *,
+    witness: bool = True,
 ) -> ShardResult:
     """Run every mapper in every world of a shard; Ctrl-C raises `Interrupted`.
 
-    `look` replaces the campaign's, `known` the checkers; `drawn` worlds are to be run again.
+    `look` replaces the campaign's, `known` the checkers; `drawn` worlds are to be run again;
+    `witness` is as in `attempt`.
     """
     counts, kept, rows = Counts(), Notable(campaign.seed), list[Row]()
     first_runs: dict[str, str] = {}
@@ -350,7 +353,8 @@ def examine(
             checks = CheckedTraces() if several else known
             for target in mappers:
                 tell = partial(beat, done)
-                once = partial(_attempt, campaign, world, name, checks, tell, ours=target.mapper)
+                ours = target.mapper if witness else None
+                once = partial(_attempt, campaign, world, name, checks, tell, ours=ours)
                 with telling_moves(partial(beat, done, name)):
                     for run in ways(target, world, once):
                         world_rows.append(row_of(run, name, place, len(world_rows), look))
@@ -380,7 +384,7 @@ def _attempt(
     ours: object,
 ) -> Attempt:
     # Choices that are made for one world cannot be repeated in a witness world.
-    witness = target.mapper is ours or campaign.ways is None
+    witness = target.mapper is ours or (ours is not None and campaign.ways is None)
     return attempt(
         world,
         target,

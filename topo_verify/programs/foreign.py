@@ -70,7 +70,7 @@ class Foreign(Program):
 
     Args:
         text: the TARGET, `package.module:attribute` or `path/file.py:attribute`.
-        fresh: play each world in a process that has played none.
+        fresh: play each world in a process that has played none: a fork, or if `once` a new one.
     Raises (by `start` and by a call):
         InputError: no such module, file or attribute, or not callable. If it fails to load again
             later, that is a misbehaviour in its world.
@@ -79,9 +79,10 @@ class Foreign(Program):
     longest: ClassVar[int] = LONGEST
     advice: ClassVar[str] = ""
 
-    def __init__(self, text: str, *, fresh: bool = False) -> None:
+    def __init__(self, text: str, *, fresh: bool = False, once: bool = False) -> None:
         served = "serve:fresh" if fresh else "serve:child"
-        super().__init__(python_command(f"topo_verify.programs.{served}", text))
+        words = (text, "once") if once else (text,)
+        super().__init__(python_command(f"topo_verify.programs.{served}", *words))
         self.text = text
         self._decode = _from_child.decode
         self._was_loaded = False

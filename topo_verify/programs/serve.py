@@ -14,6 +14,7 @@ import signal
 import sys
 from collections.abc import Callable, Mapping
 from contextlib import suppress
+from functools import partial
 from io import TextIOWrapper
 from operator import index
 from typing import BinaryIO, Literal, NoReturn, cast
@@ -30,6 +31,7 @@ from topo_verify.robot.events import Decision
 from topo_verify.robot.limits import MapperStopped
 from topo_verify.robot.percept import Door, Percept, Purpose
 from topo_verify.robot.simulator import Misuse, door_number, plain_decision, require_purpose
+from topo_verify.robot.stopwatch import tasks_of
 
 CATALOGUE = "topo_verify.algorithms:NAMED.{}"
 """The place of a name without a colon, as text, since programs/ imports no algorithms."""
@@ -213,18 +215,24 @@ def _reset_signals() -> None:
 # ---------------------------------------------------------------- a process for each world
 
 
-def fresh(text: str) -> None:
-    """Serve the mapper of a TARGET for `Foreign`, each world in a fork of this process.
+def fresh(text: str, once: str = "") -> None:
+    """Serve the mapper of a TARGET for `Foreign`, each world in a process that has played none.
 
-    A fork takes some milliseconds, a new Python a few hundred. If a signal ends a fork, this
-    process ends itself by the same. What is to be compiled is compiled before any world.
+    It loads the mapper, and each world is played in a fork, which takes some milliseconds; a new
+    Python takes a few hundred. With several threads, which a fork would lack, or if `once`, this
+    process plays one world and ends. A library is loaded in each fork, since it forbids to fork.
+    If a signal ends a fork, this process ends itself by the same.
 
-    What this does not show: that an earlier world left nothing on the disk or in the environment.
+    What this does not show: that an earlier world left nothing on the disk, in the environment or
+    in a file that was opened while the mapper was loaded.
     """
     _reset_signals()
     reader, writer = isolation.private_pipes()
-    with suppress(InputError):
-        prepare(text)
+    native = text.startswith(LIBRARY)
+    if native:
+        with suppress(InputError):
+            prepare(text)
+    play = None if native else _loaded(text)
     _send(writer, ms.ReadyMessage())
     for line in reader:
         message = _to_child.decode(line)
@@ -232,26 +240,27 @@ def fresh(text: str) -> None:
             continue
         if not isinstance(message, ms.StartMessage):
             return
-        fork = os.fork()
-        if fork == 0:
-            _play_and_end(text, message, reader, writer)
-        _, status = os.waitpid(fork, 0)
-        _end_likewise(os.waitstatus_to_exitcode(status))
-
-
-def _play_and_end(text: str, start: ms.StartMessage, reader: BinaryIO, writer: BinaryIO) -> None:
-    code = 1
-    try:
+        here = once or len([*tasks_of(os.getpid())]) > 1
+        if not here and (fork := os.fork()):
+            _, status = os.waitpid(fork, 0)
+            _end_likewise(os.waitstatus_to_exitcode(status))
+            continue
+        code = 1
         try:
-            mapper = load(text)
-        except InputError as error:
-            answer: object = ms.UndeliveredMessage("no-map", str(error))
-        else:
-            answer = _as_child(mapper, RemoteRobot(start.percept, reader, writer))
-        _send(writer, answer)
-        code = 0
-    finally:
-        os._exit(code)
+            robot = RemoteRobot(message.percept, reader, writer)
+            _send(writer, (play or _loaded(text))(robot))
+            code = 0
+        finally:
+            os._exit(code)
+
+
+def _loaded(text: str) -> Callable[[RemoteRobot], object]:
+    """What plays a world with the mapper; if it cannot be loaded, the answer to each says why."""
+    try:
+        return partial(_as_child, load(text))
+    except InputError as error:
+        refusal = ms.UndeliveredMessage("no-map", _words(str(error)))
+        return lambda _robot: refusal
 
 
 def _end_likewise(code: int) -> None:

@@ -83,7 +83,7 @@ def test_a_mapper_that_is_right_alone_and_in_the_order_of_the_search_is_tried_in
     assert some(found.run_again).row < 86
 
 
-@pytest.mark.parametrize("toss", range(2))
+@pytest.mark.parametrize("toss", [0, 3, 5])
 def test_a_mapper_that_fails_now_and_then_is_not_said_to_remember(folder: Path, toss: int) -> None:
     (folder / "runs").write_text("." * toss)
     found = searched("tosses")
@@ -235,12 +235,15 @@ def test_what_ends_a_fork_ends_its_process_likewise(name: str, words: str) -> No
         assert explore(World.from_id("m3/20"), mapper.target).map is not None
 
 
-def test_a_mapper_that_cannot_be_loaded_any_more_delivers_no_map(folder: Path) -> None:
+@pytest.mark.parametrize("once", [False, True])
+def test_a_mapper_that_cannot_be_loaded_any_more_delivers_no_map(
+    folder: Path, *, once: bool
+) -> None:
     from topo_verify import World, explore
 
-    with Foreign("mappers.py:right", fresh=True) as mapper:
-        assert explore(World.from_id("m1/0"), mapper.target).map is not None
-        (folder / "mappers.py").write_text("")
-        run = explore(World.from_id("m1/0"), mapper.target)
-        assert run.map is None
-        assert "has no attribute 'right'" in str(run.stopped)
+    (folder / "mappers.py").write_text("")
+    with Foreign("mappers.py:right", fresh=True, once=once) as mapper:
+        for _ in range(2):
+            run = explore(World.from_id("m1/0"), mapper.target)
+            assert run.map is None
+            assert "has no attribute 'right'" in str(run.stopped)

@@ -1,10 +1,11 @@
 """Runs worlds again, alone and in another order: does the mapper remember earlier worlds?
 
-The counterexample (`REPEATS` times; once if it was out of time, and not if the search tried it in a
-fresh process then), up to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed, are
-run again, each in a fresh process. If none fails, one process runs `ROW` worlds in a shuffled
-order, until `MOST_ENDED` of them are undecided. No run replaces an earlier one: each world that is
-run again is one of
+The counterexample (not if it was out of time, and the search tried it in a fresh process then), up
+to `SAMPLE` more failing worlds and `SAMPLE` others, drawn by a seed, are run again, once: the
+counterexample in a new process, the others each in a fork of a process that has loaded the mapper
+and run no world (a mapper with threads: in a new process). If none fails, one process runs `ROW`
+worlds in a shuffled order, until `MOST_ENDED` of them are undecided. No run replaces an earlier
+one: each world that is run again is one of
 
     same        every run ended as in the search, with the same doors and cost
     other       another verdict, other doors, another cost; or it was declined in one run only
@@ -31,6 +32,7 @@ from __future__ import annotations
 import shlex
 from collections.abc import Iterator, Sequence
 from contextlib import closing
+from itertools import chain
 from typing import Literal
 
 import msgspec
@@ -173,7 +175,7 @@ class Repetition:
         tell = tell or no_progress
 
         def report(_work: str, done: int, _total: int) -> None:
-            tell(f"{self._campaign.mappers[0]}, worlds run again", done, 2 * MOST + REPEATS + ROW)
+            tell(f"{self._campaign.mappers[0]}, worlds run again", done, 2 * MOST + 1 + ROW)
 
         self._run_alone(report)
         if not self._failures and not any(row.failed for row in self._rows):  # else refuted
@@ -183,11 +185,14 @@ class Repetition:
     def _run_alone(self, report: Progress) -> None:
         campaign = self._campaign
         drawn = _drawn(self._rows, campaign)
-        repeated = [row for row in drawn[:1] if row.failed and not row.timed_out]
-        runs = repeated * (REPEATS - 1) + drawn
         unlike: dict[str, tuple[Row, Row]] = {}
-        again = _runs(campaign, [row.world for row in runs], _alone, report)
-        for row, now in zip(runs, again, strict=True):
+        names = [row.world for row in drawn]
+        first = int(bool(drawn) and bool(drawn[0].failed))
+        again = chain(
+            _runs(campaign, names[:first], _once, report),
+            _runs(campaign, names[first:], _alone, report),
+        )
+        for row, now in zip(drawn, again, strict=True):
             self._alone.add(row.world)
             if bool(row.failed) != bool(now.failed) and not now.undecided:
                 unlike[row.world] = row, now
@@ -284,20 +289,29 @@ def _runs(
             yield from result.rows
 
 
+def _once(campaign: c.Campaign, shards: Iterator[c.Shard], in_flight: c.InFlight) -> c.ShardResults:
+    """Run a failing world: whether it fails again, not what its witness shows."""
+    yield from _alone(campaign, shards, in_flight, once=True)
+
+
 def _alone(
-    campaign: c.Campaign, shards: Iterator[c.Shard], _in_flight: c.InFlight
+    campaign: c.Campaign,
+    shards: Iterator[c.Shard],
+    _in_flight: c.InFlight,
+    *,
+    once: bool = False,
 ) -> c.ShardResults:
-    text = campaign.mappers[0]
+    text, witness = campaign.mappers[0], not once
     if text.startswith(PREFIX):
         for shard in shards:
             with _program(text) as program:
                 program.start()  # before any time limit
-                yield shard, c.examine(campaign, (program.target,), shard)
+                yield shard, c.examine(campaign, (program.target,), shard, witness=witness)
         return
-    with Foreign(text, fresh=True) as program:
+    with Foreign(text, fresh=True, once=once) as program:
         for shard in shards:
             program.start()
-            yield shard, c.examine(campaign, (program.target,), shard)
+            yield shard, c.examine(campaign, (program.target,), shard, witness=witness)
 
 
 def _one_process(
