@@ -119,12 +119,12 @@ def test_ctrl_c_exits_3_and_tells_whether_the_ledger_has_finished_work(
     assert error.startswith("topo-verify: some has the finished work: the same command goes on\n")
 
 
-def test_a_world_of_an_endless_loop_is_run_three_times(folder: Path, call: Call) -> None:
+def test_a_world_of_an_endless_loop_is_run_twice(folder: Path, call: Call) -> None:
     text = "def f(robot):\n    print(file=open('runs', 'a'))\n    while True:\n        pass\n"
     (folder / "loop.py").write_text(text)
     result = call("search loop.py:f --edges 1 --workers 1 --move-timeout 1")
     assert "The walk of loop.py:f in m1/0:" in result.stdout
-    assert (folder / "runs").read_text() == 3 * "\n"  # two tries, and one for the walk
+    assert (folder / "runs").read_text() == 2 * "\n"  # the walk is that of a try
 
 
 def test_every_choice_shows_the_range_of_the_costs(results: Results, call: Call) -> None:
@@ -140,3 +140,37 @@ def test_every_choice_shows_the_range_of_the_costs(results: Results, call: Call)
     assert "No policy of pick and order saves more than 4.0% of what" in shown
     (entry,) = results("search basic --edges 1 --workers 0")["results"]
     assert entry["by_edges"][0]["every"] is entry["decided_by"] is None
+
+
+RUNS = """
+def explore(robot):
+    with open("runs", "a") as file:
+        file.write(".")
+    return {"vertices": [[0], [1]], "edges": [[0, 1]], "marker": 0}
+"""
+
+
+@pytest.mark.parametrize("report", ["", "--report page.html"])
+def test_what_is_shown_is_the_judged_run_and_no_mapper_runs_for_it(
+    folder: Path, call: Call, report: str
+) -> None:
+    """It runs in the first world, in its witness, and once more alone."""
+    (folder / "counts.py").write_text(RUNS)
+    done = call(f"search counts.py:explore --edges 2 {report}")
+    assert done.exit_code == 1
+    assert "The walk of counts.py:explore in m1/0:" in done.stdout
+    assert "witness m2/0: run there, the mapper is wrong" in done.stdout
+    assert (folder / "runs").read_text() == "..."
+
+
+def test_the_runs_of_a_search_that_goes_on_are_those_that_were_judged(
+    folder: Path, call: Call
+) -> None:
+    (folder / "counts.py").write_text(RUNS)
+    line = "search counts.py:explore --edges 2 --keep-going"
+    call(line)
+    alone = (folder / "runs").read_text()
+    (folder / "runs").unlink()
+    call(f"{line} --report page.html")
+    assert (folder / "runs").read_text() == alone
+    assert "counts.py:explore in m1/0" in (folder / "page.html").read_text()

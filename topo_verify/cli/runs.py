@@ -1,7 +1,7 @@
 """Worlds as the user names them; judged runs, findings and walks as shown.
 
-A search stores only the world and the claim of a counterexample. The mapper runs there again,
-and its walk is shown if the same claim fails again.
+A search keeps the run of a counterexample. Where only its world and its claim are known, the
+mapper runs there again, and its walk is shown if the same claim fails again.
 """
 
 from __future__ import annotations
@@ -308,8 +308,8 @@ class FoundRuns:
         self._late = False
 
     def keep(self, report: Report) -> None:
-        """Keep the report of a run if it has findings."""
-        if self._most and report.findings:
+        """Keep the report of a run if it has findings, and if it is the first or a page is due."""
+        if self._most and report.findings and (self._report is None or self._alone):
             self._report = self._report or report
             self.show(exhibit_of(report))
 
@@ -355,7 +355,7 @@ class FoundRuns:
             self._late = run.limit in ("move-timeout", "world-timeout")
             yield judge(run, where=world, options=limits.options)
 
-        if len(self._exhibits) < self._most and not self._late:
+        if len(self._exhibits) < self._most and not self._late and claim in CLAIMS:
             for target in targets:
                 if (target_title(target.text, world), world) in self._exhibits:
                     continue

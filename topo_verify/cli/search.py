@@ -193,7 +193,12 @@ def _searched(
     entry = one_search.entry()
     reports = None if campaign.ways is None else partial(reports_of, campaign)
     for example in (entry.counterexample, *(claim.smallest for claim in entry.claims)):
-        if example is not None:
+        if example is None:
+            continue
+        report = one_search.report(example)
+        if report is not None:
+            output.found.keep(report)
+        else:
             output.found.run_again(
                 one_search.mappers,
                 *(example.world, example.claim, campaign.limits, example.message),

@@ -19,6 +19,7 @@ from topo_verify.campaign.backend import Elsewhere, here, pooled
 from topo_verify.campaign.drawn_row import is_of_catalogue
 from topo_verify.campaign.engine import engine_of, usual_engine
 from topo_verify.campaign.examiner import examiner_of
+from topo_verify.campaign.judge import Report
 from topo_verify.campaign.progress import Progress
 from topo_verify.campaign.row import PolicyCosts, Row
 from topo_verify.campaign.tally import KEPT_PAIRS, KEPT_WORST, Costs, Pairs, Tally, notable
@@ -31,6 +32,7 @@ from topo_verify.programs.program import Program
 from topo_verify.robot.limits import Limits, given_limits
 from topo_verify.studies.search.again import CLAIM, Repetition, RunAgain
 from topo_verify.studies.search.choices import SHARD, WAYS, Choices, require_choices
+from topo_verify.studies.search.failing_run import LOOK, report_of
 from topo_verify.studies.search.states.every import BY_EVERY_CLAIM, Decider
 from topo_verify.world.enumeration.classes import WorldClass
 
@@ -219,6 +221,7 @@ def search_campaign(  # noqa: PLR0913  an argument an option
             lost=c.MAX_LOST if any(map(is_library, mappers)) else None,
         ),
         keep="notable",
+        look=LOOK,
         ways=WAYS[choices],
         seed=seed,
     )
@@ -382,6 +385,12 @@ class Search:
         for row in () if self.again is None else self.again.rows:
             rows[row.edges, row.place, row.turn] = row
         return [rows[place] for place in sorted(rows)]
+
+    def report(self, example: Counterexample) -> Report | None:
+        """The judged run of an example, if it was kept."""
+        rows = (row for row in self.rows if row.world == example.world and row.failed)
+        reports = (report_of(row, example.claim) for row in rows)
+        return next((report for report in reports if report is not None), None)
 
     def entry(self, *, compare: bool = False) -> SearchEntry:
         """The result so far; `compare`: with the costs of two mappers."""
