@@ -33,7 +33,14 @@ from topo_verify.algorithms import CATALOGUE, NAMED, STEERED, Algorithm, Steered
 from topo_verify.errors import InputError, close_name, is_utf8
 from topo_verify.programs.foreign import Foreign
 from topo_verify.programs.library import LIBRARY
-from topo_verify.programs.loader import Mapper, Target, load, maker_of, missing_attribute
+from topo_verify.programs.loader import (
+    Mapper,
+    Target,
+    load,
+    maker_of,
+    missing_attribute,
+    require_file,
+)
 from topo_verify.programs.program import OPTIONS, PREFIX, Program, split
 
 _LIBRARIES = (".so", ".dylib", ".dll")
@@ -119,6 +126,8 @@ def _target(text: str, *, in_process: bool) -> Target:
     if native or ":" in text:
         if in_process and not native:  # native code shares no process with a checker
             return Target(text, load(text))
+        if not native:
+            require_file(text)
         return Foreign(text).target
     if text not in NAMED:
         if (hint := missing_attribute(text)) is not None:

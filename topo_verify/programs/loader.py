@@ -159,9 +159,15 @@ class _UncachedLoader(SourceFileLoader):
         return self.source_to_code(self.get_data(self.path), self.path)
 
 
+def require_file(text: str) -> None:
+    """Raise an InputError if the TARGET names a file of Python that is not there."""
+    place = text.rpartition(":")[0]
+    if place.endswith(".py") and not Path(place).is_file():
+        raise InputError(f"target {text!r}: there is no file {str(Path(place))!r}")
+
+
 def _load_file(path: Path, text: str) -> object:
-    if not path.is_file():
-        raise InputError(f"target {text!r}: there is no file {str(path)!r}")
+    require_file(text)
     name = f"_topo_verify_target_{path.resolve().stem}"
     loader = _UncachedLoader(name, str(path))
     spec = importlib.util.spec_from_file_location(name, path, loader=loader)

@@ -112,3 +112,14 @@ def test_without_a_misdeed_it_is_exhausted(way: str, monkeypatch: pytest.MonkeyP
     text = target(way, "at_9999_map", monkeypatch)
     assert verdict(text, 2, has_ledger=True) == "EXHAUSTED"
     assert verdict(text, 1, has_ledger=True) == "EXHAUSTED"
+
+
+@pytest.mark.parametrize("plan", ["at_1_map", "from_3_map"])
+@pytest.mark.parametrize(
+    "way", ["child", "program", pytest.param("library", marks=pytest.mark.long)]
+)
+def test_a_mapper_that_is_wrong_first_or_after_its_second_world_is_refuted(
+    way: str, plan: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = target(way, plan, monkeypatch)
+    assert {verdict(text, workers, has_ledger=False) for workers in (0, 2)} == {"REFUTED"}
