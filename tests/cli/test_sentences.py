@@ -147,6 +147,7 @@ OTHERS = {
     "topo_verify.world.formats.world_json": "msgspec names a field in its message alone",
     "topo_verify.extra.arena.league": "cuts the line of code from a text that is shown",
     "topo_verify.cli.certify": "chooses an advice, and no verdict",
+    "topo_verify.checkers.entailment": "a trace cites a contradiction by such a name",
 }
 """Files that look into a text, and why."""
 
@@ -166,12 +167,19 @@ def questions(source: str, named: set[str]) -> Iterator[int]:
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
             asked = node.args if node.func.attr in ASKING else []
-        elif isinstance(node, ast.Compare) and any(isinstance(op, ast.In) for op in node.ops):
-            asked = [node.left]
+        elif isinstance(node, ast.Compare):
+            sides = (one for side in (node.left, *node.comparators) for one in parts(side))
+            is_asked = any(isinstance(op, ast.In) for op in node.ops)  # else a name is a code
+            asked = [one for one in sides if is_asked or not isinstance(one, ast.Name)]
         else:
             continue
         if any(is_text(one, named) for one in asked):
             yield node.lineno
+
+
+def parts(node: ast.expr) -> list[ast.expr]:
+    """The elements of a display, or the expression alone."""
+    return node.elts if isinstance(node, ast.Tuple | ast.List | ast.Set) else [node]
 
 
 def is_text(node: ast.expr, named: set[str]) -> bool:
@@ -199,6 +207,7 @@ def test_no_file_looks_for_a_sentence_in_a_text() -> None:
         "text.startswith('the mapper raised it')",
         "re.search(r'the mapper raised \\\\w*MemoryError', text)",
         "'at the second try' in text",
+        "text not in (None, 'ended with exit code 0')",
         "END = '; at the second try it delivered one'\ntext.endswith(END)",
         "text.replace('the program it ran', 'x')",
     ],

@@ -106,7 +106,7 @@ def test_what_is_no_library_is_refused(tmp_path: Path) -> None:
         (f"{path}:explore", "no function 'explore'"),
     ):
         with pytest.raises(InputError, match=words):
-            one_target(f"--library {place}")
+            explore("m1/0", f"--library {place}")
 
 
 def test_the_header_is_read_by_c_and_by_c_plus_plus(tmp_path: Path) -> None:

@@ -109,7 +109,8 @@ def explore(robot: Robot, *, rule: Rule, motion: Motion, pick: Pick, order: Orde
 
 def hypotheses(chart: Chart, percept: Percept, order: Order) -> list[Hypothesis]:
     """H: the unexplored darts at vertices that look like vu, in the order in which to try them."""
-    alike = [h for h in chart.unexplored if percept.is_like(chart.percepts[h])]
+    signature = percept.signature
+    alike = [h for h in chart.unexplored if chart.percepts[h].signature == signature]
     if not alike:
         return []
     tree = chart.tree(0)

@@ -104,8 +104,7 @@ class Pilot:
 
     def forward(self, door: Door) -> Percept:
         """Walk one more door of a sequence, relative to the dart of entry."""
-        # the degree is that of the entry; the marker's door is not, once the robot came back here
-        percept = self._move((door - self.turned) % self.percepts[-1].degree, "validate")
+        percept = self._move((door - self.turned) % self.robot.percept.degree, "validate")
         self.turned = 0
         self.doors.append(door)
         self.percepts.append(percept)
@@ -114,7 +113,7 @@ class Pilot:
     def back(self, steps: int) -> None:
         """Retrace until this many doors of the excursion remain."""
         while len(self.doors) > steps:
-            self._move(-self.turned % self.percepts[-1].degree, "retrace")
+            self._move(-self.turned % self.robot.percept.degree, "retrace")
             self.turned = self.doors.pop()
             self.percepts.pop()
 

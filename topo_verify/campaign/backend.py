@@ -13,7 +13,7 @@ import msgspec
 
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import Look
-from topo_verify.campaign.engine import on_engine
+from topo_verify.campaign.engine import EngineSeconds, on_engine
 from topo_verify.campaign.examiner import Examiner, examiner_of, parts_of
 from topo_verify.campaign.identity import Identity, merged, require_equal, source_hash
 from topo_verify.campaign.loss import Loss
@@ -259,7 +259,7 @@ def _joined(campaign: c.Campaign, parts: list[c.ShardResult]) -> c.ShardResult:
         sum((part.tally for part in parts), Tally()),
         tuple(rows) if campaign.keep == "all" else notable(rows, campaign.seed),
         reduce(partial(merged, where="the campaign"), known) if known else None,
-        sum((part.seconds for part in parts), c.EngineSeconds()),
+        sum((part.seconds for part in parts), EngineSeconds()),
     )
 
 

@@ -29,7 +29,7 @@ from typing import Any, Literal, Protocol
 import msgspec
 
 from topo_verify.campaign.attempt import Attempt, Look, attempt, row_of
-from topo_verify.campaign.engine import Checks, on_engine
+from topo_verify.campaign.engine import Checks, EngineSeconds, on_engine
 from topo_verify.campaign.judge import CheckedTraces
 from topo_verify.campaign.loss import Loss
 from topo_verify.campaign.progress import Progress, ProgressRate
@@ -275,16 +275,6 @@ class Campaign(msgspec.Struct, frozen=True, kw_only=True):
             else msgspec.json.encode(value).decode()
             for name, value in known.items()
         }
-
-
-class EngineSeconds(msgspec.Struct, frozen=True):
-    """Processor seconds of another engine than the reference, and of the checkers beside it."""
-
-    engine: float = 0.0
-    checkers: float = 0.0
-
-    def __add__(self, other: EngineSeconds) -> EngineSeconds:
-        return EngineSeconds(self.engine + other.engine, self.checkers + other.checkers)
 
 
 class ShardResult(msgspec.Struct, frozen=True):

@@ -15,6 +15,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Protocol
 
+import msgspec
+
 from topo_verify import extras
 from topo_verify.checkers import Judgement
 from topo_verify.errors import InputError
@@ -22,6 +24,16 @@ from topo_verify.programs.loader import Target
 from topo_verify.robot.events import Event
 from topo_verify.robot.limits import Limits
 from topo_verify.world.rooted_map import World
+
+
+class EngineSeconds(msgspec.Struct, frozen=True):
+    """Processor seconds of another engine than the reference, and of the checkers beside it."""
+
+    engine: float = 0.0
+    checkers: float = 0.0
+
+    def __add__(self, other: EngineSeconds) -> EngineSeconds:
+        return EngineSeconds(self.engine + other.engine, self.checkers + other.checkers)
 
 
 class Checks(Protocol):

@@ -12,7 +12,8 @@ import click
 
 from topo_verify import extras
 from topo_verify.campaign.backend import Elsewhere, MakeBackend, here, pooled
-from topo_verify.campaign.campaign import MAX_LOST, Backend, Campaign, EngineSeconds
+from topo_verify.campaign.campaign import MAX_LOST, Backend, Campaign
+from topo_verify.campaign.engine import EngineSeconds
 from topo_verify.campaign.examiner import examiner_of
 from topo_verify.campaign.store import Store, StoredCampaign
 from topo_verify.campaign.targets import targets

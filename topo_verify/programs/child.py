@@ -28,7 +28,13 @@ from time import monotonic, sleep
 from topo_verify.errors import InputError
 from topo_verify.programs import launcher, reaper
 from topo_verify.programs.isolation import sleep_briefly
-from topo_verify.programs.process import ExitStatus, SharedProcessor, StandardError, exit_status
+from topo_verify.programs.process import (
+    SUCCESS,
+    ExitStatus,
+    SharedProcessor,
+    StandardError,
+    exit_status,
+)
 from topo_verify.programs.protocol import LIMIT
 from topo_verify.robot.limits import TICK
 from topo_verify.robot.stopwatch import Stopwatch, tasks_of
@@ -314,8 +320,8 @@ class Child:
 
     # ------------------------------------------------------------ its end
 
-    def exit_status(self) -> str | None:
-        """The exit status in words; None if the program still runs after `LAST_WORDS` seconds."""
+    def exit_status(self) -> ExitStatus | None:
+        """The exit status; None if the program still runs after `LAST_WORDS` seconds."""
         # Not by the wall clock: on a busy machine a dying program waits for a processor, too.
         clock = Stopwatch(lambda: tasks_of(self.process), tick=LAST_WORDS / 4)
         while (status := self._status()) is None:
@@ -323,7 +329,7 @@ class Child:
                 return None
             self._listen(0)
             sleep(0.001)
-        return str(status)
+        return status
 
     def after_signal(self, number: int, seconds: float) -> bytes:
         """What it writes after this signal, within some seconds or until a silent tick."""
@@ -348,7 +354,7 @@ class Child:
         """Did it fail, with another exit code than 0? None: it can still play."""
         if not (self.input_closed or self._output_ended):
             return None
-        return self.exit_status() not in (None, "ended with exit code 0")
+        return self.exit_status() not in (None, SUCCESS)
 
     def stderr(self) -> str:
         """The end of its standard error."""

@@ -101,6 +101,9 @@ class ExitStatus(NamedTuple):
         return f"signal {self.number}"
 
 
+SUCCESS = ExitStatus(os.CLD_EXITED, 0)
+
+
 def exit_status(process: int) -> ExitStatus | None:
     """The exit status of a child process; None while it runs."""
     end = os.waitid(os.P_PID, process, os.WEXITED | os.WNOWAIT | os.WNOHANG)

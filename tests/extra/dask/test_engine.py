@@ -9,6 +9,7 @@ import os
 import signal
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 
@@ -35,7 +36,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::ResourceWarning")
 @pytest.fixture(autouse=True)
 def small_shards(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Several shards a size, so that workers are at different ones."""
-    monkeypatch.setattr(CompiledEngine, "shard", 100)
+    monkeypatch.setattr(CompiledEngine, "shard", Mock(return_value=100))
     return folder
 
 

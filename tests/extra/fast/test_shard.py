@@ -441,7 +441,6 @@ def test_a_world_that_is_named_as_costlier_with_other_costs_is_our_bug(
 @pytest.mark.parametrize(
     ("target", "options", "words"),
     [
-        ("mappers.py:right", {}, "runs the algorithms of the catalogue, basic,"),
         ("basic", {"policies": "all"}, "it knows the reference policies only"),
         ("basic", {"limits": Limits(world_timeout=1.0)}, "leave out --move-timeout"),
         ("basic", {"limits": Limits(budget=7)}, "leave out --budget"),

@@ -35,6 +35,7 @@ import msgspec
 
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.attempt import attempt, lost_row, row_of
+from topo_verify.campaign.engine import EngineSeconds
 from topo_verify.campaign.loss import Loss
 from topo_verify.campaign.row import Row
 from topo_verify.campaign.run import Exploration, explore
@@ -126,7 +127,7 @@ class _CompiledShard:
         assert isinstance(campaign.worlds, c.Ranks)
         self._campaign, self._worlds = campaign, campaign.worlds
         self._mappers, self._shard, self._calls, self._beat = mappers, shard, calls, beat
-        self._tally, self._seconds = Tally(), c.EngineSeconds()
+        self._tally, self._seconds = Tally(), EngineSeconds()
         self._rows: dict[tuple[int, int], Row] = {}
         self._checked: set[int] = set()
         self._known: dict[tuple[int, int], _Judged] = {}
@@ -165,7 +166,7 @@ class _CompiledShard:
         with self._watched():
             *snapshots, end = _snapshots(self._campaign, ranks, self._calls)
         self._beats()
-        self._seconds += c.EngineSeconds(engine=process_time() - begin)
+        self._seconds += EngineSeconds(engine=process_time() - begin)
         if end.tally.undecided and ranks.stop == ranks.start + 1:
             return end, self._undecided_world(ranks, end)
         try:
@@ -194,7 +195,7 @@ class _CompiledShard:
             if self._calls is not None and end.rank >= 0:
                 self._judged(0, end.rank)  # the last world of the class is among these
         finally:
-            self._seconds += c.EngineSeconds(checkers=process_time() - begin)
+            self._seconds += EngineSeconds(checkers=process_time() - begin)
 
     def _check_steps(self, ranks: c.Shard, snapshots: list[Snapshot], end: Snapshot) -> None:
         if not snapshots and end.tally.worlds > max(STEP):

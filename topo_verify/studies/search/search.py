@@ -17,7 +17,7 @@ from topo_verify import extras
 from topo_verify.campaign import campaign as c
 from topo_verify.campaign.backend import Elsewhere, here, pooled
 from topo_verify.campaign.drawn_row import is_of_catalogue
-from topo_verify.campaign.engine import engine_of, usual_engine
+from topo_verify.campaign.engine import EngineSeconds, engine_of, usual_engine
 from topo_verify.campaign.examiner import examiner_of
 from topo_verify.campaign.judge import Report
 from topo_verify.campaign.progress import Progress
@@ -334,7 +334,7 @@ class Search:
         self.rows: tuple[Row, ...] = ()
         self.from_store = 0
         self.again: RunAgain | None = None
-        self.seconds = c.EngineSeconds()
+        self.seconds = EngineSeconds()
 
     def work(self, tell: Progress | None = None) -> None:
         """Examine the shards until the end, or as far as the campaign goes.
