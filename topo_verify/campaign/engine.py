@@ -56,9 +56,9 @@ class Engine:
     name = "reference"
     examiner: str | None = None
 
-    def is_usual(self, mappers: Sequence[Target], edges: int) -> bool:
-        """Whether a search to this size uses this engine unless another is named."""
-        del mappers, edges
+    def is_usual(self, mappers: Sequence[Target], worlds: int) -> bool:
+        """Whether a search of this number of worlds uses this engine unless another is named."""
+        del mappers, worlds
         return False
 
     def shard(self, mappers: Sequence[Target]) -> int | None:
@@ -97,10 +97,10 @@ def engine_of(name: str) -> Engine:
     return engine
 
 
-def usual_engine(mappers: Sequence[Target], edges: int) -> str:
-    """The engine of a search to this size if none is named: one whose packages are here."""
+def usual_engine(mappers: Sequence[Target], worlds: int) -> str:
+    """The engine of a search of these worlds if none is named: one whose packages are here."""
     for name in extras.usable_engines():
-        if engine_of(name).is_usual(mappers, edges):
+        if engine_of(name).is_usual(mappers, worlds):
             return name
     return REFERENCE_ENGINE.name
 

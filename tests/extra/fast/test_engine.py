@@ -11,10 +11,12 @@ import pytest
 import topo_verify as tv
 from tests.studies.baseline.recording import recording
 from topo_verify import CATALOGUE, InputError, InternalError, Limits, World, explore, extras
-from topo_verify.campaign.engine import ENGINES, on_engine
+from topo_verify.algorithms import NAMED
+from topo_verify.campaign.engine import ENGINES, on_engine, usual_engine
 from topo_verify.campaign.judge import judge
 from topo_verify.campaign.targets import one_target
 from topo_verify.extra.fast.engine import CompiledAlgorithm
+from topo_verify.programs.loader import Target
 from topo_verify.robot.events import MapData
 
 pytest.importorskip("numba")
@@ -118,3 +120,22 @@ def test_a_cost_without_a_trace_is_held_to_the_bound() -> None:
     assert [finding.claim for finding in report.findings] == ["cost-within-bound"]
     with pytest.raises(InternalError, match="the least cost of a proof is"):
         judge(replace(run, cost=1))
+
+
+# ---------------------------------------------------------------- the default of a search
+
+
+@pytest.mark.parametrize(
+    ("target", "worlds", "engine"),
+    [
+        ("basic", 10**9, "reference"),
+        ("homing", 10**9, "reference"),
+        ("--cmd ./mapper", 10**9, "reference"),
+        ("--library ./mapper.so", 10, "compiled"),
+        ("mine.py:explore", 10**6, "compiled"),
+        ("mine.py:explore", 1000, "reference"),
+    ],
+)
+def test_the_usual_engine_is_the_faster_one(target: str, worlds: int, engine: str) -> None:
+    mapper = Target(target, NAMED.get(target, print))
+    assert usual_engine([mapper], worlds) == engine

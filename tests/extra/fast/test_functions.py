@@ -52,7 +52,7 @@ def test_what_is_no_native_mapper_is_refused_in_one_sentence() -> None:
         (f"{HOSTILE}:found_late.there", f"give it as --library {HOSTILE}:found_late.there"),
     ):
         with pytest.raises(InputError, match=words) as seen:
-            one_target(name, in_process=False)
+            explore("m1/0", one_target(name, in_process=False))
         assert "\n" not in str(seen.value)
 
 

@@ -30,7 +30,7 @@ from topo_verify.checkers.claims import LARGE
 from topo_verify.errors import InputError
 from topo_verify.programs.library import LIBRARY
 from topo_verify.programs.loader import Target, is_library
-from topo_verify.programs.program import Program
+from topo_verify.programs.program import OPTIONS
 from topo_verify.robot.events import Policies, Start
 from topo_verify.robot.limits import Limits
 from topo_verify.world.rooted_map import World
@@ -57,8 +57,8 @@ JUDGED_BY_JUDGE = (
     " by the checkers"
 )
 
-FROM_EDGES = 6
-"""Edges from which on a search of a Python mapper has enough worlds to load the judge for."""
+ENOUGH = 50_000
+"""Worlds from which on it is faster to load the judge for a mapper in Python."""
 
 
 # ---------------------------------------------------------------- single worlds
@@ -110,10 +110,10 @@ class CompiledEngine(Engine):
     name = "compiled"
     examiner = f"{__name__}:examiner"
 
-    def is_usual(self, mappers: Sequence[Target], edges: int) -> bool:
+    def is_usual(self, mappers: Sequence[Target], worlds: int) -> bool:
         """Whether it is a native mapper, or one in Python and enough worlds."""
         (first, *others) = mappers
-        in_python = not others and _is_in_python(first) and edges >= FROM_EDGES
+        in_python = not others and _is_in_python(first) and worlds >= ENOUGH
         return any(map(is_library, mappers)) or in_python
 
     def shard(self, mappers: Sequence[Target]) -> int | None:
@@ -171,7 +171,7 @@ def _is_judged(mappers: Sequence[Target]) -> bool:
 
 def _is_in_python(target: Target) -> bool:
     is_ours = isinstance(target.mapper, Algorithm | Steered)
-    return not is_ours and not (isinstance(target.mapper, Program) and target.text[:2] == "--")
+    return not (is_ours or target.text.startswith(OPTIONS))
 
 
 def _require(mappers: Sequence[Target], limits: Limits, *, libraries: bool = False) -> None:

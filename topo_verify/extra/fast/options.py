@@ -18,5 +18,5 @@ search_engine = click.option(
     "--engine",
     type=_NAMES,
     help="compiled is faster and needs numba.  [default: reference; compiled with --library, and"
-    " for a mapper in Python from 6 edges on]",
+    " for a mapper in Python in 50,000 worlds or more]",
 )

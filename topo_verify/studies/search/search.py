@@ -206,7 +206,7 @@ def search_campaign(  # noqa: PLR0913  an argument an option
     """
     limits = given_limits(limits)
     if engine is None:
-        engine = usual_engine(mappers, edges)
+        engine = usual_engine(mappers, sum(c.Ranks(edges, kind).totals().values()))
     engine_of(engine).require_search(mappers, limits, choices)
     if choices != "reference":
         require_choices(mappers, choices, edges)

@@ -62,7 +62,7 @@ def test_equal_events_in_worlds_beyond_the_small_layout(name: str, world: World)
     assert difference(world, name) is None
 
 
-DATA = Path(__file__).parent.parent / "data" / "worlds"
+DATA = Path(__file__).parents[3] / "data" / "worlds"
 NETWORKS = ("nyc", f"{DATA}/pp_mv_oberrhein.json", f"{DATA}/sumo_A10KW.json")
 
 
