@@ -60,7 +60,8 @@ def test_a_world_that_a_program_skips_is_not_decided(
     (entry,) = results(f'{command} m1/1 --cmd "{SKIPS}"', code=3)["results"]
     assert (entry["ok"], entry["findings"]) == (False, [])
     assert entry["stopped"] == "the program skips this world: no loops, please"
-    assert "not decided" in call(f'{command} m1/1 --cmd "{SKIPS}"').stdout
+    told = call(f'{command} m1/1 --cmd "{SKIPS}"').stdout
+    assert "not decided" in " ".join(told.split())
 
 
 def test_a_search_in_which_a_program_skips_worlds_is_open(results: Results) -> None:
