@@ -5,7 +5,7 @@ catalogue.py   all theorems, by name and kind
 first_order/   worlds of any size, by induction, in Z3
 bounded/       every world with m edges, as clauses
 mechanised/    the Python around Coq; coq/ holds the proofs
-solvers/       Z3 and cvc5 with their limits
+solvers/       Z3 with its limits; the extra sat has cvc5
 """
 
 from __future__ import annotations
