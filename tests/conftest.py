@@ -36,9 +36,13 @@ TRACED = ("world", "robot", "checkers", "algorithms")
 TRACING = tuple(ROOT / folder / room for folder in ("tests", "topo_verify") for room in TRACED)
 """Where their tests are, doctests included. `make test` collects the traced tests there alone."""
 
-# A shell begins a job in the background with SIGINT ignored, and the tests' processes inherit that.
-if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
-    signal.signal(signal.SIGINT, signal.default_int_handler)
+# A shell begins a job in the background with these ignored, and the tests' processes inherit that.
+for _number, _usual in (
+    (signal.SIGINT, signal.default_int_handler),
+    (signal.SIGQUIT, signal.SIG_DFL),
+):
+    if signal.getsignal(_number) == signal.SIG_IGN:
+        signal.signal(_number, _usual)
 
 settings.register_profile(
     "ci",
