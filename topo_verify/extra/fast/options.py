@@ -1,4 +1,4 @@
-"""The option --engine."""
+"""The option --engine of search, explore, record and reproduce."""
 
 from __future__ import annotations
 
